@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace morph
+{
+/// VTK's cell type numbers of the cells this library knows.
+enum CellType : std::uint8_t
+{
+  EmptyCell = 0,
+  Vertex = 1,
+  PolyVertex = 2,
+  Line = 3,
+  PolyLine = 4,
+  Triangle = 5,
+  TriangleStrip = 6,
+  Polygon = 7,
+  Pixel = 8,
+  Quad = 9,
+  Tetra = 10,
+  Voxel = 11,
+  Hexahedron = 12,
+  Wedge = 13,
+  Pyramid = 14,
+  QuadraticEdge = 21,
+  QuadraticTriangle = 22,
+  QuadraticQuad = 23,
+  QuadraticTetra = 24,
+  QuadraticHexahedron = 25,
+  QuadraticWedge = 26,
+  QuadraticPyramid = 27,
+  BiquadraticQuad = 28,
+  TriquadraticHexahedron = 29,
+  QuadraticLinearQuad = 30,
+  QuadraticLinearWedge = 31,
+  BiquadraticQuadraticWedge = 32,
+  BiquadraticQuadraticHexahedron = 33,
+  BiquadraticTriangle = 34
+};
+
+/// The linear shape under a cell: what its corners span.
+enum class Shape : std::uint8_t
+{
+  Other, ///< dimension 0 to 2 without a measure here: passes through
+  Tri,
+  Quadrilateral,
+  Tet,
+  Hex,
+  Wedge,
+  Pyramid
+};
+
+/// A face of a volume cell, by the cell's corner numbers, outward by the right-hand rule when the cell is in
+/// VTK's order and not inverted.
+struct FaceShape
+{
+  int size; ///< 3 or 4
+  int corner[4];
+};
+
+/// The facts about one cell type. Corners come first in the node list of every type here.
+struct CellShape
+{
+  const char* name;   ///< as in VTK: "hexahedron"
+  Shape shape;
+  int dimension;      ///< 0 to 3
+  int numberOfNodes;  ///< -1 where the type leaves it open (poly-line, polygon)
+  int numberOfCorners;
+  int numberOfFaces;  ///< of volume cells; 0 otherwise
+  const FaceShape* faces;
+  /// Where corner i of the shape (VTK's hexahedron order) stands in the cell's node list: the identity
+  /// for all but voxels, whose third and fourth corners are exchanged.
+  const int* cornerNode;
+  /// Nominal parametric coordinates of the nodes after the corners (mid-side, face, body),
+  /// (numberOfNodes - numberOfCorners) x 3; null where there are none or dimension < 3.
+  const double (*extraNodes)[3];
+};
+
+/// Null for a type this library does not know (polyhedron, Lagrange, ...).
+const CellShape* cellShape(std::uint8_t type);
+
+/// The linear shape functions N_a and their parametric gradients at `xi` (VTK's parametric coordinates, [0,1]).
+/// N: numberOfCorners values; dN: numberOfCorners x 3, or null. Volume shapes only.
+void shapeFunctions(Shape shape, const double xi[3], double* N, double (*dN)[3]);
+}

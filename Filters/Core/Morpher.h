@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "HigherOrderNodes.h"
+#include "Mesh.h"
+#include "Monitor.h"
+#include "NodePartition.h"
+
+#include <string>
+
+namespace morph
+{
+/// What the last evaluate or applyTranspose took.
+struct EvaluateReport
+{
+  int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
+  double relativeResidual = 0; ///< largest over the three coordinates, 0 for direct formulas
+  double bytesMoved = 0;       ///< estimate of the solver's memory traffic, for benchmarks
+};
+
+/// A morphing method, one subclass per method. prepare() does all that depends on the rest mesh and on which
+/// nodes are prescribed; evaluate() moves the mesh for one set of prescribed positions and may be called
+/// any number of times, in any order: a result depends on the rest mesh, the partition, the options and
+/// the prescribed positions alone, never on the thread count or on earlier calls.
+class Morpher
+{
+public:
+  virtual ~Morpher();
+
+  /// Keeps a copy of the rest points and of the partition (24 bytes per node and 8 per id) and lets the method make
+  /// its weights, matrices or tessellation. Throws Error for a mesh or partition it cannot work with: no free
+  /// node, a body without a prescribed node, cells it does not know.
+  void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
+
+  /// `prescribed`: #prescribed x 3 new positions, in the order of NodePartition::prescribed.
+  /// `moved`: becomes #nodes x 3; prescribed nodes exactly as given, nodes outside the partition at rest.
+  /// Where nothing moves the rest positions come back bit for bit. Throws Error, leaving `moved` untouched, for a
+  /// wrong number of rows, positions that are not finite, or where no prepare() has succeeded last.
+  EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
+
+  const NodePartition& partition() const { return this->partition_; }
+  const Points& restPoints() const { return this->rest_; }
+
+protected:
+  virtual void doPrepare(const Mesh& rest, Monitor& monitor) = 0;
+  /// `prescribed`: #prescribed x 3 displacements, finite. `free`: #free x 3, to be filled with displacements.
+  virtual EvaluateReport displace(
+    const Points& prescribed, Points& free, Monitor& monitor) const = 0;
+
+  HigherOrderNodes followers_;
+
+  /// Throws Error unless the last prepare() succeeded.
+  void requirePrepared() const;
+
+private:
+  bool prepared_ = false;
+  Points rest_;
+  NodePartition partition_;
+};
+
+/// A method whose free displacements are a fixed matrix times the prescribed ones: x_free = M x_prescribed.
+class LinearMorpher : public Morpher
+{
+public:
+  /// The adjoint. `gradient`: #nodes x 3, d(objective)/d(position) of every node of the moved mesh.
+  /// `prescribed`: becomes #prescribed x 3, d(objective)/d(prescribed position), the prescribed nodes' own
+  /// gradient included: g_B + M^T g_I. Errors and cost: as evaluate().
+  EvaluateReport applyTranspose(
+    const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const;
+
+protected:
+  /// `free`: #free x 3; adds M^T free to `prescribed` (#prescribed x 3).
+  virtual EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const = 0;
+};
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellShape.h"
+
+namespace morph
+{
+/// One tetrahedron of an averaged simplicial decomposition: four corners of the cell and a weight.
+struct WeightedTet
+{
+  int corner[4];
+  double weight;
+};
+
+/// The weights of a cell's tetrahedra cover it once: hexahedron, the mean of its two splits into five; wedge, of its
+/// six into three; pyramid, of its two into two. Each tetrahedron is positive in a valid cell. On a bilinear
+/// quadrilateral the mean of the two splits integrates the shape functions exactly, so decomposed cells
+/// conform with their undecomposed neighbors.
+struct SimplicialDecomposition
+{
+  int count;
+  const WeightedTet* tets;
+};
+
+/// Empty for shapes that are not volumes.
+SimplicialDecomposition simplicialDecomposition(Shape shape);
+
+/// Number of corners of a volume shape (4, 8, 6, 5), 0 for the others.
+int numberOfCorners(Shape shape);
+
+/// Weighted sum of the tetrahedra's volumes, negative for a mirrored cell; the exact volume of the cell with
+/// bilinear faces. `corners`: numberOfCorners x 3.
+double signedVolume(Shape shape, const double (*corners)[3]);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+#include "Monitor.h"
+
+#include <Eigen/SparseCore>
+
+#include <memory>
+
+namespace morph
+{
+/// Compressed rows, 12 bytes an entry.
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+struct SolveReport
+{
+  int iterations = 0;          ///< matrix passes of the conjugate gradients, all right-hand sides together
+  double relativeResidual = 0; ///< largest over the right-hand sides, |b - A x| / |b|, computed from x
+  double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
+};
+
+/// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once: preconditioned
+/// conjugate gradients in which one pass over the matrix serves the three columns, with a smoothed-aggregation
+/// multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
+class SparseSolver
+{
+public:
+  SparseSolver();
+  ~SparseSolver();
+  SparseSolver(SparseSolver&&) noexcept;
+  SparseSolver& operator=(SparseSolver&&) noexcept;
+
+  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions: the multigrid groups near
+  /// neighbors. Throws SingularRows where a diagonal entry is not positive.
+  void prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
+
+  /// `x`: the first guess in, the solution out (#rows x 3). Each column stops at
+  /// |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|): the second term ends columns that are pure roundoff. The
+  /// norms are over all rows. Where rounding keeps the residual above that, the best x is returned and the residual
+  /// reported.
+  /// Throws Error of kind NoConvergence, with the residual reached, after `maxIterations`.
+  SolveReport solve(
+    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+
+  const SparseMatrix& matrix() const;
+  /// Bytes that prepare() keeps: matrix, hierarchy, work vectors.
+  std::size_t memory() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+}

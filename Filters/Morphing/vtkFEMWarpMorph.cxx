@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFEMWarpMorph.h"
+
+#include "FemWarp.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkFEMWarpMorph);
+
+vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
+vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
+{
+  return std::make_unique<morph::FemWarp>();
+}
+
+void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
+{
+  static_cast<morph::FemWarp&>(morpher).setTolerance(this->Tolerance);
+}
+
+void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+}

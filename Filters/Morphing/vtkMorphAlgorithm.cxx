@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphAlgorithm.h"
+
+#include "Morpher.h"
+#include "Topology.h"
+#include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphOutput.h"
+#include "vtkMorphQuality.h"
+#include "vtkMorphTime.h"
+
+#include <vtkAlgorithmOutput.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <chrono>
+#include <limits>
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// ParaView's choice of an array offers "None".
+std::string arrayName(const char* name)
+{
+  const std::string text = name ? name : "";
+  return text == "None" ? std::string() : text;
+}
+}
+
+/// What an execution leaves for the next one.
+struct vtkMorphAlgorithm::vtkInternals
+{
+  morph::Mesh Mesh;
+  morph::BoundaryFaces Outer;              ///< of Mesh's cells
+  double Size = 0;                         ///< of Mesh; see vtkMorphMesh::Size
+  std::vector<std::int8_t> Orientation;    ///< of Mesh
+  std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
+  std::string Options;
+  vtkMorphTime Time;
+
+  /// Takes the grid over unless it is what is kept already.
+  void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
+};
+
+void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+{
+  const bool sameCells = vtkMorphMesh::SameCells(grid, this->Mesh);
+  if (sameCells && vtkMorphMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  {
+    return;
+  }
+  morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
+  vtkMorphInput::RequireVolumeCells(mesh);
+  std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+  if (!sameCells)
+  {
+    this->Outer = morph::boundaryFaces(mesh, monitor);
+  }
+  this->Morpher.reset();
+  this->Orientation = std::move(orientation);
+  this->Size = vtkMorphMesh::Size(mesh);
+  this->Mesh = std::move(mesh);
+}
+
+vtkMorphAlgorithm::vtkMorphAlgorithm()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->ResetResults();
+}
+
+vtkMorphAlgorithm::~vtkMorphAlgorithm()
+{
+  this->SetBoundaryIdArray(nullptr);
+  this->SetDisplacementArray(nullptr);
+}
+
+void vtkMorphAlgorithm::SetBoundaryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkMorphAlgorithm::SetBoundaryData(vtkDataObject* boundary)
+{
+  this->SetInputDataObject(1, boundary);
+}
+
+int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port == 1)
+  {
+    // RequestData names a boundary that is missing better than the executive does. ParaView's
+    // dialog lets users forget it, and asks for the time steps before they can mend that.
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMorphAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
+    this->Internals->Time.Request(this->RestTime, upstream ? upstream->GetPipelineMTime() : 0,
+      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphAlgorithm::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  if (inputVector[1]->GetInformationObject(0))
+  {
+    input = this->Internals->Time.TakeRest(input, request);
+  }
+  if (!input)
+  {
+    return 1;
+  }
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  this->ResetResults();
+
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const auto morphGrid = [&]
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
+    grid = vtkMorphInput::RequireGrid(input, "The input");
+    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    {
+      this->Morph(grid, boundary, output, monitor);
+    }
+  };
+  const auto clear = [&]
+  {
+    output->Initialize();
+    this->ResetResults();
+  };
+  const int done = vtkMorphExecution::Run(this, "morph this mesh", morphGrid, clear);
+  // With an error too: they may explain it.
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  if (done)
+  {
+    vtkMorphTime::CopyDataTime(boundary, output);
+  }
+  return done;
+}
+
+void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
+  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  kept.SetGrid(grid, monitor);
+
+  vtkMorphBoundaryMatch::Options options;
+  options.BoundaryIdArray = arrayName(this->BoundaryIdArray);
+  options.DisplacementArray = arrayName(this->DisplacementArray);
+  options.ScaleFactor = this->ScaleFactor;
+  options.MatchTolerance = this->MatchTolerance;
+  options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
+  const vtkMorphBoundaryMatch::Result match =
+    vtkMorphBoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
+  for (const std::string& warning : match.Warnings)
+  {
+    monitor.warn(warning);
+  }
+  monitor.check();
+
+  monitor.SetRange(0.05, 0.5);
+  const std::string prepareOptions = this->PrepareOptions();
+  if (!kept.Morpher || kept.Options != prepareOptions ||
+      kept.Morpher->partition().prescribed != match.Ids)
+  {
+    const auto start = Clock::now();
+    kept.Morpher.reset();
+    std::unique_ptr<morph::Morpher> morpher = this->CreateMorpher();
+    morpher->prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
+    kept.Morpher = std::move(morpher);
+    kept.Options = prepareOptions;
+    ++this->PrepareCount;
+    this->PrepareSeconds = secondsSince(start);
+  }
+
+  monitor.SetRange(0.5, 0.9);
+  this->SetEvaluateOptions(*kept.Morpher);
+  const auto start = Clock::now();
+  morph::Points moved;
+  const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
+  this->EvaluateSeconds = secondsSince(start);
+  this->SolverIterations = report.iterations;
+  this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
+  this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
+
+  monitor.SetRange(0.9, 1);
+  vtkMorphOutput::Write(grid, kept.Mesh.points, moved, this->OutputPointsPrecision, output);
+  const morph::Quality quality =
+    vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
+  vtkMorphQuality::Write(quality, output);
+  this->MinScaledJacobian = quality.minimum;
+  this->MeanScaledJacobian = quality.mean;
+  this->InvertedCells = quality.inverted;
+  this->DegenerateCells = quality.degenerate;
+  this->WorstCellId = quality.worstCell;
+  vtkMorphOutput::AddField(output, "PrepareSeconds", this->PrepareSeconds);
+  vtkMorphOutput::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
+  vtkMorphOutput::AddField(output, "SolverIterations", this->SolverIterations);
+}
+
+void vtkMorphAlgorithm::ResetResults()
+{
+  this->MinScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  this->InvertedCells = 0;
+  this->DegenerateCells = 0;
+  this->WorstCellId = -1;
+  this->PrepareSeconds = 0;
+  this->EvaluateSeconds = 0;
+  this->SolverIterations = 0;
+  this->PrescribedPoints = 0;
+  this->UnmatchedPoints = 0;
+}
+
+void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
+  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
+  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
+  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "RestTime: " << this->RestTime << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
+  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
+  os << indent << "InvertedCells: " << this->InvertedCells << "\n";
+  os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
+  os << indent << "WorstCellId: " << this->WorstCellId << "\n";
+  os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
+  os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
+  os << indent << "SolverIterations: " << this->SolverIterations << "\n";
+  os << indent << "PrepareCount: " << this->PrepareCount << "\n";
+  os << indent << "PrescribedPoints: " << this->PrescribedPoints << "\n";
+  os << indent << "UnmatchedPoints: " << this->UnmatchedPoints << "\n";
+}

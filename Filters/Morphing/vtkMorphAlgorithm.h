@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMorphAlgorithm
+ * @brief   moves the nodes of a volume mesh so that it follows a displaced boundary
+ *
+ * The superclass of all morphing filters. Port 0 takes the mesh at rest (vtkUnstructuredGrid), port
+ * 1 the displaced boundary (vtkPointSet). The output has the mesh's cells and arrays, and new
+ * points: those of the boundary lie where port 1 puts them, those inside follow by the subclass's
+ * method. The inputs are never touched.
+ *
+ * Which node a boundary point stands for is told by the first of these that is there:
+ * 1. the point array named by BoundaryIdArray;
+ * 2. the point array `MorphPointId`, which vtkExtractMorphBoundary writes;
+ * 3. the point's own number, where port 1 has as many points as the mesh: only nodes on the outer
+ *    boundary are taken from it, for the inside of a warped copy of the mesh prescribes nothing;
+ * 4. the point array `PointIds`, as ParaView's Generate Ids writes it;
+ * 5. the point array `vtkOriginalPointIds`, with a warning, since filters pass it on after it has
+ *    lost its meaning;
+ * 6. where DisplacementArray is set, the node nearest to the point, within MatchTolerance; nodes on
+ *    the outer boundary within MatchTolerance of that node, as where two bodies touch, go along
+ *    unless they have a point of their own.
+ *
+ * Where port 1 has a point array `RestPosition` (the first three components count) ids are verified
+ * against it. Nodes inside the mesh may be prescribed too. A node may be named more than once if
+ * the targets agree within MatchTolerance; the first one counts.
+ *
+ * Target positions are the points of port 1 or, where DisplacementArray is set, the rest position
+ * plus that vector.
+ *
+ * The output has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
+ * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
+ * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
+ * PrepareSeconds, EvaluateSeconds and SolverIterations. The same numbers are there as getters after
+ * an execution. Mid-side, face and body nodes of quadratic cells that are not prescribed keep their
+ * place in the cell. Cells of lower dimension pass through.
+ *
+ * What the method prepares (a matrix and its preconditioner, weights, ...) is kept, and used again
+ * while the rest points, the cells, the set of prescribed nodes and the method's options have the
+ * same content, whatever their modification times. So moving the same boundary again only costs the
+ * evaluation; see GetPrepareCount().
+ *
+ * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime.
+ *
+ * Errors give no result: one message, and an empty output. Among them: composite data (use Merge
+ * Blocks first), no points, no volume cells, cells of other types than tetrahedra, hexahedra, voxels, wedges,
+ * pyramids and their quadratic forms, coordinates that are not finite, no way to match the
+ * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
+ * a node with two targets, ids that RestPosition contradicts, a ScaleFactor that is not finite,
+ * cells on more than one MPI rank. An execution that is aborted gives an empty output and no
+ * message.
+ *
+ * With several MPI processes an execution is collective: it has to take place on all of them.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
+ * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
+ *
+ * @sa vtkExtractMorphBoundary vtkFEMWarpMorph vtkScaledJacobian
+ */
+#ifndef vtkMorphAlgorithm_h
+#define vtkMorphAlgorithm_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkUnstructuredGridAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+#include <string> // for std::string
+
+namespace morph
+{
+class Morpher;
+}
+
+class vtkMorphMonitor;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAlgorithm : public vtkUnstructuredGridAlgorithm
+{
+public:
+  vtkTypeMacro(vtkMorphAlgorithm, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The displaced boundary, a vtkPointSet: the same as SetInputConnection() and SetInputData() on
+   * port 1.
+   */
+  void SetBoundaryConnection(vtkAlgorithmOutput* output);
+  void SetBoundaryData(vtkDataObject* boundary);
+  ///@}
+
+  ///@{
+  /**
+   * Name of the point array of port 1 that holds, for each of its points, the id of a node of port
+   * 0: one component, whole numbers. Empty or "None": look for the arrays named in the class
+   * description. Default: none.
+   */
+  vtkSetStringMacro(BoundaryIdArray);
+  vtkGetStringMacro(BoundaryIdArray);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a point array of port 1 with three components, in the unit of the points: nodes go to
+   * their rest position plus this vector. Empty or "None": they go to the points of port 1.
+   * Default: none.
+   */
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  ///@}
+
+  ///@{
+  /**
+   * How much of the boundary's motion to apply: target = rest + ScaleFactor (target - rest). 0
+   * gives the rest positions and 1 the targets, bit for bit. Default 1, any finite number.
+   */
+  vtkSetMacro(ScaleFactor, double);
+  vtkGetMacro(ScaleFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far a boundary point may be from the node it stands for: its RestPosition or, where nodes
+   * are found by position, the point itself. In units of the diagonal of the bounding box of the
+   * volume cells' nodes. Default 1e-6, range [0, 1].
+   */
+  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  vtkGetMacro(MatchTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether nodes on the mesh's outer faces that port 1 does not name stay where they are. Mid-side
+   * and face nodes of quadratic cells stay only where all corners of their edge or face do; the
+   * others keep their place in the cell. Off: they are solved for like the nodes inside, and leave
+   * the original surface. Default on.
+   */
+  vtkSetMacro(HoldUnnamedBoundary, bool);
+  vtkGetMacro(HoldUnnamedBoundary, bool);
+  vtkBooleanMacro(HoldUnnamedBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
+   * first step where all are after it. Default -1e300, so the first. No matter where port 0 has no
+   * time steps.
+   */
+  vtkSetMacro(RestTime, double);
+  vtkGetMacro(RestTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to compute with; they are std::threads, whatever backend vtkSMPTools uses by default. 0
+   * means all cores. The result does not depend on it. Default 0, range [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION for that of the input's (double where they are neither). Computed is always
+   * in double. Default DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Quality of the output as of the last execution; see vtkScaledJacobian. NaN, 0 and -1 where
+   * there was no result.
+   */
+  vtkGetMacro(MinScaledJacobian, double);
+  vtkGetMacro(MeanScaledJacobian, double);
+  vtkGetMacro(InvertedCells, vtkIdType);
+  vtkGetMacro(DegenerateCells, vtkIdType);
+  vtkGetMacro(WorstCellId, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Wall-clock seconds that the last execution spent preparing (0 where it used what an earlier one
+   * prepared) and evaluating.
+   */
+  vtkGetMacro(PrepareSeconds, double);
+  vtkGetMacro(EvaluateSeconds, double);
+  ///@}
+
+  /**
+   * Iterations of the solver in the last execution; 0 for methods without one.
+   */
+  vtkGetMacro(SolverIterations, int);
+
+  /**
+   * How often this object has prepared its method since it was made.
+   */
+  vtkGetMacro(PrepareCount, int);
+
+  ///@{
+  /**
+   * As of the last execution: nodes whose positions were prescribed, held ones included, and points
+   * of port 1 that were near no node and left out.
+   */
+  vtkGetMacro(PrescribedPoints, vtkIdType);
+  vtkGetMacro(UnmatchedPoints, vtkIdType);
+  ///@}
+
+protected:
+  vtkMorphAlgorithm();
+  ~vtkMorphAlgorithm() override;
+
+  /**
+   * A new core object for the method, with the options that its prepare() reads.
+   */
+  virtual std::unique_ptr<morph::Morpher> CreateMorpher() = 0;
+
+  /**
+   * Text that tells apart any two settings of the options that prepare() reads: where it differs
+   * from that of the last execution, the method is prepared anew. Empty for a method without such
+   * options.
+   */
+  virtual std::string PrepareOptions() { return {}; }
+
+  /**
+   * Hands the options that evaluate() alone reads to an object made by CreateMorpher(), before each
+   * evaluation.
+   */
+  virtual void SetEvaluateOptions(morph::Morpher& vtkNotUsed(morpher)) {}
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkMorphAlgorithm(const vtkMorphAlgorithm&) = delete;
+  void operator=(const vtkMorphAlgorithm&) = delete;
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  void ResetResults();
+  void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
+    vtkMorphMonitor& monitor);
+
+  char* BoundaryIdArray = nullptr;
+  char* DisplacementArray = nullptr;
+  double ScaleFactor = 1;
+  double MatchTolerance = 1e-6;
+  bool HoldUnnamedBoundary = true;
+  double RestTime = -1e300;
+  int NumberOfThreads = 0;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+
+  double MinScaledJacobian;
+  double MeanScaledJacobian;
+  vtkIdType InvertedCells;
+  vtkIdType DegenerateCells;
+  vtkIdType WorstCellId;
+  double PrepareSeconds;
+  double EvaluateSeconds;
+  int SolverIterations;
+  int PrepareCount = 0;
+  vtkIdType PrescribedPoints;
+  vtkIdType UnmatchedPoints;
+};
+
+#endif

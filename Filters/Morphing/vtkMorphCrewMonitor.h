@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphCrewMonitor_h
+#define vtkMorphCrewMonitor_h
+
+#include "vtkMorphMonitor.h"
+
+#include <memory>
+
+/// A monitor for iterative methods, with hundreds of short loops: its threads start with the first loop and stay until
+/// it goes. vtkSMPTools' STDThread backend starts its threads for each loop, which costs 70 microseconds and, on
+/// a mesh of 130,000 nodes, a third of an evaluation.
+class vtkMorphCrewMonitor : public vtkMorphMonitor
+{
+public:
+  vtkMorphCrewMonitor(vtkAlgorithm* algorithm, int threads);
+  ~vtkMorphCrewMonitor() override;
+
+  /// As vtkMorphMonitor's; not to be called from within `body`.
+  void parallelFor(morph::Index n, morph::Index grain,
+    const std::function<void(morph::Index first, morph::Index last)>& body) override;
+
+private:
+  class Crew;
+  std::unique_ptr<Crew> Members;
+};
+
+#endif

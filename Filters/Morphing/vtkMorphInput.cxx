@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphInput.h"
+
+#include "CellShape.h"
+#include "Error.h"
+#include "vtkMorphRanks.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkPointSet.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <string>
+
+namespace
+{
+[[noreturn]] void refuse(vtkDataObject* input, const char* port, const char* needed)
+{
+  const std::string subject(port);
+  if (!input)
+  {
+    throw morph::Error(subject + " has no data; " + needed + " is needed.");
+  }
+  const std::string type = input->GetClassName();
+  if (vtkCompositeDataSet::SafeDownCast(input))
+  {
+    throw morph::Error(
+      subject + " is composite data (" + type +
+      "). Blocks that share an interface have to be one mesh: apply Merge Blocks first.");
+  }
+  throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
+}
+}
+
+namespace vtkMorphInput
+{
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    return grid;
+  }
+  refuse(input, port, "an unstructured grid (Append Datasets makes one of any data set)");
+}
+
+vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
+{
+  if (auto* points = vtkPointSet::SafeDownCast(input))
+  {
+    return points;
+  }
+  refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
+}
+
+int RequireOneRankWithCells(vtkUnstructuredGrid* grid)
+{
+  const int ranks = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0);
+  if (ranks > 1)
+  {
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) +
+      " MPI ranks; a mesh is morphed on one rank only, because the cuts between the ranks' pieces "
+      "would be taken for a fixed boundary. Run on one rank, or bring the mesh to one.");
+  }
+  return ranks;
+}
+
+void RequireVolumeCells(const morph::Mesh& mesh)
+{
+  if (mesh.numberOfCells() == 0)
+  {
+    throw morph::Error("The input has no cells, so there is nothing to morph.");
+  }
+  if (std::none_of(mesh.types.begin(), mesh.types.end(),
+        [](std::uint8_t type) { return morph::cellShape(type)->dimension == 3; }))
+  {
+    throw morph::Error("None of the input's " + std::to_string(mesh.numberOfCells()) +
+                       " cells is a volume cell (the first is a " +
+                       morph::cellShape(mesh.types.front())->name +
+                       "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
+  }
+}
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphInput_h
+#define vtkMorphInput_h
+
+#include "Mesh.h"
+
+class vtkDataObject;
+class vtkPointSet;
+class vtkUnstructuredGrid;
+
+/// The checks that every filter of this module makes of its inputs. Filters accept vtkDataObject on
+/// their ports and call these: if a port asked for a vtkUnstructuredGrid, the executive would run
+/// the filter on each block of a composite input, and tear the blocks' shared interfaces apart.
+namespace vtkMorphInput
+{
+/// Throw morph::Error for another type, composite data in particular. `port` names it in the
+/// message: "The input".
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
+vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
+
+/// To be called on every process, before anything can fail there: with the grid, or null where its
+/// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how
+/// many have: 0 or 1.
+int RequireOneRankWithCells(vtkUnstructuredGrid* grid);
+
+/// Throws morph::Error unless there is a cell of dimension 3. All types have to be known to the
+/// core.
+void RequireVolumeCells(const morph::Mesh& mesh);
+}
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphMonitor.h"
+
+#include "vtkMorphVersion.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+
+namespace
+{
+/// The STDThread backend never starts more threads than this.
+int mostThreads()
+{
+  int threads = 1;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false },
+    [&threads] { threads = vtkSMPTools::GetEstimatedNumberOfThreads(); });
+  return std::max(threads, 1);
+}
+}
+
+vtkMorphMonitor::vtkMorphMonitor(vtkAlgorithm* algorithm, int threads)
+  : Algorithm(algorithm)
+  , Threads(threads > 0 ? std::min(threads, mostThreads()) : mostThreads())
+{
+}
+
+void vtkMorphMonitor::SetRange(double first, double last)
+{
+  this->First = first;
+  this->Last = last;
+}
+
+void vtkMorphMonitor::progress(double fraction)
+{
+  if (!this->Algorithm)
+  {
+    return;
+  }
+  const double value =
+    this->First + (this->Last - this->First) * std::min(std::max(fraction, 0.0), 1.0);
+  // Steps a user can see, and never backwards.
+  if (value >= this->Reported + 0.005)
+  {
+    this->Reported = value;
+    this->Algorithm->UpdateProgress(value);
+  }
+}
+
+bool vtkMorphMonitor::cancelled()
+{
+  return this->Algorithm && vtkMorphVersion::AbortRequested(this->Algorithm);
+}
+
+void vtkMorphMonitor::warn(const std::string& message)
+{
+  if (std::find(this->Warnings.begin(), this->Warnings.end(), message) == this->Warnings.end())
+  {
+    this->Warnings.push_back(message);
+  }
+}
+
+std::vector<std::string> vtkMorphMonitor::TakeWarnings()
+{
+  std::vector<std::string> taken;
+  taken.swap(this->Warnings);
+  return taken;
+}
+
+morph::Index vtkMorphMonitor::RangeLength(morph::Index n, morph::Index grain) const
+{
+  const morph::Index ranges = 4 * this->Threads;
+  return std::max<morph::Index>({ grain, (n + ranges - 1) / ranges, 1 });
+}
+
+void vtkMorphMonitor::parallelFor(morph::Index n, morph::Index grain,
+  const std::function<void(morph::Index first, morph::Index last)>& body)
+{
+  if (n <= 0)
+  {
+    return;
+  }
+  if (this->Threads == 1 || n <= grain)
+  {
+    body(0, n);
+    return;
+  }
+  const morph::Index length = this->RangeLength(n, grain);
+
+  std::mutex mutex;
+  std::exception_ptr thrown;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->Threads, "STDThread", false },
+    [&]
+    {
+      vtkSMPTools::For(0, n, length,
+        [&](vtkIdType first, vtkIdType last)
+        {
+          try
+          {
+            body(first, last);
+          }
+          catch (...)
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            if (!thrown)
+            {
+              thrown = std::current_exception();
+            }
+          }
+        });
+    });
+  if (thrown)
+  {
+    std::rethrow_exception(thrown);
+  }
+}

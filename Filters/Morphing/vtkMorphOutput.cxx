@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphOutput.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace
+{
+template <typename Array, typename Value>
+void writePoints(const morph::Points& rest, const morph::Points& moved, vtkUnstructuredGrid* output)
+{
+  using Written = Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+  const auto make = [&moved](const char* name)
+  {
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(moved.rows());
+    return array;
+  };
+  auto coordinates = make("Points");
+  Written written(coordinates->GetPointer(0), moved.rows(), 3);
+  written = moved.cast<Value>();
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  output->SetPoints(points);
+
+  auto displacement = make("MorphDisplacement");
+  Written(displacement->GetPointer(0), moved.rows(), 3) =
+    (written.template cast<double>() - rest).template cast<Value>();
+  output->GetPointData()->AddArray(displacement);
+  output->GetPointData()->SetActiveVectors("MorphDisplacement");
+}
+
+template <typename Array, typename Value>
+void addField(vtkDataObject* output, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+}
+
+namespace vtkMorphOutput
+{
+void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
+  int precision, vtkUnstructuredGrid* output)
+{
+  output->ShallowCopy(input);
+  const bool isFloat = precision == vtkAlgorithm::SINGLE_PRECISION ||
+                       (precision == vtkAlgorithm::DEFAULT_PRECISION &&
+                         input->GetPoints()->GetDataType() == VTK_FLOAT);
+  if (isFloat)
+  {
+    writePoints<vtkFloatArray, float>(rest, moved, output);
+  }
+  else
+  {
+    writePoints<vtkDoubleArray, double>(rest, moved, output);
+  }
+}
+
+void AddField(vtkDataObject* output, const char* name, double value)
+{
+  addField<vtkDoubleArray>(output, name, value);
+}
+
+void AddField(vtkDataObject* output, const char* name, int value)
+{
+  addField<vtkIntArray>(output, name, value);
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphOutput_h
+#define vtkMorphOutput_h
+
+#include "Mesh.h"
+
+class vtkDataObject;
+class vtkUnstructuredGrid;
+
+/// The moved mesh as every morphing filter writes it.
+namespace vtkMorphOutput
+{
+/// Makes `output` a shallow copy of `input` with new points, #nodes x 3, and the point vectors
+/// `MorphDisplacement`, the points as written minus `rest`. `precision`:
+/// vtkAlgorithm::SINGLE_PRECISION and so on, for both arrays.
+void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
+  int precision, vtkUnstructuredGrid* output);
+
+/// Field data of one number; replaces an array of that name.
+void AddField(vtkDataObject* output, const char* name, double value);
+void AddField(vtkDataObject* output, const char* name, int value);
+}
+
+#endif

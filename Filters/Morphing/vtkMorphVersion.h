@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphVersion_h
+#define vtkMorphVersion_h
+
+#include <vtkAlgorithm.h>
+#include <vtkVersionMacros.h>
+
+/// What differs between the VTK releases this module builds with: every test of VTK_VERSION_NUMBER
+/// is here.
+namespace vtkMorphVersion
+{
+/// True once the user asked this algorithm, or one upstream, to stop.
+inline bool AbortRequested(vtkAlgorithm* algorithm)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220817)
+  return algorithm->CheckAbort();
+#else
+  return algorithm->GetAbortExecute() != 0;
+#endif
+}
+}
+
+#endif

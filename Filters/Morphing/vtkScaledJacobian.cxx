@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkScaledJacobian.h"
+
+#include "CellShape.h"
+#include "Topology.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphMonitor.h"
+#include "vtkMorphQuality.h"
+
+#include <vtkCellData.h>
+#include <vtkCellTypes.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkGenericCell.h>
+#include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+vtkStandardNewMacro(vtkScaledJacobian);
+
+namespace
+{
+using DimensionOfType = std::array<int, 256>;
+
+/// Dimension of each cell type that occurs in the mesh; VTK is asked for those the core does not
+/// know.
+DimensionOfType dimensions(const morph::Mesh& mesh)
+{
+  DimensionOfType result;
+  result.fill(-1);
+  for (const std::uint8_t type : mesh.types)
+  {
+    if (result[type] < 0)
+    {
+      const morph::CellShape* shape = morph::cellShape(type);
+      const auto cell =
+        vtkSmartPointer<vtkCell>::Take(shape ? nullptr : vtkGenericCell::InstantiateCell(type));
+      result[type] = shape ? shape->dimension : cell ? cell->GetCellDimension() : 0;
+    }
+  }
+  return result;
+}
+
+vtkIdType countMirroredBodies(
+  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation)
+{
+  std::vector<bool> mirrored(bodies.count, false);
+  for (std::size_t c = 0; c < orientation.size(); ++c)
+  {
+    if (orientation[c] < 0)
+    {
+      mirrored[bodies.ofCell[c]] = true;
+    }
+  }
+  return std::count(mirrored.begin(), mirrored.end(), true);
+}
+
+std::string typeName(std::uint8_t type)
+{
+  const morph::CellShape* shape = morph::cellShape(type);
+  return shape ? shape->name : vtkCellTypes::GetClassNameFromTypeId(type);
+}
+}
+
+vtkScaledJacobian::vtkScaledJacobian() = default;
+
+vtkScaledJacobian::~vtkScaledJacobian() = default;
+
+int vtkScaledJacobian::FillInputPortInformation(int, vtkInformation* info)
+{
+  // Else the executive would loop over the blocks of composite data, and the numbers would be the
+  // last block's.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
+int vtkScaledJacobian::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  const auto clear = [&]
+  {
+    output->Initialize();
+    morph::Quality none;
+    none.minimum = none.mean = vtkMath::Nan();
+    this->Keep(none, 0, 0);
+  };
+  clear();
+  return vtkMorphExecution::Run(
+    this, "measure this mesh",
+    [&] { this->Measure(vtkMorphInput::RequireGrid(input, "The input"), output); }, clear);
+}
+
+void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
+{
+  vtkMorphMonitor monitor(this, this->NumberOfThreads);
+  const morph::Mesh mesh = vtkMorphMesh::FromGrid(input, vtkMorphMesh::UnknownCells::Keep);
+  const morph::Bodies bodies = morph::bodies(mesh);
+  const std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
+
+  // A polyhedral mesh with boundary triangles must not be judged by its triangles.
+  const DimensionOfType dimension = dimensions(mesh);
+  const int highest = *std::max_element(dimension.begin(), dimension.end());
+  std::vector<std::uint8_t> skip(mesh.types.size());
+  std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
+    [&](std::uint8_t type) { return dimension[type] < highest; });
+
+  output->ShallowCopy(input);
+  const morph::Quality quality = vtkMorphQuality::Measure(mesh, output, orientation, skip, monitor);
+  vtkMorphQuality::Write(quality, output);
+
+  const vtkIdType mirrored = countMirroredBodies(bodies, orientation);
+  vtkNew<vtkIdTypeArray> mirroredBodies;
+  mirroredBodies->SetName("MirroredBodies");
+  mirroredBodies->InsertNextValue(mirrored);
+  output->GetFieldData()->AddArray(mirroredBodies);
+
+  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
+  std::array<vtkIdType, 256> unmeasured{};
+  for (std::size_t c = 0; c < mesh.types.size(); ++c)
+  {
+    const bool isGhost = ghosts && (ghosts->GetValue(c) & (vtkDataSetAttributes::DUPLICATECELL |
+                                                            vtkDataSetAttributes::HIDDENCELL));
+    if (!skip[c] && !isGhost && std::isnan(quality.scaledJacobian[c]))
+    {
+      ++unmeasured[mesh.types[c]];
+    }
+  }
+  std::string list;
+  for (int type = 0; type < 256; ++type)
+  {
+    if (unmeasured[type] > 0)
+    {
+      list += (list.empty() ? "" : ", ") + std::to_string(unmeasured[type]) + " " + typeName(type);
+    }
+  }
+  if (!list.empty())
+  {
+    vtkWarningMacro("Cells that have no scaled Jacobian here, marked NaN: " << list << ".");
+  }
+  this->Keep(
+    quality, std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)), mirrored);
+}
+
+void vtkScaledJacobian::Keep(
+  const morph::Quality& quality, vtkIdType unmeasured, vtkIdType mirrored)
+{
+  this->MinScaledJacobian = quality.minimum;
+  this->MeanScaledJacobian = quality.mean;
+  this->MeasuredCells = quality.measured;
+  this->InvertedCells = quality.inverted;
+  this->DegenerateCells = quality.degenerate;
+  this->WorstCellId = quality.worstCell;
+  this->UnmeasuredCells = unmeasured;
+  this->MirroredBodies = mirrored;
+}
+
+void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
+  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
+  os << indent << "MeasuredCells: " << this->MeasuredCells << "\n";
+  os << indent << "InvertedCells: " << this->InvertedCells << "\n";
+  os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
+  os << indent << "WorstCellId: " << this->WorstCellId << "\n";
+  os << indent << "UnmeasuredCells: " << this->UnmeasuredCells << "\n";
+  os << indent << "MirroredBodies: " << this->MirroredBodies << "\n";
+}

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Figures.h"
+
+#include "Bandwidth.h"
+#include "Baselines.h"
+#include "FemWarpTimes.h"
+#include "Machine.h"
+#include "Threads.h"
+#include "Timing.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+namespace benchmark
+{
+namespace
+{
+constexpr double LargestDifference = 1e-6;        // from a direct solution, of the mesh's size
+constexpr double LargestResidual = 2 * Tolerance; // recomputed, which adds rounding of its own
+constexpr int AxisX = 0;
+constexpr int AxisZ = 2;
+
+void say(const std::string& text)
+{
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+std::string withThreads(int n)
+{
+  return ", " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+}
+
+double perNode(double bytes, const Problem& problem)
+{
+  return bytes / static_cast<double>(problem.mesh.numberOfNodes());
+}
+
+class Run
+{
+public:
+  explicit Run(const Options& options)
+    : options_(options)
+    , cores_(numberOfCores())
+  {
+  }
+
+  void peakMemory(const Problem& problem);
+  void cube(const Problem& problem);
+  void longBrick(const Problem& problem);
+  void series(const std::vector<Problem>& problems);
+
+  Report report;
+  bool correct = true;
+
+private:
+  void add(const Problem& problem, const std::string& figure, double measured,
+    const std::string& unit, Target target = Target::none());
+  /// Adds a figure that decides whether the run is correct, on small meshes too.
+  void check(const Problem& problem, const std::string& figure, double measured, double atMost);
+  void checkAgainst(const Problem& problem, const std::string& figure,
+    const morph::Points& reference, const morph::Points& x);
+  void addTimes(const Problem& problem, int threads, const FemWarpTimes& times);
+  void bandwidth(const Problem& problem, const FemWarpTimes& times, double workingSet);
+
+  void settleDown() const
+  {
+    if (!settle(this->options_.waitIdle))
+    {
+      say("other processes are busy: measuring all the same");
+    }
+  }
+
+  Options options_;
+  int cores_;
+};
+
+void Run::add(const Problem& problem, const std::string& figure, double measured,
+  const std::string& unit, Target target)
+{
+  this->report.add(
+    problem.name + ": " + figure, measured, unit, this->options_.quick ? Target::none() : target);
+}
+
+void Run::check(const Problem& problem, const std::string& figure, double measured, double atMost)
+{
+  this->report.add(problem.name + ": " + figure, measured, "", Target::atMost(atMost));
+  this->correct = this->correct && measured <= atMost; // false for NaN
+}
+
+void Run::checkAgainst(const Problem& problem, const std::string& figure,
+  const morph::Points& reference, const morph::Points& x)
+{
+  const double difference = (x - reference).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  this->check(problem, figure + ", of the size", difference / problem.size, LargestDifference);
+}
+
+void Run::addTimes(const Problem& problem, int threads, const FemWarpTimes& times)
+{
+  const std::string tail = withThreads(threads);
+  this->add(problem, "prepare" + tail, median(times.prepare), "s");
+  this->add(problem, "cold" + tail, median(times.cold), "s");
+  this->add(problem, "warm" + tail, median(times.warm), "s");
+}
+
+void Run::peakMemory(const Problem& problem)
+{
+  say("peak memory, " + problem.name);
+  std::unique_ptr<morph::Monitor> monitor;
+  morph::FemWarp femWarp;
+  morph::Points moved;
+  const double growth = peakMemoryGrowth(
+    [&]
+    {
+      monitor = makeMonitor(this->cores_);
+      femWarp.setTolerance(Tolerance);
+    },
+    [&]
+    {
+      femWarp.prepare(problem.mesh, problem.partition, *monitor);
+      femWarp.evaluate(problem.target, moved, *monitor);
+    });
+  this->add(problem, "peak memory growth a node, cold", perNode(growth, problem), "B",
+    Target::atMost(1000));
+}
+
+void Run::bandwidth(const Problem& problem, const FemWarpTimes& times, double workingSet)
+{
+  say("memory bandwidth");
+  const auto monitor = makeMonitor(this->cores_);
+  const double available = static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * sysconf(_SC_PAGESIZE);
+  const double large = this->options_.quick
+                         ? 1e8
+                         : std::min(std::max(4 * lastLevelCacheBytes(), 1e9), 0.5 * available);
+  const double warm = median(times.warm);
+  this->add(problem, "bytes moved by a warm step, as the solver counts", times.bytesMoved, "B");
+  for (const bool memory : { true, false })
+  {
+    const double bytes = memory ? large : workingSet;
+    this->settleDown();
+    const Bandwidth measured = measureBandwidth(static_cast<std::size_t>(bytes), *monitor);
+    const std::string where = memory ? "memory bandwidth" : "bandwidth of its working set";
+    const std::string size =
+      " over " + std::to_string(static_cast<int>(bytes / 1e6)) + " MB" + withThreads(this->cores_);
+    this->add(problem, where + ", read" + size, measured.read, "B/s");
+    this->add(problem, where + ", triad" + size, measured.triad, "B/s");
+    this->add(problem, "warm / (bytes moved / " + where + ")",
+      warm / (times.bytesMoved / measured.best()), "", memory ? Target::atMost(4) : Target::none());
+  }
+}
+
+void Run::cube(const Problem& problem)
+{
+  FemWarpTimes all;
+  FemWarpTimes one;
+  std::vector<double> cholmodCold;
+  std::vector<double> cholmodSolve;
+  std::vector<double> jacobiSeconds;
+  DirectResult cholmod;
+  IterativeResult jacobi;
+  morph::Points moved;
+  morph::Points movedByOne;
+  std::unique_ptr<morph::FemWarp> femWarp;
+  const auto monitor = makeMonitor(this->cores_);
+  const auto serial = makeMonitor(1);
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say(problem.name + ", repetition " + std::to_string(i + 1));
+    femWarp.reset();
+    this->settleDown();
+    timeFemWarp(problem, *serial, one, movedByOne);
+    this->settleDown();
+    femWarp = timeFemWarp(problem, *monitor, all, moved);
+    const LinearSystem system = linearSystem(*femWarp, problem);
+    this->settleDown();
+    cholmod = solveByCholmod(system);
+    cholmodCold.push_back(cholmod.coldSeconds);
+    cholmodSolve.push_back(cholmod.solveSeconds);
+    this->settleDown();
+    jacobi = solveByJacobiCg(system, Tolerance);
+    jacobiSeconds.push_back(jacobi.seconds);
+  }
+  if (moved != movedByOne)
+  {
+    throw std::runtime_error("The moved mesh depends on the number of threads.");
+  }
+  this->checkAgainst(
+    problem, "difference from CHOLMOD", cholmod.x, freeDisplacement(problem, moved));
+  this->checkAgainst(problem, "Jacobi CG's difference from CHOLMOD", cholmod.x, jacobi.x);
+  this->check(problem, "relative residual, recomputed",
+    relativeResidual(linearSystem(*femWarp, problem), freeDisplacement(problem, moved)),
+    LargestResidual);
+
+  const double warm = median(all.warm);
+  this->add(problem, "CHOLMOD cold / cold", median(cholmodCold) / median(all.cold), "",
+    Target::atLeast(15));
+  this->add(problem, "warm / CHOLMOD solve", warm / median(cholmodSolve), "", Target::atMost(1));
+  const auto kept = static_cast<double>(femWarp->memory());
+  this->bandwidth(problem, all, kept);
+  this->add(problem, "memory kept a node", perNode(kept, problem), "B", Target::atMost(1000));
+
+  this->add(problem, "iterations", all.iterations, "");
+  this->addTimes(problem, 1, one);
+  this->addTimes(problem, this->cores_, all);
+  this->add(problem, "CHOLMOD cold", median(cholmodCold), "s");
+  this->add(problem, "CHOLMOD solve", median(cholmodSolve), "s");
+  this->add(problem, "CHOLMOD factor a node", perNode(cholmod.factorBytes, problem), "B");
+  this->add(
+    problem, "Jacobi CG, the assembled system" + withThreads(1), median(jacobiSeconds), "s");
+  this->add(problem, "Jacobi CG iterations, three columns", jacobi.iterations, "");
+  this->add(
+    problem, "Jacobi CG / warm" + withThreads(1), median(jacobiSeconds) / median(one.warm), "");
+}
+
+void Run::longBrick(const Problem& problem)
+{
+  FemWarpTimes times;
+  std::vector<double> cholmodCold;
+  DirectResult cholmod;
+  morph::Points moved;
+  std::unique_ptr<morph::FemWarp> femWarp;
+  const auto monitor = makeMonitor(this->cores_);
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say(problem.name + ", repetition " + std::to_string(i + 1));
+    femWarp.reset();
+    this->settleDown();
+    femWarp = timeFemWarp(problem, *monitor, times, moved);
+    this->settleDown();
+    cholmod = solveByCholmod(linearSystem(*femWarp, problem));
+    cholmodCold.push_back(cholmod.coldSeconds);
+  }
+  const double cold = median(times.cold);
+  this->checkAgainst(
+    problem, "difference from CHOLMOD", cholmod.x, freeDisplacement(problem, moved));
+  this->addTimes(problem, this->cores_, times);
+  this->add(problem, "CHOLMOD cold", median(cholmodCold), "s");
+  this->add(problem, "CHOLMOD cold / cold", median(cholmodCold) / cold, "");
+  if (this->options_.skipKlu)
+  {
+    say("KLU skipped");
+    return;
+  }
+  say(problem.name + ", KLU, once");
+  this->settleDown();
+  const DirectResult klu = solveByKlu(linearSystem(*femWarp, problem));
+  this->checkAgainst(problem, "difference from KLU", klu.x, freeDisplacement(problem, moved));
+  this->add(problem, "KLU cold", klu.coldSeconds, "s");
+  this->add(problem, "KLU solve", klu.solveSeconds, "s");
+  this->add(problem, "KLU factors a node", perNode(klu.factorBytes, problem), "B");
+  this->add(problem, "KLU cold / cold", klu.coldSeconds / cold, "", Target::atLeast(150));
+}
+
+void Run::series(const std::vector<Problem>& problems)
+{
+  std::vector<FemWarpTimes> times(problems.size());
+  std::vector<double> residual(problems.size());
+  const auto monitor = makeMonitor(this->cores_);
+  // Repetitions outside: a slow spell of the machine falls on all sizes alike.
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say("series, repetition " + std::to_string(i + 1));
+    for (std::size_t p = 0; p < problems.size(); ++p)
+    {
+      morph::Points moved;
+      this->settleDown();
+      const auto femWarp = timeFemWarp(problems[p], *monitor, times[p], moved);
+      residual[p] =
+        relativeResidual(linearSystem(*femWarp, problems[p]), freeDisplacement(problems[p], moved));
+    }
+  }
+  std::vector<double> nodes;
+  std::vector<double> cold;
+  std::vector<double> warm;
+  for (std::size_t p = 0; p < problems.size(); ++p)
+  {
+    nodes.push_back(static_cast<double>(problems[p].mesh.numberOfNodes()));
+    cold.push_back(median(times[p].cold));
+    warm.push_back(median(times[p].warm));
+    this->add(problems[p], "series, cold" + withThreads(this->cores_), cold.back(), "s");
+    this->add(problems[p], "series, iterations", times[p].iterations, "");
+  }
+  const auto worst = std::max_element(residual.begin(), residual.end());
+  this->check(problems[worst - residual.begin()], "series, largest relative residual, recomputed",
+    *worst, LargestResidual);
+  const std::string tail = " against nodes, series of " + std::to_string(problems.size());
+  this->add(problems.back(), "exponent of cold time" + tail, logLogSlope(nodes, cold), "",
+    Target::atMost(1.2));
+  this->add(problems.back(), "exponent of warm time" + tail, logLogSlope(nodes, warm), "");
+}
+}
+
+Report measureFigures(const Options& options, bool& correct)
+{
+  const int side = options.quick ? 12 : 50;
+  const int across = options.quick ? 6 : 20;
+  const int shortest = options.quick ? 18 : 60;
+  const int longest = options.quick ? 42 : 260;
+  const int step = options.quick ? 12 : 40;
+
+  Run run(options);
+  const Problem cube = twistedBrick(side, side, side, AxisZ);
+  run.peakMemory(cube); // forks, so before there are threads
+  run.cube(cube);
+  std::vector<Problem> bricks;
+  for (int length = shortest; length <= longest; length += step)
+  {
+    bricks.push_back(twistedBrick(length, across, across, AxisX));
+  }
+  run.series(bricks);
+  run.longBrick(bricks.back());
+  correct = run.correct;
+  return run.report;
+}
+}

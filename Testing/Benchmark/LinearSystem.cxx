@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearSystem.h"
+
+namespace benchmark
+{
+LinearSystem linearSystem(const morph::FemWarp& femWarp, const Problem& problem)
+{
+  const std::vector<morph::Index>& ids = problem.partition.prescribed;
+  morph::Points displacement(problem.target.rows(), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const auto row = static_cast<morph::Index>(i);
+    displacement.row(row) = problem.target.row(row) - problem.mesh.points.row(ids[i]);
+  }
+  return { femWarp.solver().matrix(), -(femWarp.coupling() * displacement) };
+}
+
+morph::Points freeDisplacement(const Problem& problem, const morph::Points& moved)
+{
+  const std::vector<morph::Index>& ids = problem.partition.free;
+  morph::Points displacement(static_cast<morph::Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    displacement.row(static_cast<morph::Index>(i)) =
+      moved.row(ids[i]) - problem.mesh.points.row(ids[i]);
+  }
+  return displacement;
+}
+
+double relativeResidual(const LinearSystem& system, const morph::Points& x)
+{
+  const morph::Points residual = system.rightHandSide - system.matrix * x;
+  return (residual.colwise().norm().array() / system.rightHandSide.colwise().norm().array())
+    .maxCoeff();
+}
+}

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+namespace meshes
+{
+using namespace morph;
+
+namespace
+{
+Index lattice(int nx, int ny, int i, int j, int k)
+{
+  return i + (nx + 1) * (j + static_cast<Index>(ny + 1) * k);
+}
+
+/// The lattice points, and visit(box corners in VTK's hexahedron order, i, j, k) for each box.
+template <typename Visit>
+Mesh boxes(int nx, int ny, int nz, const Visit& visit)
+{
+  Mesh mesh;
+  mesh.points.resize(static_cast<Index>(nx + 1) * (ny + 1) * (nz + 1), 3);
+  mesh.offsets.push_back(0);
+  for (int k = 0; k <= nz; ++k)
+  {
+    for (int j = 0; j <= ny; ++j)
+    {
+      for (int i = 0; i <= nx; ++i)
+      {
+        mesh.points.row(lattice(nx, ny, i, j, k)) = Eigen::RowVector3d(i, j, k);
+      }
+    }
+  }
+  for (int k = 0; k < nz; ++k)
+  {
+    for (int j = 0; j < ny; ++j)
+    {
+      for (int i = 0; i < nx; ++i)
+      {
+        const auto at = [&](int a, int b, int c) { return lattice(nx, ny, i + a, j + b, k + c); };
+        visit(mesh,
+          std::array<Index, 8>{ at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1),
+            at(1, 0, 1), at(1, 1, 1), at(0, 1, 1) },
+          i, j, k);
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Adds nodes at the means of corner sets, one per set, shared between cells.
+void addExtraNodes(Mesh& mesh, std::uint8_t type)
+{
+  const CellShape& shape = *cellShape(type);
+  Mesh result;
+  result.offsets.push_back(0);
+  std::vector<Eigen::RowVector3d> extra;
+  std::map<std::vector<Index>, Index> known;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + shape.numberOfCorners);
+    for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k)
+    {
+      double N[8];
+      shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
+      std::vector<Index> key;
+      Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        if (N[a] > 0)
+        {
+          key.push_back(nodes[a]);
+          place += N[a] * mesh.points.row(nodes[a]);
+        }
+      }
+      std::sort(key.begin(), key.end());
+      const auto found =
+        known.emplace(key, mesh.numberOfNodes() + static_cast<Index>(extra.size()));
+      if (found.second)
+      {
+        extra.push_back(place);
+      }
+      nodes.push_back(found.first->second);
+    }
+    add(result, type, nodes);
+  }
+  result.points.resize(mesh.numberOfNodes() + static_cast<Index>(extra.size()), 3);
+  result.points.topRows(mesh.numberOfNodes()) = mesh.points;
+  for (std::size_t i = 0; i < extra.size(); ++i)
+  {
+    result.points.row(mesh.numberOfNodes() + static_cast<Index>(i)) = extra[i];
+  }
+  mesh = std::move(result);
+}
+}
+
+void add(Mesh& mesh, std::uint8_t type, const std::vector<Index>& nodes)
+{
+  mesh.types.push_back(type);
+  mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
+  mesh.offsets.push_back(static_cast<Index>(mesh.connectivity.size()));
+}
+
+Mesh hexes(int nx, int ny, int nz)
+{
+  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int) {
+    add(mesh, Hexahedron, { b.begin(), b.end() });
+  });
+}
+
+Mesh tets(int nx, int ny, int nz)
+{
+  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int i, int j, int k) {
+    static constexpr int Even[5][4] = { { 0, 1, 2, 5 }, { 0, 2, 3, 7 }, { 0, 5, 7, 4 },
+      { 2, 7, 5, 6 }, { 0, 2, 7, 5 } };
+    static constexpr int Odd[5][4] = { { 1, 2, 3, 6 }, { 0, 1, 3, 4 }, { 1, 6, 4, 5 },
+      { 3, 4, 6, 7 }, { 1, 3, 4, 6 } };
+    for (const auto& t : (i + j + k) % 2 ? Odd : Even)
+    {
+      add(mesh, Tetra, { b[t[0]], b[t[1]], b[t[2]], b[t[3]] });
+    }
+  });
+}
+
+Mesh wedges(int nx, int ny, int nz)
+{
+  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int) {
+    add(mesh, Wedge, { b[0], b[1], b[2], b[4], b[5], b[6] });
+    add(mesh, Wedge, { b[0], b[2], b[3], b[4], b[6], b[7] });
+  });
+}
+
+Mesh hexesAndWedges(int nx, int ny, int nz)
+{
+  return boxes(nx, ny, nz, [nz](Mesh& mesh, const std::array<Index, 8>& b, int, int, int k) {
+    if (2 * k < nz)
+    {
+      add(mesh, Hexahedron, { b.begin(), b.end() });
+    }
+    else
+    {
+      // Prisms along x: they meet the hexahedra below with quadrilaterals.
+      add(mesh, Wedge, { b[0], b[3], b[4], b[1], b[2], b[5] });
+      add(mesh, Wedge, { b[3], b[7], b[4], b[2], b[6], b[5] });
+    }
+  });
+}
+
+Mesh hexesAndPyramids(int nx, int ny, int nz)
+{
+  std::vector<Eigen::RowVector3d> centres;
+  const Index latticeNodes = static_cast<Index>(nx + 1) * (ny + 1) * (nz + 1);
+  Mesh mesh =
+    boxes(nx, ny, nz, [&](Mesh& m, const std::array<Index, 8>& b, int i, int j, int k) {
+      if ((i + j + k) % 2 == 0)
+      {
+        add(m, Hexahedron, { b.begin(), b.end() });
+        return;
+      }
+      const Index centre = latticeNodes + static_cast<Index>(centres.size());
+      centres.push_back(Eigen::RowVector3d(i + .5, j + .5, k + .5));
+      // Base seen from the centre counter-clockwise. On the box's own surface the base is free to be cut in two tets.
+      static constexpr int Base[6][4] = { { 0, 3, 7, 4 }, { 1, 5, 6, 2 }, { 0, 4, 5, 1 },
+        { 3, 2, 6, 7 }, { 0, 1, 2, 3 }, { 4, 7, 6, 5 } };
+      const bool outer[6] = { i == 0, i == nx - 1, j == 0, j == ny - 1, k == 0, k == nz - 1 };
+      for (int f = 0; f < 6; ++f)
+      {
+        const int* q = Base[f];
+        if (outer[f])
+        {
+          add(m, Tetra, { b[q[0]], b[q[1]], b[q[2]], centre });
+          add(m, Tetra, { b[q[0]], b[q[2]], b[q[3]], centre });
+        }
+        else
+        {
+          add(m, Pyramid, { b[q[0]], b[q[1]], b[q[2]], b[q[3]], centre });
+        }
+      }
+    });
+  mesh.points.conservativeResize(latticeNodes + static_cast<Index>(centres.size()), 3);
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    mesh.points.row(latticeNodes + static_cast<Index>(i)) = centres[i];
+  }
+  return mesh;
+}
+
+Mesh quadraticHexes(int nx, int ny, int nz, bool triquadratic)
+{
+  Mesh mesh = hexes(nx, ny, nz);
+  addExtraNodes(mesh, triquadratic ? TriquadraticHexahedron : QuadraticHexahedron);
+  return mesh;
+}
+
+Mesh quadraticTets(int nx, int ny, int nz)
+{
+  Mesh mesh = tets(nx, ny, nz);
+  addExtraNodes(mesh, QuadraticTetra);
+  return mesh;
+}
+
+std::vector<std::pair<std::string, Mesh>> all(int nx, int ny, int nz)
+{
+  return { { "hexes", hexes(nx, ny, nz) }, { "tets", tets(nx, ny, nz) },
+    { "wedges", wedges(nx, ny, nz) }, { "hexes and wedges", hexesAndWedges(nx, ny, nz) },
+    { "hexes, pyramids and tets", hexesAndPyramids(nx, ny, nz) },
+    { "hex20", quadraticHexes(nx, ny, nz, false) }, { "hex27", quadraticHexes(nx, ny, nz, true) },
+    { "tet10", quadraticTets(nx, ny, nz) } };
+}
+
+void jitterInterior(Mesh& mesh, double amount, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-amount, amount);
+  const Eigen::RowVector3d low = mesh.points.colwise().minCoeff();
+  const Eigen::RowVector3d high = mesh.points.colwise().maxCoeff();
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    auto p = mesh.points.row(n);
+    if ((p.array() > low.array()).all() && (p.array() < high.array()).all())
+    {
+      p += Eigen::RowVector3d(shift(random), shift(random), shift(random));
+    }
+  }
+}
+
+void transform(Mesh& mesh, const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& map)
+{
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    mesh.points.row(n) = map(mesh.points.row(n));
+  }
+}
+
+Mesh renumbered(const Mesh& mesh, const std::vector<Index>& order)
+{
+  Mesh result = mesh;
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    result.points.row(order[n]) = mesh.points.row(n);
+  }
+  for (Index& node : result.connectivity)
+  {
+    node = order[node];
+  }
+  return result;
+}
+
+Points rows(const Points& all, const std::vector<Index>& ids)
+{
+  Points some(static_cast<Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    some.row(static_cast<Index>(i)) = all.row(ids[i]);
+  }
+  return some;
+}
+
+double size(const Points& points)
+{
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+unsigned seed()
+{
+  static const unsigned value = [] {
+    const char* text = std::getenv("MORPH_TEST_SEED");
+    const unsigned s = text ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : 20111;
+    std::cout << "random seed " << s << " (MORPH_TEST_SEED sets another)" << std::endl;
+    return s;
+  }();
+  return value;
+}
+
+ThreadedMonitor::ThreadedMonitor(int count)
+  : threads(count)
+{
+}
+
+void ThreadedMonitor::progress(double fraction)
+{
+  this->lastProgress = fraction;
+}
+
+bool ThreadedMonitor::cancelled()
+{
+  return this->lastProgress >= this->cancelAt;
+}
+
+void ThreadedMonitor::warn(const std::string& message)
+{
+  this->warnings.push_back(message);
+}
+
+void ThreadedMonitor::parallelFor(
+  Index n, Index grain, const std::function<void(Index, Index)>& body)
+{
+  // Ranges of one grain, dealt out in turn: an unusual cut shows what depends on the ranges.
+  const Index ranges = (n + grain - 1) / grain;
+  std::vector<std::thread> crew;
+  for (int t = 0; t < this->threads; ++t)
+  {
+    crew.emplace_back([&, t] {
+      for (Index r = t; r < ranges; r += this->threads)
+      {
+        body(r * grain, std::min(n, (r + 1) * grain));
+      }
+    });
+  }
+  for (std::thread& member : crew)
+  {
+    member.join();
+  }
+}
+}

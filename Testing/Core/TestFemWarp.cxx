@@ -1,0 +1,590 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+
+#include "ElementStiffness.h"
+#include "Error.h"
+#include "FemWarp.h"
+#include "SimplicialDecomposition.h"
+#include "Topology.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+using namespace morph;
+
+namespace
+{
+const Eigen::Matrix3d Shear =
+  (Eigen::Matrix3d() << 1.1, .3, .2, -.1, 1.4, .05, .2, .1, .9).finished();
+
+Eigen::RowVector3d affine(const Eigen::RowVector3d& x)
+{
+  return x * Shear + Eigen::RowVector3d(3, -2, .5);
+}
+
+/// A motion that is not affine: a twist about the z axis through the middle of a box of width w and height h.
+Eigen::RowVector3d twist(const Eigen::RowVector3d& x, double w, double h, double angle)
+{
+  const double a = angle * x[2] / h, dx = x[0] - w / 2, dy = x[1] - w / 2;
+  return { w / 2 + dx * std::cos(a) - dy * std::sin(a), w / 2 + dx * std::sin(a) + dy * std::cos(a),
+    1.5 * x[2] };
+}
+
+NodePartition outerPartition(const Mesh& mesh)
+{
+  Monitor monitor;
+  return partitionNodes(mesh, boundaryFaces(mesh, monitor).nodes);
+}
+
+Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target,
+  double tolerance = 1e-12, int threads = 1)
+{
+  meshes::ThreadedMonitor monitor(threads);
+  FemWarp method;
+  method.setTolerance(tolerance);
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  method.evaluate(target, result, monitor);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
+  return result;
+}
+
+Points targets(const Mesh& mesh, const NodePartition& partition,
+  const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& map)
+{
+  Mesh copy = mesh;
+  meshes::transform(copy, map);
+  return meshes::rows(copy.points, partition.prescribed);
+}
+
+std::vector<std::pair<std::string, Mesh>> jittered()
+{
+  auto list = meshes::all(4, 4, 4);
+  for (auto& [name, mesh] : list)
+  {
+    meshes::jitterInterior(mesh, name == "hexes, pyramids and tets" ? 0.1 : 0.15, meshes::seed());
+  }
+  return list;
+}
+
+Error::Kind kindOf(const std::function<void()>& call, std::string& message)
+{
+  try
+  {
+    call();
+  }
+  catch (const Error& error)
+  {
+    message = error.what();
+    return error.kind();
+  }
+  ADD_FAILURE() << "no error";
+  return Error::Kind::InvalidInput;
+}
+}
+
+TEST(ElementStiffness, RowsSumToZeroAndAffineFieldsHaveTheirEnergy)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    double energy = 0;
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      const CellShape& shape = *cellShape(mesh.types[c]);
+      const int n = shape.numberOfCorners;
+      double corners[8][3], K[36];
+      for (int a = 0; a < n; ++a)
+      {
+        const auto p = mesh.points.row(mesh.cell(c)[a]);
+        std::copy(p.data(), p.data() + 3, corners[a]);
+      }
+      ASSERT_EQ(elementStiffness(shape.shape, corners, K), 1) << name << " cell " << c;
+      for (int a = 0; a < n; ++a)
+      {
+        double sum = 0, field = 0;
+        for (int b = 0; b < n; ++b)
+        {
+          const double entry = K[triangleIndex(n, a, b)];
+          sum += entry;
+          field += entry * corners[b][0];
+        }
+        EXPECT_NEAR(sum, 0, 1e-14) << name;
+        energy += field * corners[a][0];
+      }
+    }
+    EXPECT_NEAR(energy, 64, 1e-11) << name; // the integral of |grad x|^2 is the volume
+  }
+}
+
+TEST(ElementStiffness, UnitCubeHasTheTrilinearEntries)
+{
+  const double cube[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+    { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  double K[36];
+  ASSERT_EQ(elementStiffness(Shape::Hex, cube, K), 1);
+  EXPECT_NEAR(K[triangleIndex(8, 0, 0)], 1. / 3, 1e-15);  // itself
+  EXPECT_NEAR(K[triangleIndex(8, 0, 1)], 0, 1e-15);       // along an edge
+  EXPECT_NEAR(K[triangleIndex(8, 0, 2)], -1. / 12, 1e-15); // across a face
+  EXPECT_NEAR(K[triangleIndex(8, 0, 6)], -1. / 12, 1e-15); // through the cell
+}
+
+TEST(ElementStiffness, BadCellsGiveAPositiveMatrixAndSaySo)
+{
+  double flat[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 1, 0, 0 },
+    { 1, 1, 0 }, { 0, 1, 0 } };
+  for (Shape shape : { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid })
+  {
+    const int n = numberOfCorners(shape);
+    double K[36];
+    double corners[8][3];
+    std::memcpy(corners, flat, sizeof flat);
+    if (shape != Shape::Hex)
+    {
+      for (int a = 3; a < n; ++a)
+      {
+        corners[a][0] += .1; // planar still
+      }
+    }
+    EXPECT_EQ(elementStiffness(shape, corners, K), 0);
+    Eigen::MatrixXd full(n, n);
+    for (int a = 0; a < n; ++a)
+    {
+      for (int b = 0; b < n; ++b)
+      {
+        full(a, b) = K[triangleIndex(n, a, b)];
+      }
+    }
+    EXPECT_TRUE(full.allFinite());
+    EXPECT_GE(full.selfadjointView<Eigen::Upper>().eigenvalues().minCoeff(), -1e-9 * full.norm());
+    EXPECT_GT(full.norm(), 0);
+  }
+}
+
+TEST(FemWarp, AffineMotionsComeOutExactly)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+    Mesh expected = mesh;
+    meshes::transform(expected, affine);
+    EXPECT_LT((result - expected.points).cwiseAbs().maxCoeff(), 1e-10 * meshes::size(mesh.points))
+      << name;
+  }
+}
+
+TEST(FemWarp, AffineIsExactThroughTheEquationsToo)
+{
+  // Not by the affine first guess alone: A_I x_I + A_B x_B vanishes for the rest positions.
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    FemWarp method;
+    method.prepare(mesh, partition, monitor);
+    const Points residual = method.solver().matrix() * meshes::rows(mesh.points, partition.free) +
+      method.coupling() * meshes::rows(mesh.points, partition.prescribed);
+    EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-13) << name;
+  }
+}
+
+TEST(FemWarp, AgreesWithADenseSolve)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    Monitor monitor;
+    FemWarp method;
+    method.setTolerance(1e-13);
+    method.prepare(mesh, partition, monitor);
+    Points result;
+    const EvaluateReport report = method.evaluate(target, result, monitor);
+    EXPECT_GT(report.iterations, 0) << name;
+    EXPECT_LE(report.relativeResidual, 1e-13) << name;
+
+    const Eigen::MatrixXd A = method.solver().matrix();
+    EXPECT_LT((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-14) << name;
+    const Points displacement = target - meshes::rows(mesh.points, partition.prescribed);
+    const Points expected = A.ldlt().solve(Eigen::MatrixXd(-(method.coupling() * displacement)));
+    const Points found = meshes::rows(result, partition.free) - meshes::rows(mesh.points, partition.free);
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11) << name;
+    for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
+    {
+      EXPECT_EQ(result.row(partition.prescribed[i]), target.row(static_cast<Index>(i))) << name;
+    }
+  }
+}
+
+TEST(FemWarp, NoMotionIsTheIdentityBitForBit)
+{
+  for (auto [name, mesh] : jittered())
+  {
+    mesh.points.array() -= 2; // signed zeros among the coordinates
+    mesh.points.col(0) *= -1;
+    mesh.points.col(1) *= -1;
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, meshes::rows(mesh.points, partition.prescribed));
+    EXPECT_EQ(std::memcmp(result.data(), mesh.points.data(), sizeof(double) * result.size()), 0)
+      << name;
+  }
+}
+
+TEST(FemWarp, RigidMotionScaleAndRenumberingGoThrough)
+{
+  const Eigen::Matrix3d R =
+    (Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized())).toRotationMatrix();
+  const auto rigid = [&](const Eigen::RowVector3d& x) {
+    return Eigen::RowVector3d(17.5 * x * R + Eigen::RowVector3d(40, -3, 8));
+  };
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    const Points reference = morphed(mesh, partition, target);
+
+    Mesh turned = mesh;
+    meshes::transform(turned, rigid);
+    Points turnedTarget = target;
+    Points expected = reference;
+    for (Points* points : { &turnedTarget, &expected })
+    {
+      for (Index i = 0; i < points->rows(); ++i)
+      {
+        points->row(i) = rigid(points->row(i));
+      }
+    }
+    EXPECT_LT((morphed(turned, partition, turnedTarget) - expected).cwiseAbs().maxCoeff(),
+      1e-10 * meshes::size(turned.points))
+      << name;
+
+    std::vector<Index> order(mesh.numberOfNodes());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::shuffle(order.begin(), order.end(), std::mt19937(meshes::seed()));
+    const Mesh shuffled = meshes::renumbered(mesh, order);
+    std::vector<Index> ids;
+    for (Index id : partition.prescribed)
+    {
+      ids.push_back(order[id]);
+    }
+    const NodePartition renamed = partitionNodes(shuffled, ids);
+    Points all(mesh.numberOfNodes(), 3);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      all.row(ids[i]) = target.row(static_cast<Index>(i));
+    }
+    const Points result = morphed(shuffled, renamed, meshes::rows(all, renamed.prescribed));
+    EXPECT_LT((meshes::rows(result, order) - reference).cwiseAbs().maxCoeff(),
+      1e-10 * meshes::size(mesh.points))
+      << name;
+  }
+}
+
+TEST(FemWarp, AdjointEqualsFiniteDifferences)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    FemWarp method;
+    method.setTolerance(1e-13);
+    method.prepare(mesh, partition, monitor);
+    Points gradient(mesh.numberOfNodes(), 3), step(static_cast<Index>(partition.prescribed.size()), 3);
+    gradient = gradient.unaryExpr([&](double) { return value(random); });
+    step = step.unaryExpr([&](double) { return value(random); });
+
+    Points adjoint;
+    method.applyTranspose(gradient, adjoint, monitor);
+    ASSERT_EQ(adjoint.rows(), step.rows());
+
+    // Objective: gradient . positions. The map is linear, so central differences are exact but for rounding.
+    const Points at = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, .8); });
+    Points plus, minus;
+    method.evaluate(at + 0.5 * step, plus, monitor);
+    method.evaluate(at - 0.5 * step, minus, monitor);
+    const double difference = gradient.cwiseProduct(plus - minus).sum();
+    EXPECT_NEAR(adjoint.cwiseProduct(step).sum(), difference, 1e-9 * std::abs(difference) + 1e-9)
+      << name;
+
+    // One coordinate by itself.
+    Points single = Points::Zero(step.rows(), 3);
+    single(3, 1) = 1e-3;
+    method.evaluate(at + single, plus, monitor);
+    method.evaluate(at - single, minus, monitor);
+    EXPECT_NEAR(
+      adjoint(3, 1), gradient.cwiseProduct(plus - minus).sum() / 2e-3, 1e-7 * gradient.norm())
+      << name;
+  }
+}
+
+TEST(FemWarp, ThreadsAndHistoryDoNotShow)
+{
+  Mesh mesh = meshes::hexes(24, 23, 22); // more rows than one block of the solver's sums
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 24, 22, 1); });
+  const Points one = morphed(mesh, partition, target, 1e-10, 1);
+  for (int threads : { 2, 3, 5 })
+  {
+    const Points many = morphed(mesh, partition, target, 1e-10, threads);
+    EXPECT_EQ(std::memcmp(one.data(), many.data(), sizeof(double) * one.size()), 0) << threads;
+  }
+
+  Monitor monitor;
+  FemWarp method;
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  method.evaluate(targets(mesh, partition, affine), result, monitor);
+  method.evaluate(target, result, monitor);
+  EXPECT_EQ(std::memcmp(one.data(), result.data(), sizeof(double) * one.size()), 0);
+}
+
+TEST(FemWarp, PrescribedInteriorNodesStayWhereTheyArePut)
+{
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  NodePartition partition = outerPartition(mesh);
+  std::vector<Index> ids = partition.prescribed;
+  const Index centre = 62;
+  ids.push_back(centre);
+  partition = partitionNodes(mesh, ids);
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  const auto at = std::find(partition.prescribed.begin(), partition.prescribed.end(), centre);
+  target(at - partition.prescribed.begin(), 0) += .3;
+  const Points result = morphed(mesh, partition, target);
+  EXPECT_EQ(result(centre, 0), mesh.points(centre, 0) + .3);
+  EXPECT_GT(result(centre + 1, 0), mesh.points(centre + 1, 0) + .001); // its neighbors follow
+}
+
+TEST(FemWarp, UnusedNodesAndLowerCellsStay)
+{
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  const NodePartition before = outerPartition(mesh);
+  mesh.points.conservativeResize(66, 3);
+  mesh.points.bottomRows(2).setConstant(9);
+  meshes::add(mesh, Line, { 64, 65 });
+  const NodePartition partition = partitionNodes(mesh, before.prescribed);
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+  EXPECT_EQ(result.bottomRows(2), mesh.points.bottomRows(2));
+}
+
+TEST(FemWarp, MirroredMeshesAreAsGood)
+{
+  Mesh mesh = meshes::hexes(4, 4, 4);
+  meshes::jitterInterior(mesh, .15, meshes::seed());
+  const NodePartition partition = outerPartition(mesh);
+  mesh.points.col(1) *= -1;
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine)); // and no warning
+  Mesh expected = mesh;
+  meshes::transform(expected, affine);
+  EXPECT_LT((result - expected.points).cwiseAbs().maxCoeff(), 1e-10 * meshes::size(mesh.points));
+}
+
+TEST(FemWarp, StretchedAndRandomlyNumberedMeshesConvergeFast)
+{
+  Mesh mesh = meshes::hexes(20, 20, 20);
+  meshes::transform(mesh, [](const Eigen::RowVector3d& x) {
+    return Eigen::RowVector3d(x[0], x[1], std::pow(1.6, x[2] - 20) * 20); // edges of 0.001 to 7.5
+  });
+  std::vector<Index> order(mesh.numberOfNodes());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::shuffle(order.begin(), order.end(), std::mt19937(meshes::seed()));
+  mesh = meshes::renumbered(mesh, order);
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  FemWarp method;
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  const EvaluateReport report = method.evaluate(
+    targets(mesh, partition, [](const auto& x) { return twist(x, 20, 20, 1); }), result, monitor);
+  EXPECT_LT(report.iterations, 60);
+}
+
+TEST(FemWarp, RandomNumbersChangeTheRowsNotTheResult)
+{
+  Mesh mesh = meshes::hexes(26, 25, 24);
+  std::vector<Index> order(mesh.numberOfNodes());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::shuffle(order.begin(), order.end(), std::mt19937(meshes::seed()));
+  const Mesh shuffled = meshes::renumbered(mesh, order);
+  const auto move = [](const auto& x) { return twist(x, 26, 24, 1); };
+  const NodePartition partition = outerPartition(mesh), renamed = outerPartition(shuffled);
+  const Points reference = morphed(mesh, partition, targets(mesh, partition, move));
+
+  Monitor monitor;
+  FemWarp method;
+  method.setTolerance(1e-12);
+  method.prepare(shuffled, renamed, monitor);
+  EXPECT_NE(method.rows(), renamed.free);
+  EXPECT_TRUE(std::is_permutation(method.rows().begin(), method.rows().end(), renamed.free.begin()));
+  Points result;
+  method.evaluate(targets(shuffled, renamed, move), result, monitor);
+  EXPECT_LT((meshes::rows(result, order) - reference).cwiseAbs().maxCoeff(),
+    1e-10 * meshes::size(mesh.points));
+
+  // The adjoint goes through the same order.
+  Points gradient = Points::Zero(mesh.numberOfNodes(), 3);
+  const Index node = method.rows()[1234];
+  gradient(node, 2) = 1;
+  Points adjoint, plus, minus;
+  method.applyTranspose(gradient, adjoint, monitor);
+  const Points at = targets(shuffled, renamed, move);
+  const Points step = adjoint;
+  method.evaluate(at + step, plus, monitor);
+  method.evaluate(at - step, minus, monitor);
+  EXPECT_NEAR((plus(node, 2) - minus(node, 2)) / 2, step.squaredNorm(), 1e-9 * step.squaredNorm());
+}
+
+TEST(FemWarp, BadCellsWarnAndTheRestStillWorks)
+{
+  const Mesh good = meshes::hexes(5, 5, 5);
+  const NodePartition partition = outerPartition(good);
+  const Points target = targets(good, partition, [](const auto& x) { return twist(x, 5, 5, .5); });
+  for (const char* kind : { "inverted", "zero volume" })
+  {
+    Mesh mesh = good;
+    const Index cell = 62; // the middle one
+    const std::vector<Index> nodes(mesh.cell(cell), mesh.cell(cell) + 8);
+    if (std::string(kind) == "inverted")
+    {
+      for (int a = 0; a < 4; ++a)
+      {
+        mesh.points.row(nodes[a]).swap(mesh.points.row(nodes[a + 4]));
+      }
+    }
+    else
+    {
+      for (int a = 0; a < 4; ++a)
+      {
+        mesh.points.row(nodes[a + 4]) = mesh.points.row(nodes[a]);
+      }
+    }
+    meshes::ThreadedMonitor monitor;
+    FemWarp method;
+    method.prepare(mesh, partition, monitor);
+    ASSERT_EQ(monitor.warnings.size(), 1u);
+    EXPECT_NE(monitor.warnings[0].find("62"), std::string::npos) << monitor.warnings[0];
+    EXPECT_NE(monitor.warnings[0].find(kind), std::string::npos) << monitor.warnings[0];
+    Points result;
+    method.evaluate(target, result, monitor);
+    EXPECT_TRUE(result.allFinite());
+    EXPECT_LT(meshes::size(result), 2 * meshes::size(good.points));
+  }
+}
+
+TEST(FemWarp, ABodyWithoutPrescribedNodesIsNamed)
+{
+  Mesh mesh = meshes::hexes(2, 2, 2);
+  const NodePartition first = outerPartition(mesh);
+  const Mesh other = mesh;
+  mesh.points.conservativeResize(54, 3);
+  mesh.points.bottomRows(27) = other.points.array() + 10;
+  for (Index c = 0; c < 8; ++c)
+  {
+    std::vector<Index> nodes(other.cell(c), other.cell(c) + 8);
+    for (Index& n : nodes)
+    {
+      n += 27;
+    }
+    meshes::add(mesh, Hexahedron, nodes);
+  }
+  Monitor monitor;
+  FemWarp method;
+  std::string message;
+  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); },
+              message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("Body 1 (8 cells, the first is cell 8"), std::string::npos) << message;
+}
+
+TEST(FemWarp, NodesBetweenCollapsedCellsAreNamed)
+{
+  // All cells around the one free node shrink to that node.
+  Mesh mesh = meshes::hexes(2, 2, 2);
+  const NodePartition partition = outerPartition(mesh);
+  mesh.points.setConstant(1);
+  Monitor monitor;
+  FemWarp method;
+  std::string message;
+  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partition, monitor); }, message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("node ids 13"), std::string::npos) << message;
+}
+
+TEST(FemWarp, RefusesWhatItCannotUse)
+{
+  const Mesh mesh = meshes::hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  FemWarp method;
+  std::string message;
+
+  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partitionNodes(mesh, {}), monitor); }, message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("No node is prescribed"), std::string::npos);
+
+  const Mesh one = meshes::hexes(1, 1, 1);
+  kindOf([&] { method.prepare(one, outerPartition(one), monitor); }, message);
+  EXPECT_NE(message.find("No node is free"), std::string::npos);
+
+  for (double wrong : { 0., -1., 1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    EXPECT_THROW(method.setTolerance(wrong), Error);
+  }
+
+  method.prepare(mesh, partition, monitor);
+  Points moved = Points::Constant(1, 3, 5);
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  kindOf([&] { method.evaluate(target.topRows(4), moved, monitor); }, message);
+  EXPECT_NE(message.find("4 rows where 56"), std::string::npos) << message;
+  target(7, 2) = std::numeric_limits<double>::infinity();
+  kindOf([&] { method.evaluate(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("node ids " + std::to_string(partition.prescribed[7])), std::string::npos);
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5)); // untouched
+}
+
+TEST(FemWarp, CancelStopsAndLeavesTheResultAlone)
+{
+  const Mesh mesh = meshes::hexes(8, 8, 8);
+  const NodePartition partition = outerPartition(mesh);
+  meshes::ThreadedMonitor monitor;
+  FemWarp method;
+  std::string message;
+  monitor.cancelAt = 0.3;
+  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partition, monitor); }, message),
+    Error::Kind::Cancelled);
+
+  monitor.cancelAt = 2;
+  method.prepare(mesh, partition, monitor);
+  EXPECT_EQ(monitor.lastProgress, 1);
+  monitor.cancelAt = 0; // at once
+  Points moved = Points::Constant(1, 3, 5);
+  EXPECT_EQ(kindOf(
+              [&] {
+                method.evaluate(
+                  targets(mesh, partition, [](const auto& x) { return twist(x, 8, 8, 1); }), moved,
+                  monitor);
+              },
+              message),
+    Error::Kind::Cancelled);
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5));
+}
+
+TEST(HigherOrderNodes, CurvedEdgesKeepTheirPlaceInTheCell)
+{
+  // A mid-side node off the chord of its edge moves with the linear cell around it, not with the chord's ends alone.
+  Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_FALSE(partition.followers.empty());
+  const Index node = partition.followers[4];
+  mesh.points.row(node) += Eigen::RowVector3d(.05, -.04, .06);
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+  EXPECT_LT((result.row(node) - affine(mesh.points.row(node))).norm(), 1e-10);
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
+
+#include "vtkExtractMorphBoundary.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+
+#include <cmath>
+
+namespace grids
+{
+using morph::Index;
+using morph::Points;
+
+vtkSmartPointer<vtkUnstructuredGrid> make(const morph::Mesh& mesh, int pointType)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(pointType);
+  vtkNew<vtkIdTypeArray> number;
+  number->SetName("Number");
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    points->InsertNextPoint(mesh.points.row(n).data());
+    number->InsertNextValue(1000 + n);
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->AddArray(number);
+
+  vtkNew<vtkIdTypeArray> cell;
+  cell->SetName("Cell");
+  grid->Allocate(mesh.numberOfCells());
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+    grid->InsertNextCell(mesh.types[c], static_cast<vtkIdType>(nodes.size()), nodes.data());
+    cell->InsertNextValue(2000 + c);
+  }
+  grid->GetCellData()->AddArray(cell);
+  return grid;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> hexes(int n)
+{
+  morph::Mesh mesh = meshes::hexes(n, n, n);
+  meshes::jitterInterior(mesh, 0.15, meshes::seed());
+  return make(mesh);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid)
+{
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  result->DeepCopy(grid);
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> boundary(vtkUnstructuredGrid* grid, const Map& map)
+{
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetInputData(grid);
+  extract->Update();
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(extract->GetOutput());
+  result->SetPoints(cloud(mapped(points(result), map))->GetPoints());
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> cloud(const Points& positions)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (Index n = 0; n < positions.rows(); ++n)
+  {
+    points->InsertNextPoint(positions.row(n).data());
+  }
+  result->SetPoints(points);
+  return result;
+}
+
+void addIds(vtkDataSet* data, const char* name, const std::vector<Index>& ids)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  for (Index id : ids)
+  {
+    array->InsertNextValue(id);
+  }
+  data->GetPointData()->AddArray(array);
+}
+
+void addVectors(vtkDataSet* data, const char* name, const Points& vectors)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  for (Index n = 0; n < vectors.rows(); ++n)
+  {
+    array->InsertNextTuple(vectors.row(n).data());
+  }
+  data->GetPointData()->AddArray(array);
+}
+
+Points points(vtkPointSet* data)
+{
+  Points result(data->GetNumberOfPoints(), 3);
+  for (Index n = 0; n < result.rows(); ++n)
+  {
+    data->GetPoint(n, result.row(n).data());
+  }
+  return result;
+}
+
+Points mapped(const Points& points, const Map& map)
+{
+  Points result(points.rows(), 3);
+  for (Index n = 0; n < points.rows(); ++n)
+  {
+    result.row(n) = map(points.row(n));
+  }
+  return result;
+}
+
+Row affine(const Row& x)
+{
+  Eigen::Matrix3d A;
+  A << 1.4, 0.3, -0.1, -0.5, 0.9, 0.2, 0.1, 0.4, 1.1;
+  return x * A.transpose() + Row(3, -7, 11);
+}
+
+Row twist(const Row& x)
+{
+  const double angle = 0.15 * x[2], c = std::cos(angle), s = std::sin(angle);
+  return Row(
+    c * x[0] - s * x[1] + 0.02 * x[1] * x[1], s * x[0] + c * x[1], x[2] + 0.05 * x[0] * x[0]);
+}
+
+struct Listener::Tags
+{
+  vtkSmartPointer<vtkAlgorithm> Filter;
+  vtkNew<vtkCallbackCommand> Command;
+  vtkNew<vtkCallbackCommand> Silence;
+};
+
+Listener::Listener(vtkAlgorithm* filter)
+  : Observers(new Tags)
+{
+  this->Observers->Filter = filter;
+  this->Observers->Command->SetClientData(this);
+  this->Observers->Command->SetCallback(
+    [](vtkObject*, unsigned long event, void* self, void* text)
+    {
+      auto* listener = static_cast<Listener*>(self);
+      (event == vtkCommand::ErrorEvent ? listener->Errors : listener->Warnings)
+        .emplace_back(static_cast<const char*>(text));
+    });
+  this->Observers->Silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  filter->AddObserver(vtkCommand::ErrorEvent, this->Observers->Command);
+  filter->AddObserver(vtkCommand::WarningEvent, this->Observers->Command);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Observers->Silence);
+}
+
+Listener::~Listener()
+{
+  this->Observers->Filter->RemoveObserver(this->Observers->Command);
+  this->Observers->Filter->GetExecutive()->RemoveObserver(this->Observers->Silence);
+  delete this->Observers;
+}
+}

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Threads, progress, abort, and what becomes of exceptions.
+#include "TestGrids.h"
+
+#include "Error.h"
+#include "vtkExtractMorphBoundary.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkScaledJacobian.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkSMPTools.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+#include <stdexcept>
+
+namespace
+{
+/// Calls a function on each ProgressEvent.
+class OnProgress
+{
+public:
+  OnProgress(vtkAlgorithm* filter, std::function<void(double)> call)
+    : Call(std::move(call))
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* value)
+      { static_cast<OnProgress*>(self)->Call(*static_cast<double*>(value)); });
+    filter->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+  ~OnProgress() { this->Command->SetCallback(nullptr); }
+
+private:
+  std::function<void(double)> Call;
+  vtkNew<vtkCallbackCommand> Command;
+};
+}
+
+TEST(MorphExecution, ResultsDoNotDependOnTheThreads)
+{
+  morph::Mesh mesh = meshes::hexesAndPyramids(16, 16, 16);
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  auto grid = grids::make(mesh);
+  auto boundary = grids::boundary(grid, grids::twist);
+  morph::Points one;
+  double minimum = 0, mean = 0;
+  for (const int threads : { 1, 2, 4, 0 })
+  {
+    SCOPED_TRACE(threads);
+    vtkNew<vtkFEMWarpMorph> filter;
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(boundary);
+    filter->SetNumberOfThreads(threads);
+    filter->Update();
+    if (threads == 1)
+    {
+      one = grids::points(filter->GetOutput());
+      minimum = filter->GetMinScaledJacobian();
+      mean = filter->GetMeanScaledJacobian();
+      ASSERT_EQ(one.rows(), mesh.numberOfNodes());
+    }
+    EXPECT_TRUE(grids::points(filter->GetOutput()) == one);
+    EXPECT_EQ(filter->GetMinScaledJacobian(), minimum);
+    EXPECT_EQ(filter->GetMeanScaledJacobian(), mean);
+  }
+}
+
+TEST(MorphExecution, TheDefaultBackendIsLeftAlone)
+{
+  const std::string before = vtkSMPTools::GetBackend();
+  ASSERT_TRUE(vtkSMPTools::SetBackend("Sequential"));
+  auto grid = grids::hexes(20);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  filter->Update();
+  EXPECT_STREQ(vtkSMPTools::GetBackend(), "Sequential");
+  vtkSMPTools::SetBackend(before.c_str());
+}
+
+TEST(MorphExecution, ProgressGoesUp)
+{
+  auto grid = grids::hexes(16);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  std::vector<double> values;
+  OnProgress observer(filter, [&values](double value) { values.push_back(value); });
+  filter->Update();
+  ASSERT_GT(values.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
+  EXPECT_EQ(values.front(), 0);
+  EXPECT_EQ(values.back(), 1);
+}
+
+TEST(MorphExecution, AbortGivesAnEmptyOutputAndNoError)
+{
+  auto grid = grids::hexes(16);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  bool stop = true;
+  double last = 0;
+  OnProgress observer(filter,
+    [&](double value)
+    {
+      // The executive itself reports 1 at the end.
+      last = value < 1 ? value : last;
+      if (stop && value > 0.1)
+      {
+        filter->SetAbortExecute(1);
+      }
+    });
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetWorstCellId(), -1);
+  EXPECT_LT(last, 0.9);
+
+  stop = false;
+  filter->SetAbortExecute(0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 17 * 17 * 17);
+  EXPECT_TRUE(listener.Errors.empty());
+}
+
+TEST(MorphExecution, AbortIsSilentInTheOtherFiltersToo)
+{
+  auto grid = grids::hexes(4);
+  vtkNew<vtkExtractMorphBoundary> extract;
+  vtkNew<vtkScaledJacobian> quality;
+  for (vtkAlgorithm* filter :
+    { static_cast<vtkAlgorithm*>(extract), static_cast<vtkAlgorithm*>(quality) })
+  {
+    SCOPED_TRACE(filter->GetClassName());
+    filter->SetInputDataObject(grid);
+    bool stop = true;
+    OnProgress observer(filter,
+      [&](double)
+      {
+        if (stop)
+        {
+          filter->SetAbortExecute(1);
+        }
+      });
+    grids::Listener listener(filter);
+    auto* output = vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0));
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    EXPECT_EQ(output->GetNumberOfPoints(), 0);
+    EXPECT_EQ(output->GetNumberOfCells(), 0);
+
+    stop = false;
+    filter->SetAbortExecute(0);
+    filter->Modified();
+    filter->Update();
+    EXPECT_GT(output->GetNumberOfCells(), 0);
+    EXPECT_TRUE(listener.Errors.empty());
+  }
+  EXPECT_EQ(quality->GetMeasuredCells(), 64);
+}
+
+TEST(MorphExecution, WhateverIsThrownBecomesOneError)
+{
+  vtkNew<vtkFEMWarpMorph> filter;
+  grids::Listener listener(filter);
+  int cleared = 0;
+  const auto run = [&](const std::function<void()>& work)
+  { return vtkMorphExecution::Run(filter, "test this", work, [&cleared] { ++cleared; }); };
+
+  EXPECT_EQ(run([] {}), 1);
+  EXPECT_EQ(cleared, 0);
+  EXPECT_TRUE(listener.Errors.empty());
+
+  EXPECT_EQ(run([] { throw std::bad_alloc(); }), 0);
+  EXPECT_EQ(run([] { throw std::runtime_error("of a library"); }), 0);
+  EXPECT_EQ(run([] { throw morph::Error("Of ours."); }), 0);
+  EXPECT_EQ(cleared, 3);
+  ASSERT_EQ(listener.Errors.size(), 3u);
+  const char* expected[] = { "There is not enough memory to test this.",
+    "Unexpected failure: of a library", "Of ours." };
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NE(listener.Errors[i].find(expected[i]), std::string::npos) << listener.Errors[i];
+  }
+
+  EXPECT_EQ(run([] { throw morph::Error(morph::Error::Kind::Cancelled, "Cancelled."); }), 1);
+  EXPECT_EQ(cleared, 4);
+  EXPECT_EQ(listener.Errors.size(), 3u);
+}
+
+template <typename Monitor>
+class MorphMonitors : public testing::Test
+{
+};
+using BothMonitors = testing::Types<vtkMorphMonitor, vtkMorphCrewMonitor>;
+TYPED_TEST_SUITE(MorphMonitors, BothMonitors);
+
+TYPED_TEST(MorphMonitors, RangesCoverEverythingOnceAndKeepTheGrain)
+{
+  for (const int threads : { 1, 2, 0 })
+  {
+    TypeParam monitor(nullptr, threads);
+    for (const morph::Index n : { 0, 1, 99, 100, 101, 1000, 12345 })
+    {
+      std::vector<std::atomic<int>> hits(n);
+      std::atomic<int> tooShort(0);
+      monitor.parallelFor(n, 100,
+        [&](morph::Index first, morph::Index last)
+        {
+          tooShort += last - first < 100 && last != n;
+          for (morph::Index i = first; i < last; ++i)
+          {
+            ++hits[i];
+          }
+        });
+      EXPECT_EQ(tooShort, 0);
+      for (const auto& count : hits)
+      {
+        ASSERT_EQ(count, 1) << n << " with " << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(MorphCrewMonitor, ThousandsOfShortLoops)
+{
+  vtkMorphCrewMonitor monitor(nullptr, 2);
+  std::vector<double> sum(1000, 0);
+  for (int loop = 0; loop < 20000; ++loop)
+  {
+    monitor.parallelFor(1000, 100,
+      [&](morph::Index first, morph::Index last)
+      {
+        for (morph::Index i = first; i < last; ++i)
+        {
+          sum[i] += 1; // each loop sees what the one before has written
+        }
+      });
+  }
+  EXPECT_EQ(sum, std::vector<double>(1000, 20000));
+}
+
+TYPED_TEST(MorphMonitors, ExceptionsArriveInTheCallersThread)
+{
+  for (const int threads : { 1, 2 })
+  {
+    TypeParam monitor(nullptr, threads);
+    EXPECT_THROW(monitor.parallelFor(10000, 10,
+                   [](morph::Index first, morph::Index last)
+                   {
+                     if (first <= 7777 && 7777 < last)
+                     {
+                       throw std::runtime_error("here");
+                     }
+                   }),
+      std::runtime_error);
+    std::atomic<int> after(0);
+    monitor.parallelFor(10000, 10,
+      [&](morph::Index first, morph::Index last) { after += static_cast<int>(last - first); });
+    EXPECT_EQ(after, 10000);
+  }
+}
+
+TEST(MorphMonitor, ProgressIsMappedAndNeverFalls)
+{
+  vtkNew<vtkFEMWarpMorph> filter;
+  std::vector<double> values;
+  OnProgress observer(filter, [&values](double value) { values.push_back(value); });
+  vtkMorphMonitor monitor(filter, 1);
+  monitor.SetRange(0, 0.5);
+  monitor.progress(0.5);
+  monitor.progress(0.1);
+  monitor.progress(7);
+  monitor.SetRange(0.5, 1);
+  monitor.progress(0.5);
+  EXPECT_EQ(values, (std::vector<double>{ 0.25, 0.5, 0.75 }));
+}
+
+TEST(MorphMonitor, WarningsAreKeptOnce)
+{
+  vtkMorphMonitor monitor(nullptr, 1);
+  monitor.warn("a");
+  monitor.warn("b");
+  monitor.warn("a");
+  EXPECT_EQ(monitor.TakeWarnings(), (std::vector<std::string>{ "a", "b" }));
+  EXPECT_TRUE(monitor.TakeWarnings().empty());
+}

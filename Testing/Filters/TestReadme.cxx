@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
+
+#include "vtkExtractMorphBoundary.h"
+#include "vtkFEMWarpMorph.h"
+
+#include <vtkNew.h>
+#include <vtkTransform.h>
+#include <vtkTransformFilter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+TEST(Readme, CxxExample)
+{
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName("part.vtu");
+  writer->SetInputData(grids::make(meshes::hexes(4, 4, 4)));
+  writer->SetDataModeToBinary();
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkTransform> shear;
+  const double sheared[16] = { 1, 0, 0, 0, .1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  shear->SetMatrix(sheared);
+
+  std::ostringstream printed;
+  std::streambuf* screen = std::cout.rdbuf(printed.rdbuf());
+#include "ReadmeExample.inc" // made from README.md
+  std::cout.rdbuf(screen);
+  std::remove("part.vtu");
+
+  std::istringstream numbers(printed.str());
+  double minimum = 0;
+  int inverted = -1;
+  ASSERT_TRUE(numbers >> minimum >> inverted) << printed.str();
+  // std::cout shows six digits.
+  EXPECT_NEAR(minimum, 1 / std::hypot(1, .1), 1e-5);
+  EXPECT_EQ(inverted, 0);
+}

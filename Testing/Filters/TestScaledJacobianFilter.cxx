@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkScaledJacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkMeshQuality.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+using Corners = std::vector<std::array<double, 3>>;
+
+const Corners Cube = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+  { 1, 1, 1 }, { 0, 1, 1 } };
+const Corners RightTet = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+const Corners UnitTriangle = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, std::sqrt(.75), 0 } };
+const Corners PyramidCorners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+  { .5, .5, std::sqrt(.5) } };
+
+unsigned seed()
+{
+  const char* text = std::getenv("MORPH_TEST_SEED");
+  const unsigned value = text ? static_cast<unsigned>(std::atoi(text)) : 4711;
+  std::cout << "random seed " << value << " (MORPH_TEST_SEED sets another)\n";
+  return value;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> emptyGrid(int precision = VTK_DOUBLE)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(precision);
+  grid->SetPoints(points);
+  return grid;
+}
+
+/// A cell with its own points: it is a body of its own.
+void add(vtkUnstructuredGrid* grid, int type, const Corners& corners, double shift = 0)
+{
+  std::vector<vtkIdType> ids;
+  for (const auto& x : corners)
+  {
+    ids.push_back(grid->GetPoints()->InsertNextPoint(x[0] + shift, x[1], x[2]));
+  }
+  grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
+}
+
+Corners jittered(Corners corners, double size, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> jitter(-size, size);
+  for (auto& x : corners)
+  {
+    for (double& c : x)
+    {
+      c += jitter(random);
+    }
+  }
+  return corners;
+}
+
+double field(vtkDataObject* output, const char* name)
+{
+  vtkDataArray* array = output->GetFieldData()->GetArray(name);
+  EXPECT_NE(array, nullptr) << name;
+  EXPECT_EQ(array->GetNumberOfTuples(), 1) << name;
+  return array->GetTuple1(0);
+}
+
+vtkDataArray* quality(vtkUnstructuredGrid* output)
+{
+  return output->GetCellData()->GetArray("ScaledJacobian");
+}
+
+/// Counts an algorithm's errors or warnings and keeps the text.
+struct Messages
+{
+  Messages(vtkObject* object, unsigned long event)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      {
+        ++static_cast<Messages*>(self)->Count;
+        static_cast<Messages*>(self)->Text += static_cast<const char*>(text);
+      });
+    object->AddObserver(event, this->Command);
+  }
+  vtkNew<vtkCallbackCommand> Command;
+  int Count = 0;
+  std::string Text;
+};
+}
+
+TEST(ScaledJacobianFilter, AgreesWithVerdictOnRandomValidCells)
+{
+  std::mt19937 random(seed());
+  auto grid = emptyGrid();
+  for (int i = 0; i < 2000; ++i)
+  {
+    add(grid, VTK_TETRA, jittered(RightTet, .3, random));
+    add(grid, VTK_HEXAHEDRON, jittered(Cube, .35, random));
+  }
+  vtkNew<vtkMeshQuality> verdict;
+  verdict->SetInputData(grid);
+  verdict->SetTetQualityMeasureToScaledJacobian();
+  verdict->SetHexQualityMeasureToScaledJacobian();
+  verdict->Update();
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkDataArray* theirs = verdict->GetOutput()->GetCellData()->GetArray("Quality");
+  vtkDataArray* ours = quality(filter->GetOutput());
+  int valid[2] = {};
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    // Body signs aside (every cell here is a body): hexes and tets that Verdict calls valid.
+    if (theirs->GetTuple1(c) > 0)
+    {
+      ++valid[c % 2];
+      ASSERT_NEAR(ours->GetTuple1(c), theirs->GetTuple1(c), 1e-12) << "cell " << c;
+    }
+  }
+  EXPECT_GT(valid[0], 1000);
+  EXPECT_GT(valid[1], 1000);
+}
+
+TEST(ScaledJacobianFilter, NumbersInArrayFieldDataAndGetters)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_HEXAHEDRON, Cube);
+  add(grid, VTK_TETRA, RightTet, 2);
+  add(grid, VTK_TETRA, { RightTet[1], RightTet[0], RightTet[2], RightTet[3] }, 4);
+  add(grid, VTK_TETRA, { RightTet[0], RightTet[0], RightTet[2], RightTet[3] }, 6);
+  vtkNew<vtkScaledJacobian> filter;
+  EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
+  EXPECT_EQ(filter->GetWorstCellId(), -1);
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  vtkDataArray* values = quality(output);
+  ASSERT_NE(values, nullptr);
+  EXPECT_EQ(values->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(output->GetCellData()->GetScalars(), values);
+  const double root = std::sqrt(.5);
+  EXPECT_NEAR(values->GetTuple1(0), 1, 1e-14);
+  EXPECT_NEAR(values->GetTuple1(1), root, 1e-14);
+  EXPECT_NEAR(values->GetTuple1(2), -root, 1e-14);
+  EXPECT_EQ(values->GetTuple1(3), 0);
+
+  EXPECT_NEAR(filter->GetMinScaledJacobian(), -root, 1e-14);
+  EXPECT_NEAR(filter->GetMeanScaledJacobian(), .25, 1e-14);
+  EXPECT_EQ(filter->GetMeasuredCells(), 4);
+  EXPECT_EQ(filter->GetInvertedCells(), 1);
+  EXPECT_EQ(filter->GetDegenerateCells(), 1);
+  EXPECT_EQ(filter->GetWorstCellId(), 2);
+  EXPECT_EQ(filter->GetUnmeasuredCells(), 0);
+  EXPECT_EQ(filter->GetMirroredBodies(), 0);
+  EXPECT_EQ(field(output, "MinScaledJacobian"), filter->GetMinScaledJacobian());
+  EXPECT_EQ(field(output, "MeanScaledJacobian"), filter->GetMeanScaledJacobian());
+  EXPECT_EQ(field(output, "InvertedCells"), 1);
+  EXPECT_EQ(field(output, "DegenerateCells"), 1);
+  EXPECT_EQ(field(output, "WorstCellId"), 2);
+  EXPECT_EQ(field(output, "MirroredBodies"), 0);
+
+  std::ostringstream printed;
+  filter->Print(printed);
+  EXPECT_NE(printed.str().find("InvertedCells: 1"), std::string::npos);
+}
+
+TEST(ScaledJacobianFilter, InputStaysAsItWas)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_HEXAHEDRON, Cube);
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("Height");
+  height->SetNumberOfValues(8);
+  height->Fill(1);
+  grid->GetPointData()->SetScalars(height);
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  const vtkMTimeType before = grid->GetMTime();
+  filter->Update();
+  EXPECT_EQ(grid->GetMTime(), before);
+  EXPECT_EQ(grid->GetCellData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(grid->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(grid->GetPointData()->GetScalars(), height.Get());
+  // The array travels on, but is not what a viewer colors by.
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Height"), height.Get());
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetScalars(), nullptr);
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), grid->GetPoints());
+}
+
+TEST(ScaledJacobianFilter, GhostCellsAreNotMeasured)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_HEXAHEDRON, Cube);
+  add(grid, VTK_TETRA, RightTet, 2);
+  add(grid, VTK_TETRA, { RightTet[1], RightTet[0], RightTet[2], RightTet[3] }, 4);
+  add(grid, VTK_TETRA, RightTet, 6);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (int flag : { 0, static_cast<int>(vtkDataSetAttributes::DUPLICATECELL),
+         static_cast<int>(vtkDataSetAttributes::HIDDENCELL),
+         static_cast<int>(vtkDataSetAttributes::REFINEDCELL) })
+  {
+    ghosts->InsertNextValue(static_cast<unsigned char>(flag));
+  }
+  grid->GetCellData()->AddArray(ghosts);
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  Messages warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(warnings.Count, 0) << warnings.Text;
+  EXPECT_EQ(filter->GetMeasuredCells(), 2);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_EQ(filter->GetUnmeasuredCells(), 0);
+  EXPECT_TRUE(std::isnan(quality(filter->GetOutput())->GetTuple1(1)));
+  EXPECT_TRUE(std::isnan(quality(filter->GetOutput())->GetTuple1(2)));
+}
+
+TEST(ScaledJacobianFilter, VoxelsAreHexahedra)
+{
+  Corners shifted = Cube;
+  for (auto& x : shifted)
+  {
+    x = { x[0] + .5 * x[2], 2 * x[1], x[2] };
+  }
+  auto hex = emptyGrid(), voxel = emptyGrid();
+  add(hex, VTK_HEXAHEDRON, shifted);
+  add(voxel, VTK_VOXEL,
+    { shifted[0], shifted[1], shifted[3], shifted[2], shifted[4], shifted[5], shifted[7],
+      shifted[6] });
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(hex);
+  filter->Update();
+  const double expected = filter->GetMinScaledJacobian();
+  EXPECT_NEAR(expected, 1 / std::sqrt(1.25), 1e-14);
+  filter->SetInputData(voxel);
+  filter->Update();
+  EXPECT_EQ(filter->GetMinScaledJacobian(), expected);
+  EXPECT_EQ(filter->GetMirroredBodies(), 0);
+}
+
+TEST(ScaledJacobianFilter, LowerDimensionsAreNaNAmongVolumes)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_LINE, { { 0, 0, 0 }, { 1, 0, 0 } });
+  add(grid, VTK_TRIANGLE, UnitTriangle);
+  add(grid, VTK_HEXAHEDRON, Cube);
+  vtkNew<vtkScaledJacobian> filter;
+  Messages warnings(filter, vtkCommand::WarningEvent);
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkDataArray* values = quality(filter->GetOutput());
+  EXPECT_TRUE(std::isnan(values->GetTuple1(0)));
+  EXPECT_TRUE(std::isnan(values->GetTuple1(1)));
+  EXPECT_EQ(filter->GetMeasuredCells(), 1);
+  EXPECT_EQ(filter->GetWorstCellId(), 2);
+  EXPECT_EQ(warnings.Count, 0) << warnings.Text;
+}
+
+TEST(ScaledJacobianFilter, SurfacesAreMeasured)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_LINE, { { 0, 0, 0 }, { 1, 0, 0 } });
+  add(grid, VTK_TRIANGLE, UnitTriangle);
+  add(grid, VTK_QUAD, { { 0, 0, 0 }, { 1, 0, 0 }, { .2, .2, 0 }, { 0, 1, 0 } });
+  add(grid, VTK_PIXEL, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 } });
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkDataArray* values = quality(filter->GetOutput());
+  EXPECT_TRUE(std::isnan(values->GetTuple1(0)));
+  EXPECT_NEAR(values->GetTuple1(1), 1, 1e-14);
+  EXPECT_NEAR(values->GetTuple1(2), -15. / 17, 1e-14);
+  EXPECT_NEAR(values->GetTuple1(3), 1, 1e-14);
+  EXPECT_EQ(filter->GetInvertedCells(), 1);
+}
+
+TEST(ScaledJacobianFilter, UnknownCellsAreNamedAndCounted)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_TRIANGLE, UnitTriangle);
+  const vtkIdType first = grid->GetNumberOfPoints();
+  for (const auto& x : RightTet)
+  {
+    grid->GetPoints()->InsertNextPoint(x.data());
+  }
+  const vtkIdType faces[] = { 3, first, first + 2, first + 1, 3, first, first + 1, first + 3, 3,
+    first + 1, first + 2, first + 3, 3, first, first + 3, first + 2 };
+  grid->InsertNextCell(VTK_POLYHEDRON, 4, faces);
+  vtkNew<vtkScaledJacobian> filter;
+  Messages warnings(filter, vtkCommand::WarningEvent), errors(filter, vtkCommand::ErrorEvent);
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 0) << errors.Text;
+  EXPECT_EQ(warnings.Count, 1);
+  EXPECT_NE(warnings.Text.find("olyhedron"), std::string::npos) << warnings.Text;
+  EXPECT_EQ(filter->GetUnmeasuredCells(), 1);
+  // Not judged by its boundary triangle
+  EXPECT_EQ(filter->GetMeasuredCells(), 0);
+  EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
+  EXPECT_TRUE(std::isnan(quality(filter->GetOutput())->GetTuple1(1)));
+
+  add(grid, VTK_HEXAHEDRON, Cube, 3);
+  add(grid, VTK_PENTAGONAL_PRISM, Corners(10, { 0, 0, 0 }), 3);
+  grid->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetMeasuredCells(), 1);
+  EXPECT_EQ(filter->GetUnmeasuredCells(), 2);
+  EXPECT_EQ(warnings.Count, 2);
+}
+
+TEST(ScaledJacobianFilter, MirroredBodiesAreValidAndReported)
+{
+  // Two hexes in a row, mirrored as a whole; the second body has one tet turned inside out.
+  auto grid = emptyGrid();
+  for (int k = 0; k < 3; ++k)
+  {
+    for (const auto& x : { Cube[0], Cube[3], Cube[7], Cube[4] })
+    {
+      grid->GetPoints()->InsertNextPoint(-k, x[1], x[2]);
+    }
+  }
+  for (vtkIdType k = 0; k < 2; ++k)
+  {
+    const vtkIdType b = 4 * k, t = b + 4;
+    const vtkIdType ids[] = { b, t, t + 1, b + 1, b + 3, t + 3, t + 2, b + 2 };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  }
+  add(grid, VTK_PYRAMID, PyramidCorners, 5);
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 1e-14);
+  EXPECT_EQ(filter->GetMirroredBodies(), 1);
+  EXPECT_EQ(field(filter->GetOutput(), "MirroredBodies"), 1);
+}
+
+TEST(ScaledJacobianFilter, FloatPointsAreMeasuredAsTheyAre)
+{
+  std::mt19937 random(seed());
+  auto floats = emptyGrid(VTK_FLOAT), doubles = emptyGrid();
+  for (int i = 0; i < 50; ++i)
+  {
+    add(floats, VTK_HEXAHEDRON, jittered(Cube, .3, random));
+  }
+  doubles->GetPoints()->DeepCopy(floats->GetPoints());
+  doubles->SetCells(VTK_HEXAHEDRON, floats->GetCells());
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(floats);
+  filter->Update();
+  vtkNew<vtkDoubleArray> values;
+  values->DeepCopy(quality(filter->GetOutput()));
+  filter->SetInputData(doubles);
+  filter->Update();
+  for (vtkIdType c = 0; c < values->GetNumberOfTuples(); ++c)
+  {
+    EXPECT_EQ(values->GetValue(c), quality(filter->GetOutput())->GetTuple1(c));
+  }
+}
+
+TEST(ScaledJacobianFilter, ThreadCountDoesNotShow)
+{
+  std::mt19937 random(seed());
+  auto grid = emptyGrid();
+  for (int i = 0; i < 20000; ++i)
+  {
+    add(grid, VTK_HEXAHEDRON, jittered(Cube, .5, random));
+  }
+  std::vector<double> expected;
+  double mean = 0;
+  for (int threads : { 1, 2, 4, 0 })
+  {
+    vtkNew<vtkScaledJacobian> filter;
+    filter->SetNumberOfThreads(threads);
+    EXPECT_EQ(filter->GetNumberOfThreads(), threads);
+    filter->SetInputData(grid);
+    filter->Update();
+    auto* values = vtkDoubleArray::SafeDownCast(quality(filter->GetOutput()));
+    std::vector<double> found(values->GetPointer(0), values->GetPointer(0) + 20000);
+    if (expected.empty())
+    {
+      expected = found;
+      mean = filter->GetMeanScaledJacobian();
+    }
+    EXPECT_EQ(found, expected) << threads << " threads";
+    EXPECT_EQ(filter->GetMeanScaledJacobian(), mean);
+  }
+}
+
+TEST(ScaledJacobianFilter, CompositeInputIsRefused)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  auto grid = emptyGrid();
+  add(grid, VTK_HEXAHEDRON, Cube);
+  blocks->SetBlock(0, grid);
+  vtkNew<vtkScaledJacobian> filter;
+  Messages errors(filter, vtkCommand::ErrorEvent);
+  filter->SetInputDataObject(blocks);
+  Messages pipeline(filter->GetExecutive(), vtkCommand::ErrorEvent);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_NE(errors.Text.find("Merge Blocks"), std::string::npos) << errors.Text;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_EQ(filter->GetMeasuredCells(), 1);
+
+  // After an error no numbers of the grid before remain.
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 2);
+  EXPECT_EQ(filter->GetMeasuredCells(), 0);
+  EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
+}
+
+TEST(ScaledJacobianFilter, BadGridsGiveOneError)
+{
+  auto notFinite = emptyGrid();
+  add(notFinite, VTK_TETRA, RightTet);
+  notFinite->GetPoints()->SetPoint(2, 0, std::numeric_limits<double>::quiet_NaN(), 0);
+  auto outOfRange = emptyGrid();
+  add(outOfRange, VTK_TETRA, RightTet);
+  const vtkIdType ids[] = { 0, 1, 2, 17 };
+  outOfRange->InsertNextCell(VTK_TETRA, 4, ids);
+  for (vtkUnstructuredGrid* grid : { notFinite.Get(), outOfRange.Get() })
+  {
+    vtkNew<vtkScaledJacobian> filter;
+    Messages errors(filter, vtkCommand::ErrorEvent);
+    Messages pipeline(filter->GetExecutive(), vtkCommand::ErrorEvent);
+    filter->SetInputData(grid);
+    filter->Update();
+    EXPECT_EQ(errors.Count, 1) << errors.Text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  }
+}
+
+TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkScaledJacobian> filter;
+  Messages errors(filter, vtkCommand::ErrorEvent);
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 0) << errors.Text;
+  EXPECT_EQ(filter->GetMeasuredCells(), 0);
+  EXPECT_EQ(filter->GetWorstCellId(), -1);
+  EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
+}

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the demo as a user does, with three steps of time, and checks what it prints and writes."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "Data"))
+from Models import bore, bore_mesh  # noqa: E402  (needs the path above)
+
+
+def read(path):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(grid):
+    return vtk_to_numpy(grid.GetPoints().GetData())
+
+
+def number(grid, name):
+    return grid.GetFieldData().GetArray(name).GetValue(0)
+
+
+def verdict(grid):
+    quality = vtkMeshQuality()
+    quality.SetTetQualityMeasureToScaledJacobian()
+    quality.SetHexQualityMeasureToScaledJacobian()
+    quality.SetInputData(grid)
+    quality.Update()
+    return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
+
+
+class Demo(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.output = Path(cls.folder.name) / "made" / "here"
+        cls.process = subprocess.run(
+            ["xvfb-run", "-a", "-s", "-noreset -screen 0 1280x1024x24",
+             "pvpython", "--force-offscreen-rendering", str(ROOT / "Utilities" / "demo.py"),
+             "--plugin", os.environ["MESHMORPHING_PLUGIN"],
+             "--output", str(cls.output), "--steps", "2"],
+            capture_output=True, text=True, timeout=250)
+        cls.models = {"bore_hex": bore_mesh.hex_mesh(), "bore_tet": bore_mesh.tet_mesh()}
+
+    def test_runs_without_a_complaint(self):
+        self.assertEqual(self.process.returncode, 0, self.process.stderr)
+        self.assertEqual(self.process.stderr.strip(), "")
+        self.assertIn(str(self.output), self.process.stdout)
+
+    def test_quality(self):
+        # Minima from an independent implementation of the method on the same meshes.
+        expected = {"bore_hex": (0.8016, 0.3461), "bore_tet": (0.2001, 0.0080)}
+        for name, (initial, final) in expected.items():
+            for state, minimum in (("before", initial), ("after", final)):
+                with self.subTest(name=name, state=state):
+                    grid = read(self.output / f"{name}_{state}.vtu")
+                    self.assertAlmostEqual(number(grid, "MinScaledJacobian"), minimum, delta=2e-4)
+                    self.assertEqual(number(grid, "InvertedCells"), 0)
+                    measured = vtk_to_numpy(grid.GetCellData().GetArray("ScaledJacobian"))
+                    self.assertLess(np.abs(measured - verdict(grid)).max(), 1e-12)
+                    self.assertIn(f"{number(grid, 'MinScaledJacobian'):.4f}", self.process.stdout)
+
+    def test_positions(self):
+        for name, (mesh, nodes, places) in self.models.items():
+            with self.subTest(name=name):
+                before = points_of(read(self.output / f"{name}_before.vtu"))
+                after = points_of(read(self.output / f"{name}_after.vtu"))
+                self.assertTrue(np.array_equal(after[nodes], places.positions(bore.S_F)))
+                self.assertTrue(np.array_equal(before, mesh.points))
+
+    def test_series_plays_in_paraview(self):
+        for name, halfway in (("bore_hex", 0.5380), ("bore_tet", 0.0422)):
+            with self.subTest(name=name):
+                reader = simple.PVDReader(FileName=str(self.output / f"{name}.pvd"))
+                self.assertEqual(list(reader.TimestepValues), [0.0, 0.5, 1.0])
+                reader.UpdatePipeline(0.5)
+                grid = reader.GetClientSideObject().GetOutputDataObject(0)
+                self.assertAlmostEqual(number(grid, "MinScaledJacobian"), halfway, delta=2e-4)
+
+    def test_picture(self):
+        reader = vtkPNGReader()
+        reader.SetFileName(str(self.output / "bore-femwarp.png"))
+        reader.Update()
+        image = reader.GetOutput()
+        self.assertEqual(image.GetDimensions(), (1600, 860, 1))
+        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).astype(int)
+        painted = np.count_nonzero(pixels.min(axis=1) < 250) / len(pixels)
+        self.assertGreater(painted, 0.35)
+        self.assertGreater(np.count_nonzero(np.ptp(pixels, axis=1) > 60) / len(pixels), 0.2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

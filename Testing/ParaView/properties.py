@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every property of every proxy in Plugin/*.xml: documented, set to another value than its default, and found again in
+the VTK object, which prints its parameters. Server-manager XML is not compiled: nothing else reads all of it.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython properties.py
+"""
+import math
+import os
+import re
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from paraview import simple
+
+PLUGIN = Path(__file__).resolve().parents[2] / "Plugin"
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+
+def proxies():
+    """The XML element of each proxy."""
+    found = []
+    for path in sorted(PLUGIN.glob("*.xml")):
+        found += ElementTree.parse(path).getroot().iter("SourceProxy")
+    return found
+
+
+def properties(proxy):
+    return [p for p in proxy if p.tag.endswith("VectorProperty")]
+
+
+def printed(filter_proxy, name):
+    """What the VTK object prints for a parameter: the text after "name: "."""
+    text = str(filter_proxy.GetClientSideObject())
+    match = re.search(rf"^ *{name}: (.*)$", text, re.MULTILINE)
+    assert match, f"{name} is not in:\n{text}"
+    return match.group(1)
+
+
+def another_value(xml, filter_proxy):
+    """A legal value that is not the property's default."""
+    default = xml.get("default_values")
+    if xml.tag == "StringVectorProperty":
+        return [v for v in filter_proxy.GetProperty(xml.get("name")).GetAvailable() if v != default][0]
+    if xml.find("EnumerationDomain") is not None:
+        return next(int(e.get("value")) for e in xml.find("EnumerationDomain")
+                    if e.get("value") != default)
+    if xml.find("BooleanDomain") is not None:
+        return 1 - int(default)
+    if xml.tag == "DoubleVectorProperty":
+        return 0.5 * float(default) if abs(float(default)) > 1e200 else 0.5 * float(default) + 0.125
+    return int(default) + 3
+
+
+def same(value, text):
+    if isinstance(value, str):
+        return value == text
+    return math.isclose(value, float(text), rel_tol=1e-4) or (math.isnan(value) and "nan" in text)
+
+
+class Properties(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        grid = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])])
+        boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid),
+                                     Function="iHat*coordsX*0.1", ResultArrayName="Shift")
+        boundary.UpdatePipeline()
+        cls.inputs = {"Input": grid, "Boundary": boundary}
+
+    def create(self, xml):
+        names = [p.get("name") for p in xml.iter("InputProperty")]
+        create = globals()[xml.get("label").replace(" ", "")]
+        return create(**{name: self.inputs[name] for name in names})
+
+    def test_every_proxy_has_texts_and_a_place_in_the_menu(self):
+        self.assertGreaterEqual(len(proxies()), 3)
+        for xml in proxies():
+            with self.subTest(proxy=xml.get("name")):
+                documentation = xml.find("Documentation")
+                self.assertTrue(documentation.text.strip())
+                self.assertTrue(documentation.get("short_help"))
+                self.assertTrue(documentation.get("long_help"))
+                self.assertEqual(xml.find("Hints/ShowInMenu").get("category"), "Mesh Morphing")
+                for p in list(xml.iter("InputProperty")) + properties(xml):
+                    text = p.findtext("Documentation", "")
+                    self.assertTrue(text.strip(), p.get("name"))
+                    # reStructuredText: an indented line would start a quotation.
+                    self.assertFalse([line for line in text.splitlines()[1:-1] if line[:1] == " "],
+                                     p.get("name"))
+
+    def test_defaults_in_xml_are_those_of_the_class(self):
+        for xml in proxies():
+            for p in properties(xml):
+                if p.get("information_only") == "1" or p.tag == "StringVectorProperty":
+                    continue
+                with self.subTest(proxy=xml.get("name"), property=p.get("name")):
+                    self.assertTrue(same(float(p.get("default_values")),
+                                         printed(self.create(xml), p.get("name"))))
+
+    def test_every_property_is_set_and_read_back(self):
+        tested = 0
+        for xml in proxies():
+            for p in properties(xml):
+                if p.get("information_only") == "1":
+                    continue
+                with self.subTest(proxy=xml.get("name"), property=p.get("name")):
+                    filter_proxy = self.create(xml)
+                    value = another_value(p, filter_proxy)
+                    before = printed(filter_proxy, p.get("name"))
+                    setattr(filter_proxy, p.get("name"), value)
+                    filter_proxy.UpdateVTKObjects()
+                    after = printed(filter_proxy, p.get("name"))
+                    self.assertNotEqual(before, after)
+                    self.assertTrue(same(value, after), f"{value} became {after}")
+                    self.assertEqual(filter_proxy.SMProxy.GetProperty(p.get("name")).GetElement(0), value)
+                    tested += 1
+        self.assertGreaterEqual(tested, 11)
+
+    def test_every_number_in_the_panel_is_that_of_the_filter(self):
+        for xml in proxies():
+            filter_proxy = self.create(xml)
+            filter_proxy.UpdatePipeline()
+            filter_proxy.UpdatePropertyInformation()
+            for p in properties(xml):
+                if p.get("information_only") == "1":
+                    with self.subTest(proxy=xml.get("name"), property=p.get("name")):
+                        shown = getattr(filter_proxy, p.get("name"))
+                        self.assertTrue(same(shown, printed(filter_proxy, p.get("name"))), shown)
+
+
+if __name__ == "__main__":
+    unittest.main()

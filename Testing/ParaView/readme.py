@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""README.md's pvpython example, run as a user would run it: in a folder that holds part.vtu.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython readme.py
+"""
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview import simple
+
+README = Path(__file__).resolve().parents[2] / "README.md"
+PLUGIN = Path(os.environ["MESHMORPHING_PLUGIN"])
+
+
+class Readme(unittest.TestCase):
+    def test_pvpython_example(self):
+        blocks = re.findall(r"^```python\n(.*?)^```", README.read_text(encoding="utf-8"),
+                            re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 1)
+        paths = re.findall(r'LoadPlugin\("(.*?)"', blocks[0])
+        self.assertEqual(len(paths), 1)
+        # The folder before these, lib, depends on the install prefix.
+        self.assertEqual(Path(paths[0]).parts[-4:], PLUGIN.parts[-4:])
+
+        with tempfile.TemporaryDirectory() as folder:
+            part = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6])])
+            # Appended data, the default, cannot be read back with Debian's expat.
+            simple.SaveData(os.path.join(folder, "part.vtu"), proxy=part, DataMode="Binary")
+            script = Path(folder, "example.py")
+            script.write_text(blocks[0].replace(paths[0], str(PLUGIN)), encoding="utf-8")
+            result = subprocess.run([shutil.which("pvpython"), str(script)], cwd=folder,
+                                    capture_output=True, text=True, timeout=120)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+            saved = simple.LegacyVTKReader(FileNames=[os.path.join(folder, "part-moved.vtk")])
+            saved.UpdatePipeline()
+            information = saved.GetDataInformation()
+
+        # Cubes whose upper faces move aside by a tenth of their side, and none inside out.
+        minimum, inverted = map(float, result.stdout.split())
+        self.assertAlmostEqual(minimum, 1 / math.hypot(1, 0.1), delta=1e-6)
+        self.assertEqual(inverted, 0)
+        self.assertEqual(information.GetNumberOfCells(), 6 ** 3)
+        for bound, expected in zip(information.GetBounds(), (0, 6, 0, 6.6, 0, 6)):
+            self.assertAlmostEqual(bound, expected, delta=1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()

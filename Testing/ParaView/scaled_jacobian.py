@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Scaled Jacobian filter as a pvpython script uses it: numbers, colors, properties.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython scaled_jacobian.py
+"""
+import math
+import os
+import sys
+import unittest
+
+from paraview.simple import *
+from paraview import servermanager
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
+
+LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+
+def hexes(shear, inverted):
+    """Two separate pairs of unit cubes in one grid: one sheared along x by `shear`, one whose second cube has its last
+    corner pushed through the bottom if `inverted`."""
+    points, grid = vtkPoints(), vtkUnstructuredGrid()
+    points.SetDataTypeToDouble()
+    lattice = {}
+
+    def node(i, j, k, offset):
+        key = (i, j, k, offset)
+        if key not in lattice:
+            x, z = i + offset, float(k)
+            if offset:
+                x += shear * k
+            elif inverted and (i, j, k) == (2, 1, 1):
+                z = -1.0
+            lattice[key] = points.InsertNextPoint(x, j, z)
+        return lattice[key]
+
+    for offset in (0, 10):
+        for i in (0, 1):
+            ids = [node(i + a, b, c, offset)
+                   for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0),
+                                   (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+            grid.InsertNextCell(VTK_HEXAHEDRON, 8, ids)
+    grid.SetPoints(points)
+    return grid
+
+
+def source(grid):
+    producer = TrivialProducer()
+    producer.GetClientSideObject().SetOutput(grid)
+    producer.UpdatePipeline()
+    return producer
+
+
+class ScaledJacobianTest(unittest.TestCase):
+    def test_numbers_in_panel_and_field_data(self):
+        quality = ScaledJacobian(Input=source(hexes(1.0, True)))
+        quality.UpdatePipeline()
+        quality.UpdatePropertyInformation()
+        output = servermanager.Fetch(quality)
+        values = output.GetCellData().GetArray("ScaledJacobian")
+        self.assertAlmostEqual(values.GetValue(0), 1.0, places=14)
+        self.assertLess(values.GetValue(1), 0.0)
+        self.assertAlmostEqual(values.GetValue(2), math.sqrt(0.5), places=14)
+        self.assertEqual(output.GetCellData().GetScalars().GetName(), "ScaledJacobian")
+
+        self.assertEqual(quality.MinScaledJacobian, values.GetValue(1))
+        self.assertAlmostEqual(quality.MeanScaledJacobian,
+                               sum(values.GetValue(c) for c in range(4)) / 4, places=14)
+        self.assertEqual(quality.MeasuredCells, 4)
+        self.assertEqual(quality.InvertedCells, 1)
+        self.assertEqual(quality.DegenerateCells, 0)
+        self.assertEqual(quality.WorstCellId, 1)
+        self.assertEqual(quality.UnmeasuredCells, 0)
+        self.assertEqual(quality.MirroredBodies, 0)
+        for name in ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "DegenerateCells",
+                     "WorstCellId", "MirroredBodies"):
+            self.assertEqual(output.GetFieldData().GetArray(name).GetTuple1(0),
+                             getattr(quality, name), name)
+
+    def test_number_of_threads_is_set_and_read_back(self):
+        quality = ScaledJacobian(Input=source(hexes(0.5, False)))
+        self.assertEqual(quality.NumberOfThreads, 0)
+        quality.NumberOfThreads = 3
+        quality.UpdatePipeline()
+        self.assertEqual(quality.NumberOfThreads, 3)
+        self.assertIn("NumberOfThreads: 3\n", str(quality.GetClientSideObject()))
+        with self.assertRaises(Exception):
+            quality.MinScaledJacobian = 1.0
+
+    def test_arrives_colored_with_the_break_at_zero(self):
+        quality = ScaledJacobian(Input=source(hexes(1.0, True)))
+        view = CreateRenderView()
+        self.addCleanup(Delete, view)
+        display = Show(quality, view)
+        Render(view)
+        self.assertEqual(list(display.ColorArrayName), ["CELLS", "ScaledJacobian"])
+        colors = GetColorTransferFunction("ScaledJacobian")
+        table = colors.GetClientSideObject()
+        self.assertEqual(list(table.GetRange()), [-1.0, 1.0])
+        below, above, best = [0] * 3, [0] * 3, [0] * 3
+        table.GetColor(-0.01, below)
+        table.GetColor(0.01, above)
+        table.GetColor(1.0, best)
+        # Magenta below; no blue in the poorest valid cells; blue in the best.
+        self.assertGreater(min(below[0], below[2]), 0.9)
+        self.assertLess(above[2], 0.3)
+        self.assertGreater(best[2] - best[0], 0.4)
+
+        # The range stays where it is when the data change.
+        Render(view)
+        display.RescaleTransferFunctionToDataRange(False, False)
+        self.assertEqual(list(table.GetRange()), [-1.0, 1.0])
+
+    def test_a_users_own_colors_for_other_arrays_are_left_alone(self):
+        table = GetColorTransferFunction("SomethingElse")
+        self.assertNotEqual(table.AutomaticRescaleRangeMode, "Never")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

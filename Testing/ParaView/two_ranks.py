@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""pvbatch on two MPI ranks: a mesh on both is refused with one error and without a deadlock; a mesh on one of them is morphed.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython two_ranks.py
+The same file is the job that the ranks run: mpiexec -n 2 pvbatch two_ranks.py (distributed | one_rank | later_error) FILE
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from paraview import simple
+from paraview.simple import (AppendDatasets, LoadPlugin, PointDatatoCellData, Transform, Wavelet,
+                             XMLUnstructuredGridReader)
+
+LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+
+def distributed(_):
+    """Wavelet gives each rank a piece."""
+    grid = AppendDatasets(Input=[Wavelet(WholeExtent=[0, 8, 0, 8, 0, 8])])
+    grid.UpdatePipeline()
+    return grid
+
+
+def one_rank(path):
+    """A file of one piece is read by rank 0."""
+    return XMLUnstructuredGridReader(FileName=[path])
+
+
+def job(case, path):
+    grid = distributed(path) if case == "distributed" else one_rank(path)
+    moved = Transform(Input=ExtractMorphBoundary(Input=grid))
+    moved.Transform.Scale = [2, 1, 1]
+    if case == "distributed":
+        # The morph itself has to refuse as well: its boundary is the mesh, moved.
+        moved = Transform(Input=grid)
+        extracted = ExtractMorphBoundary(Input=grid)
+        extracted.UpdatePipeline()
+        print("BOUNDARY", extracted.GetDataInformation().GetNumberOfPoints(), flush=True)
+    morph = MorphFEMWARP(Input=grid, Boundary=moved)
+    if case == "later_error":
+        morph.BoundaryIdArray = "Nowhere"
+    # A filter that follows must neither hang nor get half a result.
+    last = PointDatatoCellData(Input=MorphFEMWARP(Input=morph, Boundary=moved)
+                               if case == "later_error" else morph)
+    last.UpdatePipeline()
+    info = morph.GetDataInformation()
+    bounds = [round(b, 6) for b in info.GetBounds()] if info.GetNumberOfPoints() else None
+    print("RESULT", info.GetNumberOfPoints(), bounds, flush=True)
+
+
+class TwoRanks(unittest.TestCase):
+    def run_ranks(self, case):
+        # This process is an MPI process of its own, and says so in its environment.
+        environment = {name: value for name, value in os.environ.items()
+                       if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
+        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "grid.vtu")
+            grid = distributed(None)
+            # Debian's expat cannot read raw appended data back.
+            simple.SaveData(path, proxy=grid, DataMode="Binary")
+            result = subprocess.run(
+                [shutil.which("mpiexec"), "--oversubscribe", "-n", "2", shutil.which("pvbatch"),
+                 os.path.abspath(__file__), case, path],
+                env=environment, capture_output=True, text=True, timeout=120)
+        return result.stdout + result.stderr
+
+    def test_cells_on_both_ranks_are_one_error_each_filter_and_no_result(self):
+        output = self.run_ranks("distributed")
+        self.assertEqual(output.count("distributed over 2 MPI ranks"), 2, output)
+        self.assertIn("BOUNDARY 0", output)
+        self.assertIn("RESULT 0", output)
+
+    def test_cells_on_one_rank_are_morphed(self):
+        output = self.run_ranks("one_rank")
+        self.assertNotIn("ERR|", output)
+        self.assertIn("RESULT 729 [0.0, 16.0, 0.0, 8.0, 0.0, 8.0]",
+                      output)
+
+    def test_an_error_on_one_rank_ends_both(self):
+        output = self.run_ranks("later_error")
+        self.assertEqual(output.count("BoundaryIdArray names 'Nowhere'"), 1, output)
+        self.assertIn("RESULT 0", output)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        job(*sys.argv[1:])
+    else:
+        unittest.main()

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The demo's picture: meshes cut open and side by side at one scale, coloured by scaled Jacobian in
+the colors that the plugin gives to arrays of that name."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkExtractCells
+from vtkmodules.vtkImagingCore import vtkImageShrink3D
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+SIZE = (1600, 860)
+OVERSAMPLING = 2  # thin edges: drawn at twice the size, then averaged
+INK = [0.13, 0.14, 0.16]
+GAP = 1.2  # between panels, in the meshes' unit
+
+
+@dataclass
+class Panel:
+    """title, note: text over the mesh. grid: vtkUnstructuredGrid with cell array ScaledJacobian.
+    cells: ids shown."""
+
+    title: str
+    note: str
+    grid: vtkUnstructuredGrid
+    cells: np.ndarray
+
+
+def producer(data):
+    """A pipeline source that hands out this data object."""
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def save_picture(path, heading, panels):
+    """Writes a PNG of SIZE pixels with the panels from left to right. Needs a display (xvfb-run
+    gives one)."""
+    view = simple.CreateRenderView(ViewSize=list(SIZE))
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 0
+    view.CameraParallelProjection = 1
+
+    sources = [_extract(panel) for panel in panels]
+    bounds = [source.GetDataInformation().GetBounds() for source in sources]
+    total = sum(b[1] - b[0] for b in bounds) + GAP * (len(panels) + 1)
+    left = GAP
+    for panel, source, bound in zip(panels, sources, bounds):
+        _show(view, source, left - bound[0])
+        _text(view, panel.title, (left / total, 0.86), 18, bold=True)
+        _text(view, panel.note, (left / total, 0.80), 14)
+        left += bound[1] - bound[0] + GAP
+    _text(view, heading, (GAP / total, 0.925), 24, bold=True)
+    _color_bar(view)
+    _look(view, total, bounds)
+
+    simple.SaveScreenshot(str(path), view, ImageResolution=[OVERSAMPLING * side for side in SIZE])
+    _average_pixels(path)
+
+
+def _average_pixels(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(str(path))
+    shrink = vtkImageShrink3D()
+    shrink.SetInputConnection(reader.GetOutputPort())
+    shrink.SetShrinkFactors(OVERSAMPLING, OVERSAMPLING, 1)
+    shrink.MeanOn()
+    shrink.Update()  # reads the file to its end before the writer opens it
+    writer = vtkPNGWriter()
+    writer.SetFileName(str(path))
+    writer.SetCompressionLevel(9)
+    writer.SetInputConnection(shrink.GetOutputPort())
+    writer.Write()
+
+
+def _extract(panel):
+    ids = vtkIdList()
+    ids.SetNumberOfIds(len(panel.cells))
+    for place, cell in enumerate(panel.cells):
+        ids.SetId(place, int(cell))
+    extract = vtkExtractCells()
+    extract.SetInputData(panel.grid)
+    extract.SetCellList(ids)
+    extract.Update()
+    return producer(extract.GetOutput())
+
+
+def _show(view, source, shift):
+    shown = simple.Show(source, view, "UnstructuredGridRepresentation")
+    # The active cell scalars color the mesh. simple.ColorBy would fit the colors' range to the data
+    # and so move their break away from 0.
+    shown.SetRepresentationType("Surface With Edges")
+    shown.Position = [shift, 0, 0]
+    shown.EdgeColor = INK
+    shown.LineWidth = 0.6
+    shown.Ambient, shown.Diffuse, shown.Specular = 0.45, 0.6, 0.0
+    shown.InterpolateScalarsBeforeMapping = 0
+
+
+def _text(view, words, lower_left, size, bold=False):
+    text = simple.Text(Text=words)
+    shown = simple.Show(text, view, "TextSourceRepresentation")
+    shown.WindowLocation = "Any Location"
+    shown.Position = list(lower_left)
+    shown.Justification = "Left"
+    shown.FontSize = size
+    shown.Bold = int(bold)
+    shown.Color = INK
+
+
+def _color_bar(view):
+    colors = simple.GetColorTransferFunction("ScaledJacobian")
+    bar = simple.GetScalarBar(colors, view)
+    bar.Title = "scaled Jacobian (below 0: inverted)"
+    bar.ComponentTitle = ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Any Location"
+    bar.Position = [0.25, 0.04]
+    bar.ScalarBarLength = 0.5
+    bar.ScalarBarThickness = 18
+    bar.TitleColor = bar.LabelColor = INK
+    bar.TitleFontSize = bar.LabelFontSize = 16
+    bar.AddRangeLabels = 0
+    bar.UseCustomLabels = 1
+    bar.CustomLabels = [-1, -0.5, 0, 0.5, 1]
+    bar.Visibility = 1
+
+
+def _look(view, total, bounds):
+    """From the front and above, so wide that the panels fill the view, all at the same scale."""
+    height = total * SIZE[1] / SIZE[0]
+    tilt = np.radians(22)
+    up = np.array([0, np.sin(tilt), np.cos(tilt)])
+    middle = np.array([total / 2, 0, (min(b[4] for b in bounds) + max(b[5] for b in bounds)) / 2])
+    focus = middle + 0.055 * height * up  # the text needs more room than the color bar
+    view.CameraFocalPoint = focus
+    view.CameraPosition = focus + 100 * np.array([0, -np.cos(tilt), np.sin(tilt)])
+    view.CameraViewUp = [0, 0, 1]
+    view.CameraParallelScale = 0.5 * height

@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+set -euo pipefail
+
+usage() {
+  cat <<END
+Usage: install-packages.sh [--benchmark] [--developer]
+Installs the Debian 12 packages that MeshMorphing is built and tested with, as root or through sudo. Does nothing
+where they are all installed.
+  --benchmark   also the solvers that the benchmark compares with (SuiteSparse, OpenBLAS)
+  --developer   also what Utilities/format.sh needs (clang-format)
+END
+}
+
+# What paraview-dev's CMake files ask for is more than the package itself depends on.
+packages=(
+  cmake g++ ninja-build ccache git
+  paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev
+  qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+  libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev
+  libutfcpp-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libtheora-dev libogg-dev
+  libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev libgl2ps-dev libglew-dev
+  libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
+  libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
+  libavutil-dev libswscale-dev libboost-dev python3-mpi4py
+  libgtest-dev gmsh python3-gmsh xvfb xauth imagemagick)
+
+for option in "$@"; do
+  case "$option" in
+    -h | --help) usage; exit 0 ;;
+    --benchmark) packages+=(libsuitesparse-dev libopenblas-dev) ;;
+    --developer) packages+=(clang-format) ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v apt-get > /dev/null; then
+  echo "install-packages.sh: no apt-get here. Install what these Debian packages hold: ${packages[*]}" >&2
+  exit 1
+fi
+release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")
+if [ "$release" != "debian 12" ]; then
+  echo "install-packages.sh: written for Debian 12, this is '$release'. Going on; package names may differ." >&2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
+  if [ "$status" != installed ]; then missing+=("$package"); fi
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "All ${#packages[@]} packages are installed."
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo > /dev/null; then
+    echo "install-packages.sh: run this as root, there is no sudo. Missing: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+${as_root[@]+"${as_root[@]}"} apt-get -o Acquire::Retries=3 update
+${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive \
+  apt-get -o Acquire::Retries=3 install -y --no-install-recommends "${missing[@]}"
