@@ -4,7 +4,6 @@
 # `cmake --install <dir> --component plugin` leaves out a wrapping archive that ParaView's own rules install.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME plugin)
 
-# Scanning the top-level file would add the top-level folder again; Plugin/paraview.plugin is a link to it.
 paraview_plugin_scan(
   PLUGIN_FILES     "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/paraview.plugin"
   PROVIDES_PLUGINS plugins
