@@ -363,7 +363,7 @@ EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor
       free.row(this->freeIndex(i)) = x.row(i);
     }
   });
-  return { report.iterations, report.relativeResidual, report.bytesMoved };
+  return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
 EvaluateReport FemWarp::displaceTranspose(
@@ -379,7 +379,7 @@ EvaluateReport FemWarp::displaceTranspose(
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
   prescribed -= this->coupling_.transpose() * solution;
-  return { report.iterations, report.relativeResidual, report.bytesMoved };
+  return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
 std::size_t FemWarp::memory() const

@@ -7,15 +7,24 @@
 #include "NodePartition.h"
 
 #include <string>
+#include <vector>
 
 namespace morph
 {
+/// A number that the method found worth telling, for instance how many nodes took a fall-back.
+struct Count
+{
+  std::string name;
+  Index value = 0;
+};
+
 /// What the last evaluate or applyTranspose took.
 struct EvaluateReport
 {
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
   double relativeResidual = 0; ///< largest over the three coordinates, 0 for direct formulas
-  double bytesMoved = 0;       ///< estimate of the solver's memory traffic, for benchmarks
+  double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
+  std::vector<Count> counts;   ///< always the same names for a method
 };
 
 /// A morphing method, one subclass per method. prepare() does all that depends on the rest mesh and on which

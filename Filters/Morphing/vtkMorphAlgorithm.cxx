@@ -48,6 +48,7 @@ struct vtkMorphAlgorithm::vtkInternals
   std::vector<std::int8_t> Orientation;    ///< of Mesh
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
   std::string Options;
+  std::vector<morph::Count> Counts; ///< as of the last execution
   vtkMorphTime Time;
 
   /// Takes the grid over unless it is what is kept already.
@@ -220,6 +221,7 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
   this->SolverIterations = report.iterations;
+  kept.Counts = report.counts;
   this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
   this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
 
@@ -236,10 +238,27 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   vtkMorphOutput::AddField(output, "PrepareSeconds", this->PrepareSeconds);
   vtkMorphOutput::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
   vtkMorphOutput::AddField(output, "SolverIterations", this->SolverIterations);
+  for (const morph::Count& count : kept.Counts)
+  {
+    vtkMorphOutput::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
+  }
+}
+
+vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
+{
+  for (const morph::Count& count : this->Internals->Counts)
+  {
+    if (count.name == name)
+    {
+      return static_cast<vtkIdType>(count.value);
+    }
+  }
+  return 0;
 }
 
 void vtkMorphAlgorithm::ResetResults()
 {
+  this->Internals->Counts.clear();
   this->MinScaledJacobian = std::numeric_limits<double>::quiet_NaN();
   this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
   this->InvertedCells = 0;
@@ -275,4 +294,8 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PrepareCount: " << this->PrepareCount << "\n";
   os << indent << "PrescribedPoints: " << this->PrescribedPoints << "\n";
   os << indent << "UnmatchedPoints: " << this->UnmatchedPoints << "\n";
+  for (const morph::Count& count : this->Internals->Counts)
+  {
+    os << indent << count.name << ": " << count.value << "\n";
+  }
 }

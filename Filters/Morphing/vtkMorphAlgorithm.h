@@ -230,6 +230,12 @@ protected:
    */
   virtual void SetEvaluateOptions(morph::Morpher& vtkNotUsed(morpher)) {}
 
+  /**
+   * The number of that name in the method's report of the last execution (morph::Count), 0 where
+   * there is none. The output holds them as field data too.
+   */
+  vtkIdType GetCount(const char* name) const;
+
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;

@@ -5,6 +5,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -76,5 +77,10 @@ void AddField(vtkDataObject* output, const char* name, double value)
 void AddField(vtkDataObject* output, const char* name, int value)
 {
   addField<vtkIntArray>(output, name, value);
+}
+
+void AddField(vtkDataObject* output, const char* name, vtkIdType value)
+{
+  addField<vtkIdTypeArray>(output, name, value);
 }
 }

@@ -4,6 +4,8 @@
 
 #include "Mesh.h"
 
+#include <vtkType.h>
+
 class vtkDataObject;
 class vtkUnstructuredGrid;
 
@@ -19,6 +21,7 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
 /// Field data of one number; replaces an array of that name.
 void AddField(vtkDataObject* output, const char* name, double value);
 void AddField(vtkDataObject* output, const char* name, int value);
+void AddField(vtkDataObject* output, const char* name, vtkIdType value);
 }
 
 #endif

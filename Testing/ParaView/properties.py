@@ -1,26 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of every proxy in Plugin/*.xml: documented, set to another value than its default, and found again in
+"""Every property of every proxy of the plugin: documented, set to another value than its default, and found again in
 the VTK object, which prints its parameters. Server-manager XML is not compiled: nothing else reads all of it.
 
-Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython properties.py
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between> pvpython properties.py
 """
 import math
 import os
 import re
 import unittest
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 from paraview import simple
 
-PLUGIN = Path(__file__).resolve().parents[2] / "Plugin"
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 
 def proxies():
     """The XML element of each proxy."""
     found = []
-    for path in sorted(PLUGIN.glob("*.xml")):
+    for path in os.environ["MESHMORPHING_XML"].split(":"):
         found += ElementTree.parse(path).getroot().iter("SourceProxy")
     return found
 
