@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BridgingTetrahedra.h"
+
+#include "Topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+constexpr double LeavingSine = 0.01;
+constexpr double SameDistance = 1e-9;
+
+using Vector = Eigen::RowVector3d;
+
+/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit normal there.
+struct Sector
+{
+  Vector first, second, normal;
+};
+
+/// How far the unit vector `d` is from a sector: 1 minus the cosine of the angle to its nearest direction.
+double distance(const Sector& sector, const Vector& d)
+{
+  const Vector inPlane = d - d.dot(sector.normal) * sector.normal;
+  const bool between = sector.normal.dot(sector.first.cross(inPlane)) >= 0 &&
+    sector.normal.dot(inPlane.cross(sector.second)) >= 0;
+  return 1 - (between ? inPlane.norm() : std::max(d.dot(sector.first), d.dot(sector.second)));
+}
+
+/// `d` goes from the node out of the mesh, whose outer faces at the node are `begin` .. `end`.
+bool leaves(const Sector* begin, const Sector* end, const Vector& d)
+{
+  if (std::all_of(begin, end, [&d](const Sector& s) { return d.dot(s.normal) <= LeavingSine; }))
+  {
+    return false; // below all of its faces' planes
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  Vector normal = Vector::Zero();
+  for (const Sector* s = begin; s != end; ++s)
+  {
+    const double here = distance(*s, d);
+    if (here < nearest - SameDistance)
+    {
+      nearest = here;
+      normal = s->normal;
+    }
+    else if (here < nearest + SameDistance)
+    {
+      normal += s->normal;
+    }
+  }
+  return d.dot(normal.normalized()) > LeavingSine;
+}
+
+/// The sectors at each node of `nodes`, in the order of the faces.
+struct Sectors
+{
+  std::vector<Index> offsets; ///< #nodes + 1
+  std::vector<Sector> values;
+};
+
+Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& monitor)
+{
+  const BoundaryFaces faces = boundaryFaces(mesh, monitor);
+  std::vector<Index> place(mesh.numberOfNodes(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    place[nodes[i]] = static_cast<Index>(i);
+  }
+  Sectors sectors;
+  sectors.offsets.assign(nodes.size() + 1, 0);
+  const auto visit = [&](const auto& onCorner) {
+    for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+    {
+      const Index* corner = faces.connectivity.data() + faces.offsets[f];
+      const Index n = faces.offsets[f + 1] - faces.offsets[f];
+      for (Index k = 0; k < n; ++k)
+      {
+        if (place[corner[k]] >= 0)
+        {
+          onCorner(place[corner[k]], corner[k], corner[(k + 1) % n], corner[(k + n - 1) % n]);
+        }
+      }
+    }
+  };
+  visit([&](Index at, Index, Index, Index) { ++sectors.offsets[at + 1]; });
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    sectors.offsets[i + 1] += sectors.offsets[i];
+  }
+  sectors.values.resize(sectors.offsets.back());
+  std::vector<Index> next(sectors.offsets.begin(), sectors.offsets.end() - 1);
+  visit([&](Index at, Index node, Index after, Index before) {
+    const Vector first = (mesh.points.row(after) - mesh.points.row(node)).normalized();
+    const Vector second = (mesh.points.row(before) - mesh.points.row(node)).normalized();
+    sectors.values[next[at]++] = { first, second, first.cross(second).normalized() };
+  });
+  return sectors;
+}
+
+bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site, const Vector& d)
+{
+  // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave by.
+  const Index* end = sites.prescribed().end(site);
+  return std::all_of(sites.prescribed().begin(site), end, [&](Index node) {
+    return leaves(
+      sectors.values.data() + sectors.offsets[node], sectors.values.data() + sectors.offsets[node + 1], d);
+  });
+}
+}
+
+std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& prescribed,
+  const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used, Monitor& monitor)
+{
+  const Sectors sectors = sectorsAt(mesh, prescribed, monitor);
+  std::vector<std::uint8_t> bridges(used.size(), 0);
+  monitor.parallelFor(static_cast<Index>(used.size()), Grain, [&](Index first, Index last) {
+    for (Index i = first; i < last; ++i)
+    {
+      const auto& corners = delaunay.tetrahedra()[used[i]].sites;
+      for (int a = 0; a < 4; ++a)
+      {
+        for (int b = a + 1; b < 4; ++b)
+        {
+          const Vector d =
+            (delaunay.sites().row(corners[b]) - delaunay.sites().row(corners[a])).normalized();
+          bridges[i] |= leavesMesh(sites, sectors, corners[a], d) || leavesMesh(sites, sectors, corners[b], -d);
+        }
+      }
+    }
+  });
+  std::vector<int> result;
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    if (bridges[i])
+    {
+      result.push_back(used[i]);
+    }
+  }
+  return result;
+}
+}

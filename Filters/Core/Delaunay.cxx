@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Delaunay.h"
+
+#include "Error.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_data_structure_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
+using CellBase =
+  CGAL::Triangulation_cell_base_with_info_3<int, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
+
+Point toPoint(const double* x)
+{
+  return Point(x[0], x[1], x[2]);
+}
+
+/// Numbers the cells inside the hull in their `info`, the others by Outside; returns how many are inside.
+int numberCells(const Triangulation& triangulation)
+{
+  int count = 0;
+  for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell)
+  {
+    cell->info() = triangulation.is_infinite(cell) ? Delaunay::Outside : count++;
+  }
+  return count;
+}
+
+/// The corners of the face opposite to corner k, so that they and corner k are positively oriented.
+constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+}
+
+void Delaunay::build(const Points& sites, Monitor& monitor)
+{
+  std::vector<std::pair<Point, int>> points;
+  points.reserve(sites.rows());
+  for (Index i = 0; i < sites.rows(); ++i)
+  {
+    points.emplace_back(toPoint(sites.row(i).data()), static_cast<int>(i));
+  }
+  monitor.check();
+  const Triangulation triangulation(points.begin(), points.end());
+  if (triangulation.dimension() < 3)
+  {
+    throw Error(Error::Kind::Singular,
+      "The " + std::to_string(sites.rows()) +
+        " distinct places of prescribed nodes lie in one plane, or on one line: they span no volume to interpolate in. "
+        "Prescribe nodes on all sides of the mesh, or choose FEMWARP.");
+  }
+  monitor.check();
+
+  const int count = numberCells(triangulation);
+  std::vector<Tetrahedron> tetrahedra(count);
+  std::vector<int> atSite(sites.rows(), Outside);
+  for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end(); ++cell)
+  {
+    Tetrahedron& tetrahedron = tetrahedra[cell->info()];
+    for (int k = 0; k < 4; ++k)
+    {
+      tetrahedron.sites[k] = cell->vertex(k)->info();
+      tetrahedron.neighbors[k] = cell->neighbor(k)->info();
+      atSite[tetrahedron.sites[k]] = cell->info();
+    }
+  }
+  this->sites_ = sites;
+  this->tetrahedra_.swap(tetrahedra);
+  this->atSite_.swap(atSite);
+}
+
+int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
+{
+  const Point query = toPoint(x.data());
+  int before = Outside; // the tetrahedron the walk came from: x is not back there
+  int here = start;
+  while (true)
+  {
+    const Tetrahedron& tetrahedron = this->tetrahedra_[here];
+    Point corners[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      corners[k] = toPoint(this->sites_.row(tetrahedron.sites[k]).data());
+    }
+    int next = here;
+    for (int k = 0; k < 4 && next == here; ++k)
+    {
+      const int neighbor = tetrahedron.neighbors[k];
+      if (neighbor != Outside && neighbor != before &&
+        CGAL::orientation(corners[Faces[k][0]], corners[Faces[k][1]], corners[Faces[k][2]], query) ==
+          CGAL::NEGATIVE)
+      {
+        next = neighbor;
+      }
+    }
+    if (next == here)
+    {
+      return here;
+    }
+    before = here;
+    here = next;
+  }
+}
+
+int Delaunay::startNear(const Eigen::RowVector3d& x) const
+{
+  // The sample that balances its own cost with that of the walk.
+  const Index n = this->sites_.rows();
+  const Index step = std::max<Index>(1, n / (4 * static_cast<Index>(std::cbrt(static_cast<double>(n))) + 1));
+  double best = std::numeric_limits<double>::infinity();
+  int start = 0;
+  for (Index i = 0; i < n; i += step)
+  {
+    const double distance = (this->sites_.row(i) - x).squaredNorm();
+    if (distance < best && this->atSite_[i] != Outside)
+    {
+      best = distance;
+      start = this->atSite_[i];
+    }
+  }
+  return start;
+}
+
+double Delaunay::sixVolumes(const Tetrahedron& tetrahedron, const Points& positions)
+{
+  const auto& s = tetrahedron.sites;
+  const Eigen::RowVector3d a = positions.row(s[1]) - positions.row(s[0]);
+  const Eigen::RowVector3d b = positions.row(s[2]) - positions.row(s[0]);
+  const Eigen::RowVector3d c = positions.row(s[3]) - positions.row(s[0]);
+  return a.dot(b.cross(c));
+}
+}

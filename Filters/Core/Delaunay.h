@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+#include "Monitor.h"
+
+#include <array>
+#include <vector>
+
+namespace morph
+{
+/// The Delaunay tessellation of a set of sites in space, made by CGAL with exact predicates and kept in plain arrays that
+/// any number of threads may read.
+///
+/// Where more than four sites lie on one empty sphere (every structured boundary has such sets) the tessellation is not unique: CGAL
+/// then decides by a symbolic perturbation that follows the lexicographic order of the coordinates. So the same set
+/// of sites gives the same tetrahedra, in whatever order it comes; turned sites may give others.
+class Delaunay
+{
+public:
+  static constexpr int Outside = -1; ///< neighbor beyond the convex hull
+
+  struct Tetrahedron
+  {
+    std::array<int, 4> sites;     ///< positively oriented, as VTK orders them
+    std::array<int, 4> neighbors; ///< neighbors[k] shares the face opposite to sites[k]
+  };
+
+  /// `sites`: #sites x 3, finite, distinct. Throws Error of kind Singular where they do not span a volume, that is, lie
+  /// in one plane. Cost: n log n for sites on surfaces, some 5 microseconds a site.
+  void build(const Points& sites, Monitor& monitor);
+
+  const Points& sites() const { return this->sites_; }
+  const std::vector<Tetrahedron>& tetrahedra() const { return this->tetrahedra_; }
+
+  /// A tetrahedron that contains `x`, by a visibility walk with exact orientation tests from the tetrahedron `start`; for
+  /// x outside the hull one at whose outer face the walk ends. A function of x and start alone. Cost: the
+  /// tetrahedra on the way. (Devillers, Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.)
+  int locate(const Eigen::RowVector3d& x, int start) const;
+  /// Where to start for a first x: a tetrahedron at the nearest of a fixed sample of the sites (jump and walk).
+  int startNear(const Eigen::RowVector3d& x) const;
+
+  /// Six times the signed volume of a tetrahedron with its corners at `positions` (#sites x 3).
+  static double sixVolumes(const Tetrahedron& tetrahedron, const Points& positions);
+
+private:
+  Points sites_;
+  std::vector<Tetrahedron> tetrahedra_;
+  std::vector<int> atSite_; ///< #sites, some tetrahedron at each
+};
+}
