@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BridgingTetrahedra.h"
 
+#include "BlockSum.h"
+#include "CellShape.h"
+#include "SimplicialDecomposition.h"
 #include "Topology.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +20,7 @@ namespace
 constexpr Index Grain = 1024;
 constexpr double LeavingSine = 0.01;
 constexpr double SameDistance = 1e-9;
+constexpr double SameVolume = 1e-9;
 
 using Vector = Eigen::RowVector3d;
 
@@ -104,6 +110,26 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
   return sectors;
 }
 
+/// The cells fill the tessellation: a convex mesh. Much cheaper to find out than its outer faces.
+bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
+{
+  const double cells = blockSum(mesh.numberOfCells(), monitor, 0., [&](Index c) {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    const int n = numberOfCorners(shape.shape);
+    double corners[8][3];
+    for (int a = 0; a < n; ++a)
+    {
+      const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
+      std::copy(point.data(), point.data() + 3, corners[a]);
+    }
+    return n == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
+  });
+  const auto& tetrahedra = delaunay.tetrahedra();
+  const double hull = blockSum(static_cast<Index>(tetrahedra.size()), monitor, 0.,
+    [&](Index t) { return Delaunay::sixVolumes(tetrahedra[t], delaunay.sites()) / 6; });
+  return std::abs(cells - hull) < SameVolume * hull;
+}
+
 bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site, const Vector& d)
 {
   // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave by.
@@ -118,6 +144,10 @@ bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site
 std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& prescribed,
   const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used, Monitor& monitor)
 {
+  if (fillsHull(mesh, delaunay, monitor))
+  {
+    return {};
+  }
   const Sectors sectors = sectorsAt(mesh, prescribed, monitor);
   std::vector<std::uint8_t> bridges(used.size(), 0);
   monitor.parallelFor(static_cast<Index>(used.size()), Grain, [&](Index first, Index last) {

@@ -33,9 +33,9 @@ public:
   const Points& sites() const { return this->sites_; }
   const std::vector<Tetrahedron>& tetrahedra() const { return this->tetrahedra_; }
 
-  /// A tetrahedron that contains `x`, by a visibility walk with exact orientation tests from the tetrahedron `start`; for
-  /// x outside the hull one at whose outer face the walk ends. A function of x and start alone. Cost: the
-  /// tetrahedra on the way. (Devillers, Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.)
+  /// A tetrahedron that contains `x`, but for rounding, by a visibility walk from the tetrahedron `start` that only crosses
+  /// faces which x is surely beyond, and so ends (Devillers, Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199); for
+  /// x outside the hull one at whose outer face the walk ends. A function of x and start alone. Cost: the tetrahedra on the way.
   int locate(const Eigen::RowVector3d& x, int start) const;
   /// Where to start for a first x: a tetrahedron at the nearest of a fixed sample of the sites (jump and walk).
   int startNear(const Eigen::RowVector3d& x) const;

@@ -59,11 +59,6 @@ public:
     return Eigen::RowVector4d(1 - b[0] - b[1] - b[2], b[0], b[1], b[2]);
   }
 
-  double residual(const Row& x, const Eigen::RowVector4d& b) const
-  {
-    return ((x - this->origin_).transpose() - this->edges_ * b.tail<3>().transpose()).norm();
-  }
-
 private:
   Row origin_;
   Eigen::Matrix3d edges_, inverse_;
@@ -75,6 +70,16 @@ struct Place
   int tetrahedron = Delaunay::Outside;
   Eigen::RowVector4d barycentric;
 };
+
+double residual(const Delaunay& delaunay, const Place& at, const Row& x)
+{
+  Row sum = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    sum += at.barycentric[k] * delaunay.sites().row(delaunay.tetrahedra()[at.tetrahedron].sites[k]);
+  }
+  return (sum - x).norm();
+}
 
 /// The best of the tetrahedra around `start` that are not flat: through flat ones and over two more rings.
 Place bestAround(const Delaunay& delaunay, const Row& x, int start)
@@ -108,9 +113,9 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
   return best;
 }
 
-Place place(const Delaunay& delaunay, const Row& x, int found)
+/// As bestAround(), where the tetrahedron `found`, whose frame is at hand, does not do by itself.
+Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
 {
-  const Frame frame(delaunay, found);
   if (!frame.flat())
   {
     const Eigen::RowVector4d b = frame.coordinates(x);
@@ -147,14 +152,19 @@ EnclosingTetrahedra enclosingTetrahedra(
     {
       const Index first = block * BlockLength;
       int here = delaunay.startNear(points.row(order[first]));
+      Frame frame(delaunay, here);
       for (Index i = first; i < std::min(n, first + BlockLength); ++i)
       {
         const Row x = points.row(order[i]);
         const Index row = rowOf[order[i]];
-        here = delaunay.locate(x, here);
-        const Place at = place(delaunay, x, here);
-        if (at.tetrahedron == Delaunay::Outside ||
-          Frame(delaunay, at.tetrahedron).residual(x, at.barycentric) > LinearPrecision * size)
+        const int found = delaunay.locate(x, here);
+        if (found != here) // several nodes lie in one tetrahedron
+        {
+          here = found;
+          frame = Frame(delaunay, here);
+        }
+        const Place at = place(delaunay, x, here, frame);
+        if (at.tetrahedron == Delaunay::Outside || residual(delaunay, at, x) > LinearPrecision * size)
         {
           state[row] = 2;
           continue;
