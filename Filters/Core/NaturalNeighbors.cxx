@@ -45,9 +45,28 @@ NaturalNeighbors::NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor)
 
 NaturalNeighbors::Workspace::Workspace(const NaturalNeighbors& neighbors)
   : zoneMark_(neighbors.cells_.size(), 0)
+  , power_(neighbors.cells_.size(), 0)
   , siteMark_(neighbors.sites_.rows(), 0)
   , siteNumber_(neighbors.sites_.rows(), 0)
 {
+}
+
+/// Where the edge waits for its other half, or a free place.
+NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int from, int to)
+{
+  const std::int64_t key = static_cast<std::int64_t>(std::min(from, to)) << 32 | std::max(from, to);
+  const std::size_t mask = this->edges_.size() - 1;
+  std::size_t at = static_cast<std::size_t>((static_cast<std::uint64_t>(key) * 0x9e3779b97f4a7c15ull) >> 32) & mask;
+  while (this->edges_[at].query == this->query_ && this->edges_[at].key != key)
+  {
+    at = (at + 1) & mask;
+  }
+  HalfEdge& edge = this->edges_[at];
+  if (edge.query != this->query_)
+  {
+    edge = HalfEdge{ key, this->query_, -1 };
+  }
+  return edge;
 }
 
 /// Negative within the sphere, and 0 on it and within rounding of it: a site on the sphere takes and gives nothing.
@@ -65,13 +84,15 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
   ++work.query_;
   work.zone_.assign(1, inside);
   work.zoneMark_[inside] = work.query_;
+  work.power_[inside] = this->power(this->cells_[inside], x, squaredNorm);
   for (std::size_t i = 0; i < work.zone_.size(); ++i)
   {
     for (int next : this->cells_[work.zone_[i]].neighbors)
     {
       if (next != Delaunay::Outside && std::abs(work.zoneMark_[next]) != work.query_)
       {
-        const bool conflict = this->power(this->cells_[next], x, squaredNorm) < 0;
+        work.power_[next] = this->power(this->cells_[next], x, squaredNorm);
+        const bool conflict = work.power_[next] < 0;
         work.zoneMark_[next] = conflict ? work.query_ : -work.query_;
         if (conflict)
         {
@@ -85,7 +106,6 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
 /// Numbers the zone's sites, adds its inner faces' shares and lists its border; false where x is not inside the hull.
 bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work) const
 {
-  const double squaredNorm = x.squaredNorm();
   work.local_.clear();
   work.place_.clear();
   work.share_.clear();
@@ -127,15 +147,14 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
         {
           return false;
         }
-        end = centre - (this->power(cell, x, squaredNorm) / (2 * height)) * normal;
+        end = centre - (work.power_[t] / (2 * height)) * normal;
       }
       else
       {
         end = Eigen::Map<const Vector>(this->cells_[next].centre) - x;
         if (!inner)
         {
-          const double here = this->power(cell, x, squaredNorm);
-          const double there = this->power(this->cells_[next], x, squaredNorm);
+          const double here = work.power_[t], there = work.power_[next];
           end = centre + (here < 0 ? here / (here - there) : 0) * (end - centre);
         }
       }
@@ -158,35 +177,36 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
 /// The faces between the new cell and the old ones: one edge of each for every edge of the zone's border.
 void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
 {
-  work.edges_.clear();
-  const std::int64_t sites = static_cast<std::int64_t>(work.local_.size());
+  std::size_t room = std::max<std::size_t>(64, work.edges_.size());
+  while (room < 4 * work.border_.size()) // three half-edges a face, two an edge
+  {
+    room *= 2;
+  }
+  work.edges_.resize(room);
   for (std::size_t f = 0; f < work.border_.size(); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {
       const int from = work.border_[f].corners[k], to = work.border_[f].corners[(k + 1) % 3];
-      // Both directions of an edge side by side.
-      const std::int64_t key = 2 * (std::min(from, to) * sites + std::max(from, to)) + (from < to ? 0 : 1);
-      work.edges_.push_back({ key, from, to, static_cast<int>(f) });
-    }
-  }
-  std::sort(work.edges_.begin(), work.edges_.end(), [](const auto& a, const auto& b) {
-    return a.key != b.key ? a.key < b.key : a.face < b.face;
-  });
-  for (std::size_t e = 0; e + 1 < work.edges_.size(); e += 2)
-  {
-    const Workspace::HalfEdge& forth = work.edges_[e];
-    const Vector n = work.border_[forth.face].vertex.cross(work.border_[work.edges_[e + 1].face].vertex);
-    const Vector &V = work.place_[forth.from], &W = work.place_[forth.to];
-    if (volumes)
-    {
-      work.share_[forth.from] += W.dot(n);
-      work.share_[forth.to] -= V.dot(n);
-    }
-    else
-    {
-      work.share_[forth.from] -= V.dot(n) / V.squaredNorm();
-      work.share_[forth.to] += W.dot(n) / W.squaredNorm();
+      Workspace::HalfEdge& edge = work.halfEdge(from, to);
+      if (edge.face < 0)
+      {
+        edge.face = static_cast<int>(f);
+        continue;
+      }
+      const Vector n = work.border_[f].vertex.cross(work.border_[edge.face].vertex);
+      edge.face = -1;
+      const Vector &V = work.place_[from], &W = work.place_[to];
+      if (volumes)
+      {
+        work.share_[from] += W.dot(n);
+        work.share_[to] -= V.dot(n);
+      }
+      else
+      {
+        work.share_[from] -= V.dot(n) / V.squaredNorm();
+        work.share_[to] += W.dot(n) / W.squaredNorm();
+      }
     }
   }
 }

@@ -49,19 +49,21 @@ public:
       int corners[3]; ///< local numbers
       Vector vertex;  ///< the new Voronoi vertex on its dual edge, relative to the point
     };
-    struct HalfEdge
+    struct HalfEdge ///< of a border face, waiting for its other half
     {
-      std::int64_t key;
-      int from, to, face;
+      std::int64_t key = -1;
+      int query = 0, face = -1;
     };
+    HalfEdge& halfEdge(int from, int to);
 
     int query_ = 0;
     std::vector<int> zoneMark_;   ///< #tetrahedra: +query in conflict, -query not
+    std::vector<double> power_;   ///< #tetrahedra: the power distance where marked
     std::vector<int> siteMark_;   ///< #sites: query where numbered
     std::vector<int> siteNumber_; ///< #sites: local number
     std::vector<int> zone_;
     std::vector<Face> border_;
-    std::vector<HalfEdge> edges_;
+    std::vector<HalfEdge> edges_; ///< hashed, open addressing, 2^n
     std::vector<int> local_;    ///< site of each local number
     std::vector<Vector> place_; ///< site minus point
     std::vector<double> share_;
