@@ -5,12 +5,14 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_data_structure_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,6 +21,9 @@ namespace morph
 {
 namespace
 {
+constexpr Index Grain = 1024;
+constexpr double FlatVolume = 1e-4; // 6 V over the cube of the longest edge: below, centres take exact arithmetic
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
@@ -57,6 +62,20 @@ bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Ei
   }
   // Seen from the origin the corners of a face turn the other way round: a positive determinant is the negative side.
   return determinant > 1e-15 * absolute;
+}
+
+/// In rational arithmetic: a flat tetrahedron's centre is the quotient of two differences that cancel almost wholly.
+Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel::Exact_kernel;
+  Exact::Point_3 p[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    const auto x = sites.row(corners[k]);
+    p[k] = Exact::Point_3(x[0], x[1], x[2]);
+  }
+  const Exact::Point_3 centre = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
+  return { CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z()) };
 }
 
 /// The corners of the face opposite to corner k, so that they and corner k are positively oriented.
@@ -147,6 +166,33 @@ int Delaunay::startNear(const Eigen::RowVector3d& x) const
     }
   }
   return start;
+}
+
+Points Delaunay::circumcentres(Monitor& monitor) const
+{
+  Points centres(static_cast<Index>(this->tetrahedra_.size()), 3);
+  monitor.parallelFor(centres.rows(), Grain, [&](Index first, Index last) {
+    for (Index t = first; t < last; ++t)
+    {
+      const auto& s = this->tetrahedra_[t].sites;
+      const Eigen::RowVector3d origin = this->sites_.row(s[0]);
+      const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
+      const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
+      const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
+      const double volume = a.dot(b.cross(c));
+      const double longest = std::max({ a.norm(), b.norm(), c.norm() });
+      if (volume > FlatVolume * longest * longest * longest)
+      {
+        centres.row(t) = origin +
+          (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b)) / (2 * volume);
+      }
+      else
+      {
+        centres.row(t) = exactCircumcentre(this->sites_, s);
+      }
+    }
+  });
+  return centres;
 }
 
 double Delaunay::sixVolumes(const Tetrahedron& tetrahedron, const Points& positions)

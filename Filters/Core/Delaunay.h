@@ -40,6 +40,10 @@ public:
   /// Where to start for a first x: a tetrahedron at the nearest of a fixed sample of the sites (jump and walk).
   int startNear(const Eigen::RowVector3d& x) const;
 
+  /// #tetrahedra x 3, the centres of the circumscribed spheres, right to rounding for flat tetrahedra too: those take exact
+  /// arithmetic. Cost: 0.1 microseconds a tetrahedron, 20 a flat one.
+  Points circumcentres(Monitor& monitor) const;
+
   /// Six times the signed volume of a tetrahedron with its corners at `positions` (#sites x 3).
   static double sixVolumes(const Tetrahedron& tetrahedron, const Points& positions);
 

@@ -16,7 +16,7 @@ namespace
 {
 constexpr Index BlockLength = 256;
 constexpr double FlatVolume = 1e-13;    // 6 V over the cube of the longest edge
-constexpr double InsideTolerance = 1e-9; // of a barycentric coordinate
+constexpr double InsideTolerance = EnclosingTetrahedra::InsideTolerance;
 constexpr double LinearPrecision = 1e-10; // of the sites' size
 constexpr std::size_t MostCandidates = 200;
 

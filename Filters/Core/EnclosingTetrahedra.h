@@ -20,6 +20,7 @@ namespace morph
 /// reproduced exactly; beyond -1e-9 that is extrapolation, and counted.
 struct EnclosingTetrahedra
 {
+  static constexpr double InsideTolerance = 1e-9; ///< of a barycentric coordinate
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
   std::vector<int> tetrahedron;     ///< #ids

@@ -7,6 +7,8 @@ namespace morph
 {
 namespace
 {
+constexpr Index Grain = 4096;
+
 void requireRows(const char* what, Index rows, Index expected)
 {
   if (rows != expected)
@@ -97,16 +99,18 @@ EvaluateReport Morpher::evaluate(
       listIds(notFinite) + ".");
   }
 
-  Points freeDisplacement = Points::Zero(static_cast<Index>(this->partition_.free.size()), 3);
+  Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
   const EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
 
   Points result = this->rest_;
   if (this->followers_.empty())
   {
-    for (Index i = 0; i < freeDisplacement.rows(); ++i)
-    {
-      moveBy(result.row(this->partition_.free[i]), freeDisplacement.row(i));
-    }
+    monitor.parallelFor(freeDisplacement.rows(), Grain, [&](Index first, Index last) {
+      for (Index i = first; i < last; ++i)
+      {
+        moveBy(result.row(this->partition_.free[i]), freeDisplacement.row(i));
+      }
+    });
   }
   else
   {
