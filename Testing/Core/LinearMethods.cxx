@@ -3,6 +3,8 @@
 
 #include "FemWarp.h"
 #include "SimplexLinear.h"
+#include "SimplexNaturalNeighbor.h"
+#include "WeightedResidual.h"
 
 #include <ostream>
 
@@ -20,7 +22,24 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
+    { "SimplexLaplace",
+      []
+      {
+        auto method = std::make_unique<SimplexNaturalNeighbor>();
+        method->setCoordinates(SimplexNaturalNeighbor::Coordinates::Laplace);
+        return method;
+      } },
     { "SimplexLinear", [] { return std::make_unique<SimplexLinear>(); } },
+    { "SimplexSibson", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
+    { "WeightedResidual", [] { return std::make_unique<WeightedResidual>(); } },
+    { "WeightedResidualAdaptive",
+      []
+      {
+        auto method = std::make_unique<WeightedResidual>();
+        method->setNumberOfNeighbors(20);
+        method->setAdaptiveNeighbors(true);
+        return method;
+      } },
   };
   return methods;
 }
