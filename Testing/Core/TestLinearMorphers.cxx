@@ -180,10 +180,10 @@ TEST_P(LinearMorphers, AdjointEqualsFiniteDifferences)
 
 TEST_P(LinearMorphers, ThreadsAndHistoryDoNotShow)
 {
-  Mesh mesh = meshes::hexes(17, 16, 15); // more free nodes than one block of any sum
+  Mesh mesh = meshes::hexes(13, 12, 12); // more free nodes than one block of any sum
   meshes::jitterInterior(mesh, .2, meshes::seed());
   const NodePartition partition = outerPartition(mesh);
-  const Points target = targets(mesh, partition, twistOf(16, 1));
+  const Points target = targets(mesh, partition, twistOf(12, 1));
   Monitor serial;
   const auto method = GetParam().make();
   method->prepare(mesh, partition, serial);
