@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace morph
 {
@@ -20,11 +21,13 @@ namespace
 constexpr Index Grain = 1024;
 constexpr double LeavingSine = 0.01;
 constexpr double SameDistance = 1e-9;
+constexpr double StraightSine = 1e-3;
 constexpr double SameVolume = 1e-9;
 
 using Vector = Eigen::RowVector3d;
 
-/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit normal there.
+/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit normal there, 0 where the
+/// face has none.
 struct Sector
 {
   Vector first, second, normal;
@@ -50,6 +53,10 @@ bool leaves(const Sector* begin, const Sector* end, const Vector& d)
   Vector normal = Vector::Zero();
   for (const Sector* s = begin; s != end; ++s)
   {
+    if (s->normal.isZero(0))
+    {
+      continue;
+    }
     const double here = distance(*s, d);
     if (here < nearest - SameDistance)
     {
@@ -64,6 +71,37 @@ bool leaves(const Sector* begin, const Sector* end, const Vector& d)
   return d.dot(normal.normalized()) > LeavingSine;
 }
 
+/// Twice the area of a face times its normal.
+Vector areaVector(const Points& points, const Index* corner, Index n)
+{
+  Vector sum = Vector::Zero();
+  for (Index k = 2; k < n; ++k)
+  {
+    const Vector a = points.row(corner[k - 1]) - points.row(corner[0]);
+    const Vector b = points.row(corner[k]) - points.row(corner[0]);
+    sum += a.cross(b);
+  }
+  return sum;
+}
+
+/// The sector at corner k of a face with n corners; `forward`: they turn counter-clockwise, seen from outside.
+Sector sectorAt(const Points& points, const Index* corner, Index n, Index k, bool forward)
+{
+  const auto along = [&](Index to)
+  { return (points.row(corner[to % n]) - points.row(corner[k])).normalized(); };
+  Vector first = along(k + 1), second = along(k + n - 1);
+  if (!forward)
+  {
+    first.swap(second);
+  }
+  Vector normal = first.cross(second);
+  if (!(normal.norm() > StraightSine)) // half a turn: its edges span no plane
+  {
+    normal = (forward ? 1 : -1) * areaVector(points, corner, n);
+  }
+  return { first, second, normal.normalized() };
+}
+
 /// The sectors at each node of `nodes`, in the order of the faces.
 struct Sectors
 {
@@ -74,6 +112,7 @@ struct Sectors
 Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& monitor)
 {
   const BoundaryFaces faces = boundaryFaces(mesh, monitor);
+  const std::vector<std::int8_t> sign = orientation(mesh, bodies(mesh)); // of mirrored meshes too
   std::vector<Index> place(mesh.numberOfNodes(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
@@ -90,23 +129,22 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
       {
         if (place[corner[k]] >= 0)
         {
-          onCorner(place[corner[k]], corner[k], corner[(k + 1) % n], corner[(k + n - 1) % n]);
+          onCorner(place[corner[k]], f, k);
         }
       }
     }
   };
-  visit([&](Index at, Index, Index, Index) { ++sectors.offsets[at + 1]; });
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    sectors.offsets[i + 1] += sectors.offsets[i];
-  }
+  visit([&](Index at, std::size_t, Index) { ++sectors.offsets[at + 1]; });
+  std::partial_sum(sectors.offsets.begin(), sectors.offsets.end(), sectors.offsets.begin());
   sectors.values.resize(sectors.offsets.back());
   std::vector<Index> next(sectors.offsets.begin(), sectors.offsets.end() - 1);
-  visit([&](Index at, Index node, Index after, Index before) {
-    const Vector first = (mesh.points.row(after) - mesh.points.row(node)).normalized();
-    const Vector second = (mesh.points.row(before) - mesh.points.row(node)).normalized();
-    sectors.values[next[at]++] = { first, second, first.cross(second).normalized() };
-  });
+  visit(
+    [&](Index at, std::size_t f, Index k)
+    {
+      const Index first = faces.offsets[f], n = faces.offsets[f + 1] - first;
+      sectors.values[next[at]++] =
+        sectorAt(mesh.points, faces.connectivity.data() + first, n, k, sign[faces.cells[f]] > 0);
+    });
   return sectors;
 }
 

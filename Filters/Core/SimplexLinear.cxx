@@ -56,6 +56,7 @@ EvaluateReport SimplexLinear::displace(const Points& prescribed, Points& free, M
 {
   const Points displacement = this->sites_.average(prescribed);
   this->weights_.multiply(displacement, free, monitor);
+  monitor.check();
 
   const Points moved = this->sites_.coordinates() + displacement;
   const Index folded =

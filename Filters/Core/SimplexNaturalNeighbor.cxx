@@ -13,6 +13,7 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 128;
+constexpr Index Stretch = 64; // blocks between two chances to cancel
 constexpr Index Samples = 64;
 constexpr Index Sums = 32; // of the transposed product: fixed, so that threads do not show
 
@@ -132,10 +133,8 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
     monitor.warn(text.str());
   }
 
-  // In stretches, for progress and cancelling.
   std::vector<WeightMatrix> stored(store ? this->blocks() : 0);
   std::atomic<Index> barycentric{ 0 };
-  constexpr Index Stretch = 64;
   for (Index begin = 0; store && begin < this->blocks(); begin += Stretch)
   {
     const Index end = std::min(begin + Stretch, this->blocks());
@@ -158,17 +157,22 @@ EvaluateReport SimplexNaturalNeighbor::displace(
 {
   const Points displacement = this->sites_.average(prescribed);
   std::atomic<Index> barycentric{ this->barycentric_ };
-  monitor.parallelFor(this->blocks(), 1, [&](Index first, Index last) {
-    Monitor serial;
-    Points moved;
-    barycentric += this->forEachBlock(first, last, [&](Index block, const WeightMatrix& weights) {
-      weights.multiply(displacement, moved, serial);
-      for (Index i = 0; i < moved.rows(); ++i)
-      {
-        free.row(this->order_[block * BlockLength + i]) = moved.row(i);
-      }
+  for (Index begin = 0; begin < this->blocks(); begin += Stretch)
+  {
+    const Index end = std::min(begin + Stretch, this->blocks());
+    monitor.check();
+    monitor.parallelFor(end - begin, 1, [&](Index first, Index last) {
+      Monitor serial;
+      Points moved;
+      barycentric += this->forEachBlock(begin + first, begin + last, [&](Index block, const WeightMatrix& weights) {
+        weights.multiply(displacement, moved, serial);
+        for (Index i = 0; i < moved.rows(); ++i)
+        {
+          free.row(this->order_[block * BlockLength + i]) = moved.row(i);
+        }
+      });
     });
-  });
+  }
   EvaluateReport report;
   report.bytesMoved = 72. * static_cast<double>(free.rows());
   for (const WeightMatrix& weights : this->stored_)
@@ -205,6 +209,7 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
         });
     }
   });
+  monitor.check();
   for (Index k = 1; k < Sums; ++k)
   {
     part[0] += part[k];
