@@ -11,9 +11,9 @@ namespace morph
 /// Weighted residuals: an affine map fitted to the motion of the whole boundary, plus what that map leaves of the
 /// motion of the prescribed nodes nearby, weighted by inverse squared distance. Meshless: cells are not looked at.
 ///
-/// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
-/// Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the square that least squares have. With
-/// sites b_k (see PrescribedSites), their displacements U_k and the fit L:
+/// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of
+/// Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the square that least squares
+/// have. With sites b_k (see PrescribedSites), their displacements U_k and the fit L:
 ///
 ///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),    w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
 ///

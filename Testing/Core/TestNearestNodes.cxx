@@ -81,7 +81,8 @@ void expectNearest(const Points& nodes, const Points& x, const std::vector<Index
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), Index(0)), n) << what;
 }
 
-/// Whether x is in the hull of points in general position: no plane through x and two points has all others on one side.
+/// Whether x is in the hull of points in general position: no plane through x and two points has all others on one
+/// side.
 bool insideByAllPlanes(const Eigen::RowVector3d& x, const Points& points)
 {
   const Points d = points.rowwise() - x;
