@@ -130,9 +130,9 @@ private:
   void findPatches()
   {
     SurfaceEdges& edges = this->result_.edges;
-    this->patches_ = surfacePatches(this->faces_, edges, this->options_.featureAngle,
-      givenSurfaces(this->faces_, edges, this->options_), this->options_.featuresInside);
-    markGivenSeams(this->points_, edges, this->options_, this->patches_);
+    const GivenSurfaces known = givenSurfaces(this->points_, this->faces_, edges, this->options_);
+    this->patches_ = surfacePatches(this->faces_, edges, this->options_.featureAngle, known.id,
+      known.isCurve, this->options_.featuresInside);
     this->result_.surfaceOfFace = this->patches_.ofFace;
 
     std::vector<std::pair<Index, Index>> pairs;

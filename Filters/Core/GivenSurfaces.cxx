@@ -51,128 +51,207 @@ std::vector<Index> fromNodes(const BoundaryFaces& faces, const GivenGeometry& gi
   return result;
 }
 
-/// One round: faces without an id take a neighbor's. `overCurves`: over edges that may lie on a curve but are no feature,
-/// else over those that cannot. Returns whether any did.
-bool spread(const SurfaceEdges& edges, const ClassificationOptions& options, bool overCurves,
-  std::vector<Index>& id)
+/// Where two faces meet at an edge: the ids of both, or `found` false.
+struct Beside
+{
+  bool found;
+  Index face[2];
+};
+
+Beside beside(const SurfaceEdges& edges, Index e)
+{
+  const Index* at = edges.faces.begin(e);
+  return edges.faces.end(e) - at == 2 ? Beside{ true, { at[0], at[1] } }
+                                      : Beside{ false, { -1, -1 } };
+}
+
+/// Faces without an id take a neighbor's over edges that `mayCross` lets pass, the flattest first, round by round.
+template <typename MayCross>
+void spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<Index>& id)
 {
   std::vector<std::pair<Index, Index>> found; // face, id
-  for (Index f = 0; f < static_cast<Index>(id.size()); ++f)
+  do
   {
-    std::tuple<double, Index> best(181, NoGeometry);
-    for (const Index* e = edges.ofFace.begin(f); id[f] == NoGeometry && e != edges.ofFace.end(f);
-         ++e)
+    found.clear();
+    for (Index f = 0; f < static_cast<Index>(id.size()); ++f)
     {
-      const Index* at = edges.faces.begin(*e);
-      if (edges.faces.end(*e) - at != 2 ||
-          mayShareCurve(options.given, edges.nodes[*e]) != overCurves ||
-          (overCurves && !(edges.angle[*e] <= options.featureAngle)))
+      std::tuple<double, Index> best(181, NoGeometry);
+      for (const Index* e = edges.ofFace.begin(f); id[f] == NoGeometry && e != edges.ofFace.end(f);
+           ++e)
       {
-        continue;
-      }
-      const Index other = id[at[0] == f ? at[1] : at[0]];
-      if (other != NoGeometry)
-      {
-        best = std::min(best, std::make_tuple(edges.angle[*e], other));
-      }
-    }
-    if (std::get<1>(best) != NoGeometry)
-    {
-      found.emplace_back(f, std::get<1>(best));
-    }
-  }
-  for (const auto& [face, surface] : found)
-  {
-    id[face] = surface;
-  }
-  return !found.empty();
-}
-}
-
-std::vector<Index> givenSurfaces(
-  const BoundaryFaces& faces, const SurfaceEdges& edges, const ClassificationOptions& options)
-{
-  if (options.given.dimension.empty() || !options.given.surface.empty())
-  {
-    return options.given.surface;
-  }
-  std::vector<Index> id = fromNodes(faces, options.given);
-  while (spread(edges, options, false, id) || spread(edges, options, true, id))
-  {
-  }
-  return id;
-}
-
-void markGivenSeams(const ConstPoints& points, const SurfaceEdges& edges,
-  const ClassificationOptions& options, SurfacePatches& patches)
-{
-  const GivenGeometry& given = options.given;
-  if (given.dimension.empty())
-  {
-    return;
-  }
-  const std::vector<std::uint8_t> before = patches.isCurve;
-  std::vector<std::vector<Index>> curvesAt(given.dimension.size()); // curve edges
-  const auto mark = [&](Index e)
-  {
-    patches.isCurve[e] = 1;
-    for (Index node : edges.nodes[e])
-    {
-      curvesAt[node].push_back(e);
-    }
-  };
-  for (Index e = 0; e < edges.count(); ++e)
-  {
-    if (before[e])
-    {
-      mark(e);
-    }
-  }
-  const std::vector<std::vector<Index>> atFirst = curvesAt;
-  std::vector<std::vector<Index>> toVertex(given.dimension.size()); // edges that may end a curve
-  for (Index e = 0; e < edges.count(); ++e)
-  {
-    const Index a = edges.nodes[e][0], b = edges.nodes[e][1];
-    if (before[e] || !mayShareCurve(given, edges.nodes[e]))
-    {
-      continue;
-    }
-    const int onCurve = (given.dimension[a] == 1) + (given.dimension[b] == 1);
-    if (onCurve == 1)
-    {
-      toVertex[given.dimension[a] == 1 ? a : b].push_back(e);
-    }
-    else if (onCurve == 2 ? atFirst[a].size() < 2 && atFirst[b].size() < 2
-                          : edges.angle[e] > options.featureAngle)
-    {
-      mark(e);
-    }
-  }
-  const auto away = [&](Index e, Index node) -> Eigen::RowVector3d
-  {
-    const auto& ends = edges.nodes[e];
-    return (points.row(ends[0] == node ? ends[1] : ends[0]) - points.row(node)).normalized();
-  };
-  for (std::size_t i = 0; i < toVertex.size(); ++i)
-  {
-    const Index node = static_cast<Index>(i);
-    while (!toVertex[i].empty() && curvesAt[i].size() < 2)
-    {
-      // The straightest pair of edges: with the curve's own, or of two candidates.
-      std::tuple<double, Index> best(2, -1);
-      for (Index e : toVertex[i])
-      {
-        for (Index other : curvesAt[i].empty() ? toVertex[i] : curvesAt[i])
+        const Beside at = beside(edges, *e);
+        if (!at.found || !mayCross(*e))
         {
-          const double cosine = e == other ? 1.5 : away(e, node).dot(away(other, node));
-          best = std::min(best, std::make_tuple(cosine, e));
+          continue;
+        }
+        const Index other = id[at.face[0] == f ? at.face[1] : at.face[0]];
+        if (other != NoGeometry)
+        {
+          best = std::min(best, std::make_tuple(edges.angle[*e], other));
         }
       }
-      const Index chosen = std::get<1>(best);
-      toVertex[i].erase(
-        std::remove(toVertex[i].begin(), toVertex[i].end(), chosen), toVertex[i].end());
-      mark(chosen);
+      if (std::get<1>(best) != NoGeometry)
+      {
+        found.emplace_back(f, std::get<1>(best));
+      }
+    }
+    for (const auto& [face, surface] : found)
+    {
+      id[face] = surface;
+    }
+  } while (!found.empty());
+}
+
+/// Step 3 of givenSurfaces().
+class CurveFinder
+{
+public:
+  CurveFinder(
+    const ConstPoints& points, const SurfaceEdges& edges, const ClassificationOptions& options)
+    : points_(points)
+    , edges_(edges)
+    , given_(options.given)
+    , featureAngle_(options.featureAngle)
+    , isCurve_(edges.count(), 0)
+    , at_(points.rows())
+  {
+  }
+
+  std::vector<std::uint8_t> find(const std::vector<Index>& id)
+  {
+    for (Index e = 0; e < this->edges_.count(); ++e)
+    {
+      const Beside at = beside(this->edges_, e);
+      if (at.found && id[at.face[0]] != NoGeometry && id[at.face[1]] != NoGeometry &&
+          id[at.face[0]] != id[at.face[1]])
+      {
+        this->mark(e);
+      }
+    }
+    this->joinCurveNodes();
+    this->endCurves();
+    return std::move(this->isCurve_);
+  }
+
+private:
+  void mark(Index e)
+  {
+    this->isCurve_[e] = 1;
+    for (Index node : this->edges_.nodes[e])
+    {
+      this->at_[node].push_back(e);
     }
   }
+
+  /// Edges not marked yet that may lie on a curve, `onCurve` of whose ends are given to one.
+  std::vector<Index> candidates(int onCurve) const
+  {
+    std::vector<Index> result;
+    for (Index e = 0; e < this->edges_.count(); ++e)
+    {
+      const auto& ends = this->edges_.nodes[e];
+      const int count =
+        (this->given_.dimension[ends[0]] == 1) + (this->given_.dimension[ends[1]] == 1);
+      if (!this->isCurve_[e] && count == onCurve && mayShareCurve(this->given_, ends))
+      {
+        result.push_back(e);
+      }
+    }
+    return result;
+  }
+
+  void joinCurveNodes()
+  {
+    std::vector<std::pair<double, Index>> byLength;
+    for (Index e : this->candidates(2))
+    {
+      const auto& ends = this->edges_.nodes[e];
+      byLength.emplace_back((this->points_.row(ends[0]) - this->points_.row(ends[1])).norm(), e);
+    }
+    std::sort(byLength.begin(), byLength.end());
+    for (const auto& [length, e] : byLength)
+    {
+      const auto& ends = this->edges_.nodes[e];
+      if (this->at_[ends[0]].size() < 2 && this->at_[ends[1]].size() < 2)
+      {
+        this->mark(e);
+      }
+    }
+    for (Index e : this->candidates(0))
+    {
+      if (this->edges_.angle[e] > this->featureAngle_)
+      {
+        this->mark(e);
+      }
+    }
+  }
+
+  void endCurves()
+  {
+    std::vector<std::vector<Index>> toVertex(this->at_.size());
+    for (Index e : this->candidates(1))
+    {
+      const auto& ends = this->edges_.nodes[e];
+      toVertex[this->given_.dimension[ends[0]] == 1 ? ends[0] : ends[1]].push_back(e);
+    }
+    for (std::size_t i = 0; i < toVertex.size(); ++i)
+    {
+      std::vector<Index>& open = toVertex[i];
+      while (!open.empty() && this->at_[i].size() < 2)
+      {
+        const Index chosen = this->straightest(static_cast<Index>(i), open);
+        open.erase(std::remove(open.begin(), open.end(), chosen), open.end());
+        this->mark(chosen);
+      }
+    }
+  }
+
+  /// Of the candidates at a node, the one that continues its curve edge, or another candidate, most nearly straight.
+  Index straightest(Index node, const std::vector<Index>& open) const
+  {
+    const auto away = [&](Index e) -> Eigen::RowVector3d
+    {
+      const auto& ends = this->edges_.nodes[e];
+      return (this->points_.row(ends[0] == node ? ends[1] : ends[0]) - this->points_.row(node))
+        .normalized();
+    };
+    std::tuple<double, Index> best(2, -1);
+    for (Index e : open)
+    {
+      for (Index other : this->at_[node].empty() ? open : this->at_[node])
+      {
+        best = std::min(best, std::make_tuple(e == other ? 1.5 : away(e).dot(away(other)), e));
+      }
+    }
+    return std::get<1>(best);
+  }
+
+  const ConstPoints& points_;
+  const SurfaceEdges& edges_;
+  const GivenGeometry& given_;
+  double featureAngle_;
+  std::vector<std::uint8_t> isCurve_;
+  std::vector<std::vector<Index>> at_; ///< #nodes, curve edges
+};
+}
+
+GivenSurfaces givenSurfaces(const ConstPoints& points, const BoundaryFaces& faces,
+  const SurfaceEdges& edges, const ClassificationOptions& options)
+{
+  GivenSurfaces result;
+  const GivenGeometry& given = options.given;
+  if (given.dimension.empty() || !given.surface.empty())
+  {
+    result.id = given.surface;
+    return result;
+  }
+  result.id = fromNodes(faces, given);
+  spread(
+    edges, [&](Index e) { return !mayShareCurve(given, edges.nodes[e]); }, result.id);
+  result.isCurve = CurveFinder(points, edges, options).find(result.id);
+  spread(
+    edges, [&](Index e) { return !result.isCurve[e] && edges.angle[e] <= options.featureAngle; },
+    result.id);
+  return result;
 }
 }

@@ -83,11 +83,13 @@ void number(const BoundaryFaces& faces, Sets& sets, SurfacePatches& result)
 }
 
 SurfacePatches surfacePatches(const BoundaryFaces& faces, const SurfaceEdges& edges,
-  double featureAngle, const std::vector<Index>& ids, bool featuresInside)
+  double featureAngle, const std::vector<Index>& ids, const std::vector<std::uint8_t>& curves,
+  bool featuresInside)
 {
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;
   const std::vector<Index> id = ids.empty() ? std::vector<Index>(count, NoGeometry) : ids;
   const auto isFeature = [&](Index e) { return edges.angle[e] > featureAngle; };
+  const auto isKnown = [&](Index e) { return !curves.empty() && curves[e]; };
 
   Sets sets(count);
   for (Index e = 0; e < edges.count(); ++e)
@@ -98,7 +100,7 @@ SurfacePatches surfacePatches(const BoundaryFaces& faces, const SurfaceEdges& ed
       continue;
     }
     const bool given = id[at[0]] != NoGeometry;
-    if (!isFeature(e) || (given && !featuresInside))
+    if (given ? !featuresInside || !isFeature(e) : !isFeature(e) && !isKnown(e))
     {
       sets.join(at[0], at[1]);
     }
@@ -115,7 +117,7 @@ SurfacePatches surfacePatches(const BoundaryFaces& faces, const SurfaceEdges& ed
   {
     const Index* at = edges.faces.begin(e);
     const bool manifold = edges.faces.end(e) - at == 2;
-    result.isCurve[e] = !manifold || result.ofFace[at[0]] != result.ofFace[at[1]] ||
+    result.isCurve[e] = !manifold || isKnown(e) || result.ofFace[at[0]] != result.ofFace[at[1]] ||
                         (isFeature(e) && (id[at[0]] == NoGeometry || featuresInside));
   }
   return result;
