@@ -108,6 +108,7 @@ private:
     const Index n = static_cast<Index>(this->corners_.size());
     Points b = Points::Zero(n, 3), x = Points::Zero(n, 3), place(n, 3);
     std::vector<Eigen::Triplet<double, int>> entries;
+    double largestResidual = 0, largestMotion = 0;
     for (const Pair& e : edges)
     {
       // Nodes in one place are tied together, but not without bound.
@@ -127,7 +128,10 @@ private:
         }
         else
         {
-          b.row(own) += weight * this->residual(node);
+          const Eigen::RowVector3d r = this->residual(node);
+          b.row(own) += weight * r;
+          largestResidual = std::max(largestResidual, r.norm());
+          largestMotion = std::max(largestMotion, this->motion_.displacement.row(node).norm());
         }
       }
     }
@@ -135,7 +139,7 @@ private:
     {
       place.row(i) = this->motion_.rest.row(this->corners_[i]);
     }
-    if (!b.isZero(0))
+    if (largestResidual > 1e-13 * largestMotion) // else it is rounding
     {
       SparseMatrix matrix(n, n);
       matrix.setFromTriplets(entries.begin(), entries.end());
