@@ -80,4 +80,10 @@ void RequireVolumeCells(const morph::Mesh& mesh)
                        "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
   }
 }
+
+std::string ArrayName(const char* name)
+{
+  const std::string text = name ? name : "";
+  return text == "None" ? std::string() : text;
+}
 }

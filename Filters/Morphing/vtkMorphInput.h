@@ -4,6 +4,8 @@
 
 #include "Mesh.h"
 
+#include <string>
+
 class vtkDataObject;
 class vtkPointSet;
 class vtkUnstructuredGrid;
@@ -26,6 +28,10 @@ int RequireOneRankWithCells(vtkUnstructuredGrid* grid);
 /// Throws morph::Error unless there is a cell of dimension 3. All types have to be known to the
 /// core.
 void RequireVolumeCells(const morph::Mesh& mesh);
+
+/// The name of an array as a property holds it. Empty for none: a null pointer, or "None", which
+/// ParaView's choice of an array offers.
+std::string ArrayName(const char* name);
 }
 
 #endif
