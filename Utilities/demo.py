@@ -14,21 +14,20 @@ table of quality and times."""
 import argparse
 import os
 import sys
-import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, producer, save_picture  # noqa: E402  (needs the path above)
-from Models import bore, bore_mesh  # noqa: E402
-from Models.model_mesh import write_grid  # noqa: E402
+import Models  # noqa: E402
+from Models.model_mesh import vtk_points  # noqa: E402
+from Models.vtk_files import write_grid, write_pvd  # noqa: E402
 
 
 @dataclass
@@ -51,35 +50,20 @@ def number(grid, name):
 def with_positions(surface, positions):
     """A copy of the polydata `surface` with other points, and its arrays (MorphPointId,
     RestPosition) along."""
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=1))
     moved = surface.NewInstance()
     moved.ShallowCopy(surface)
-    moved.SetPoints(points)
+    moved.SetPoints(vtk_points(positions))
     return moved
 
 
-def write_pvd(path, files, times):
-    """A ParaView data file: these files, named relative to it, as one series in time."""
-    root = xml.Element("VTKFile", type="Collection", version="1.0")
-    collection = xml.SubElement(root, "Collection")
-    for file, time in zip(files, times):
-        name = str(file.relative_to(path.parent))
-        xml.SubElement(collection, "DataSet", timestep=repr(time), file=name)
-    xml.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
-
-
-def morph_series(name, cell_name, model, steps, output):
-    """Morphs `model` (mesh, boundary nodes, places) to S_t for t = 0, 1/steps, ..., 1 and writes
-    every grid."""
-    mesh, nodes, places = model
+def morph_series(name, cell_name, mesh, steps, output):
+    """Morphs a model's mesh to S_t for t = 0, 1/steps, ..., 1 and writes every grid."""
     rest = producer(mesh.to_vtk())
     boundary = simple.ExtractMorphBoundary(Input=rest)
     boundary.UpdatePipeline()
     surface = boundary.GetClientSideObject().GetOutputDataObject(0)
     ids = vtk_to_numpy(surface.GetPointData().GetArray("MorphPointId"))
-    row = np.searchsorted(nodes, ids)
-    if len(ids) != len(nodes) or not np.array_equal(nodes[row], ids):
+    if not np.array_equal(ids, mesh.nodes):
         raise RuntimeError(f"{name}: Extract Morph Boundary found other nodes than the model")
 
     moved = producer(surface)
@@ -89,7 +73,7 @@ def morph_series(name, cell_name, model, steps, output):
     times = [step / steps for step in range(steps + 1)]
     grids, files = [], []
     for step, t in enumerate(times):
-        positions = places.positions(bore.S_0.toward(bore.S_F, t))[row]
+        positions = mesh.boundary_positions(t)
         moved.GetClientSideObject().SetOutput(with_positions(surface, positions))
         moved.MarkModified(moved)
         morph.UpdatePipeline()
@@ -182,15 +166,16 @@ def main():
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
 
+    bore = Models.get("bore")
     all_series, all_panels = [], []
     for name, cell_name, make in (
-        ("bore_hex", "Hexahedra", bore_mesh.hex_mesh),
-        ("bore_tet", "Tetrahedra", bore_mesh.tet_mesh),
+        ("bore_hex", "Hexahedra", bore.hex_mesh),
+        ("bore_tet", "Tetrahedra", bore.tet_mesh),
     ):
-        model = make()
-        series = morph_series(name, cell_name, model, arguments.steps, output)
+        mesh = make()
+        series = morph_series(name, cell_name, mesh, arguments.steps, output)
         all_series.append(series)
-        all_panels.extend(panels(series, model[0]))
+        all_panels.extend(panels(series, mesh))
     print_table(all_series)
 
     if not arguments.no_picture:
