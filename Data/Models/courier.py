@@ -243,7 +243,7 @@ class Courier(Model):
         and rib through 12 more; small: 2 and 4."""
         from .gmsh_mesh import quadrilaterals
 
-        size, low, high = (0.36, 2, 4) if small else (0.108, 5, 12)
+        size, low, high = (0.36, 2, 4) if small else (0.1105, 5, 12)
         points, faces = quadrilaterals(self._build_footprint, size)
         layers = [low + high if self._is_raised(points[quads].mean(axis=1)) else low
                   for quads in faces]

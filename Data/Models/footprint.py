@@ -3,8 +3,8 @@
 
 A rectilinear grid of lines through the plate's edges, squares around the bosses, the rib and its
 slot is laid over the footprint. Its crossings move with the shape; between them the map is
-bilinear. Inside a boss's square it is linear in the radius along each ray from the boss's axis: from
-the bore to the boss's outer wall, and on to the square.
+bilinear. Inside a boss's square it is linear in the radius along each ray from the boss's axis:
+from the bore to the boss's outer wall, and on to the square.
 
     0  1   2  3 4   5 6  7   8  9
     |--|---|--|-----|-|--|---|--| 7  the plate's edge

@@ -113,13 +113,13 @@ class MeshChecks:
 
     def test_no_face_turns_over(self):
         mesh = self.mesh
-        for t in STEPS:
+        for t in [*STEPS, self.geometry.last]:
             points = mesh.moved(t)
             centers = points[mesh.faces].mean(axis=1)
             true = model_equations.normals(
                 self.equations, self.geometry.parameters(t), mesh.face_surface, centers)
             least = np.sum(corner_normals(points, mesh.faces) * true, axis=2).min()
-            self.assertGreater(least, 0.9, f"t = {t}")
+            self.assertGreater(least, 0.9 if t <= 1 else 0.5, f"t = {t}")
 
     def test_volume(self):
         # Flat faces cut circles short: of a 24-gon's area 1.1 %, and twice that of a thin wall's.
@@ -181,5 +181,6 @@ class MeshChecks:
 
     def test_curve_positions(self):
         mesh = self.mesh
-        self.assertTrue(np.array_equal(mesh.curve_positions(0.55), mesh.moved(0.55)[mesh.curve_nodes]))
+        expected = mesh.moved(0.55)[mesh.curve_nodes]
+        self.assertTrue(np.array_equal(mesh.curve_positions(0.55), expected))
         self.assertEqual(len(mesh.curve_nodes), np.count_nonzero(mesh.geometry_dimension < 2))

@@ -2,15 +2,16 @@
 """The small meshes of the four models, those that the generators make and those on disk. Needs
 pvpython and Gmsh, not the plugin."""
 
+import subprocess
 import sys
 import tempfile
-import subprocess
 import unittest
 from pathlib import Path
 
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from model_checks import MeshChecks, Models
@@ -135,7 +136,8 @@ class Files(unittest.TestCase):
                 points = vtk_to_numpy(data.GetPoints().GetData())
                 self.assertTrue(np.array_equal(points, mesh.moved(0.75)[nodes]))
                 arrays = data.GetPointData()
-                self.assertTrue(np.array_equal(vtk_to_numpy(arrays.GetArray("MorphPointId")), nodes))
+                ids = vtk_to_numpy(arrays.GetArray("MorphPointId"))
+                self.assertTrue(np.array_equal(ids, nodes))
                 rest = vtk_to_numpy(arrays.GetArray("RestPosition"))
                 self.assertTrue(np.array_equal(rest[:, :3], mesh.points[nodes]))
                 self.assertTrue(np.all(rest[:, 3] == 1))
@@ -149,6 +151,24 @@ class Files(unittest.TestCase):
                 capture_output=True, text=True, timeout=60)
             self.assertEqual(process.returncode, 2)
             self.assertIn("generate.py: error:", process.stderr)
+
+
+class Picture(unittest.TestCase):
+    def test_is_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process = subprocess.run(
+                ["pvpython", "--force-offscreen-rendering",
+                 str(ROOT / "Utilities" / "models_picture.py"), "pipe", "--output", folder],
+                capture_output=True, text=True, timeout=120)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            reader = vtkPNGReader()
+            reader.SetFileName(str(Path(folder) / "models-pipe.png"))
+            reader.Update()
+            image = reader.GetOutput()
+        self.assertEqual(image.GetDimensions()[0], 1600)
+        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).astype(int)
+        painted = np.count_nonzero(np.ptp(pixels, axis=1) > 30) / len(pixels)
+        self.assertGreater(painted, 0.1)
 
 
 class BadInput(unittest.TestCase):
