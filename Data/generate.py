@@ -12,7 +12,8 @@ For each model, kind of mesh and size, named <model>_<kind> or <model>_<kind>_sm
   NAME_curves.pvd     vertices and curves alone, for methods that find the surfaces themselves
 
 Needs numpy and VTK for Python; for tetrahedra, the canister and the courier Gmsh (Debian:
-python3-paraview, python3-gmsh). The small meshes are in Data/Models/small already."""
+python3-paraview, python3-gmsh). The small meshes are in Data/Models/small already; they were made
+by: generate.py --size small --mesh-only --output Data/Models/small"""
 
 import argparse
 import sys
@@ -45,7 +46,8 @@ def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*", metavar="MODEL",
-                        help=f"{', '.join(Models.NAMES)} (default: all)")
+                        help=f"{', '.join(Models.NAMES)} (default: these), or a variant:"
+                             f" {', '.join(Models.VARIANTS)}")
     parser.add_argument("--kind", choices=("hex", "tet", "both"), default="both",
                         help="default: %(default)s")
     parser.add_argument("--size", choices=("paper", "small", "both"), default="paper",
@@ -56,9 +58,10 @@ def parse_arguments():
     parser.add_argument("--output", type=Path, default=Path("models-output"),
                         help="directory to write to (default: %(default)s)")
     arguments = parser.parse_args()
-    unknown = [name for name in arguments.models if name not in Models.NAMES]
+    known = Models.NAMES + Models.VARIANTS
+    unknown = [name for name in arguments.models if name not in known]
     if unknown:
-        parser.error(f"no model {', '.join(unknown)}: choose from {', '.join(Models.NAMES)}")
+        parser.error(f"no model {', '.join(unknown)}: choose from {', '.join(known)}")
     if arguments.steps < 1:
         parser.error("--steps must be 1 or more")
     return arguments

@@ -10,9 +10,13 @@ geometry owns each node, and exact boundary positions on every shape to the fina
     mesh.boundary_positions(0.5)        # where these are half way from S_0 to S_F
 
     bore, pipe, canister, courier   the models: a geometry and its meshes each
-    model              what all models have in common
-    classified_mesh    a model's mesh, who owns its nodes, its way to VTK
-    gmsh_mesh          meshes by Gmsh
+    bore_twist, canister_blind      variants
+    footprint                       the courier's map of the plane
+    model                           what all models have in common
+    classification                  which geometry owns a node or a face
+    classified_mesh                 a model's mesh with that, its way to VTK
+    structured, sweep, gmsh_mesh    how meshes are made
+    vtk_files                       files for ParaView
 
 Needs numpy and VTK's Python modules (Debian: python3-paraview), for tetrahedra and for unstructured
 hexahedra also Gmsh (python3-gmsh). The small meshes in the folder `small` need no Gmsh:
@@ -20,18 +24,23 @@ hexahedra also Gmsh (python3-gmsh). The small meshes in the folder `small` need 
 """
 
 from .bore import Bore
+from .bore_twist import BoreTwist
 from .canister import Canister
+from .canister_blind import CanisterBlind
 from .courier import Courier
 from .pipe import Pipe
 
-_MODELS = {model.name: model for model in (Bore(), Pipe(), Canister(), Courier())}
+_MODELS = {model.name: model for model in (
+    Bore(), Pipe(), Canister(), Courier(), BoreTwist(), CanisterBlind())}
 
-#: Names of all models, in the order of the paper.
-NAMES = tuple(_MODELS)
+#: Names of the four models, in the order of the paper.
+NAMES = ("bore", "pipe", "canister", "courier")
+#: Names of further models: other readings of what the paper leaves open.
+VARIANTS = ("bore_twist", "canister_blind")
 
 
 def get(name):
-    """The Model of this name. Raises ValueError for an unknown name."""
+    """The Model of this name, one of NAMES or VARIANTS. Raises ValueError for another."""
     if name not in _MODELS:
-        raise ValueError(f"no model '{name}': one of {', '.join(NAMES)}")
+        raise ValueError(f"no model '{name}': one of {', '.join(_MODELS)}")
     return _MODELS[name]

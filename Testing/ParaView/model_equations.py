@@ -2,8 +2,7 @@
 """The models' surfaces once more, as equations: what the tests compare the models with. Nothing
 here uses the models' own maps.
 
-Each of `bore`, `pipe`, `canister` and `courier` takes a shape and points (n, 3) and gives
-(#surfaces, n): signed distances to the unbounded cylinders, cones, tori and planes, positive
+Each function named as a model takes a shape and points (n, 3) and gives (#surfaces, n): signed distances to the unbounded cylinders, cones, tori and planes, positive
 outside the solid, in the order of the model's Surface. Each `*_volume` takes a shape."""
 
 import math
@@ -50,6 +49,27 @@ def canister(p, points):
 
 def canister_volume(p):
     return math.pi * (p.radius**2 - p.hole_radius**2) * p.height
+
+
+def bore_twist(p, points):
+    r, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    slope = math.atan2(p.top_radius - p.foot_radius, p.height)
+    cone = (r - p.foot_radius) * math.cos(slope) - z * math.sin(slope)
+    return np.array([p.bore_radius - r, cone, -z, z - p.height])
+
+
+def bore_twist_volume(p):
+    foot, top = p.foot_radius, p.top_radius
+    frustum = math.pi * p.height * (foot * foot + foot * top + top * top) / 3
+    return frustum - math.pi * p.bore_radius**2 * p.height
+
+
+def canister_blind(p, points):
+    return np.array([*canister(p, points), p.height / 4 - points[:, 2]])
+
+
+def canister_blind_volume(p):
+    return math.pi * (p.radius**2 - 0.75 * p.hole_radius**2) * p.height
 
 
 def courier(p, points):

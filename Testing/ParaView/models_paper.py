@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The eight meshes at the paper's size, their counts printed next to those of its Table 1. Slow:
+"""The eight meshes at the paper's size, and those of the variants, their counts printed next to those of its Table 1. Slow:
 Gmsh makes millions of cells. Needs pvpython and Gmsh, not the plugin."""
 
 import sys
@@ -50,6 +50,22 @@ class CourierHex(PaperChecks, unittest.TestCase):
 
 class CourierTet(PaperChecks, unittest.TestCase):
     model, kind = "courier", "tet"
+
+
+class BoreTwistHex(PaperChecks, unittest.TestCase):
+    model, kind = "bore_twist", "hex"
+
+
+class BoreTwistTet(PaperChecks, unittest.TestCase):
+    model, kind = "bore_twist", "tet"
+
+
+class CanisterBlindHex(PaperChecks, unittest.TestCase):
+    model, kind = "canister_blind", "hex"
+
+
+class CanisterBlindTet(PaperChecks, unittest.TestCase):
+    model, kind = "canister_blind", "tet"
 
 
 if __name__ == "__main__":

@@ -103,6 +103,37 @@ class CourierTet(SmallChecks, unittest.TestCase):
         self.assertTrue(np.array_equal(again.cells, self.mesh.cells))
 
 
+class BoreTwistHex(MeshChecks, unittest.TestCase):
+    model, kind = "bore_twist", "hex"
+
+    def test_top_turns_and_foot_does_not(self):
+        final, rest = self.mesh.moved(1), self.mesh.points
+        turn = np.angle((final[:, 0] + 1j * final[:, 1]) / (rest[:, 0] + 1j * rest[:, 1]), deg=True)
+        rise = rest[:, 2] / 12
+        nodes = self.mesh.nodes
+        self.assertLess(np.abs(turn[nodes] + 30 * rise[nodes]).max(), 1e-10)
+
+
+class BoreTwistTet(MeshChecks, unittest.TestCase):
+    model, kind = "bore_twist", "tet"
+
+
+class CanisterBlindHex(MeshChecks, unittest.TestCase):
+    model, kind = "canister_blind", "hex"
+    furthest = 1.3  # its few cells are large for the last gap
+
+    def test_bottom_and_wall_stay(self):
+        surfaces = self.geometry.Surface
+        on = self.geometry.on_surfaces(self.mesh.places)
+        still = self.mesh.nodes[on[:, surfaces.BOTTOM] | on[:, surfaces.WALL]]
+        self.assertTrue(np.array_equal(self.mesh.moved(1)[still], self.mesh.points[still]))
+
+
+class CanisterBlindTet(MeshChecks, unittest.TestCase):
+    model, kind = "canister_blind", "tet"
+    furthest = 1.3
+
+
 class Files(unittest.TestCase):
     """What Data/generate.py writes."""
 
@@ -173,13 +204,14 @@ class Picture(unittest.TestCase):
 
 class BadInput(unittest.TestCase):
     def test_unknown_names(self):
-        with self.assertRaisesRegex(ValueError, "no model 'bord': one of bore, pipe"):
+        with self.assertRaisesRegex(ValueError, "no model 'bord': one of bore, pipe, canister"):
             Models.get("bord")
         with self.assertRaisesRegex(ValueError, "no kind of mesh 'wedge'"):
             Models.get("bore").make("wedge")
 
     def test_no_solid(self):
-        for name, past in (("bore", 1.6), ("pipe", 2.0), ("canister", 1.5), ("courier", 1.85)):
+        for name, past in (("bore", 1.6), ("pipe", 2.0), ("canister", 1.5), ("courier", 1.85),
+                           ("canister_blind", 1.5)):
             model = Models.get(name)
             model.parameters(model.last)
             with self.subTest(name=name), self.assertRaises(ValueError):
