@@ -65,7 +65,7 @@ def bore_twist_volume(p):
 
 
 def canister_blind(p, points):
-    return np.array([*canister(p, points), p.height / 4 - points[:, 2]])
+    return np.array([*canister(p, points), points[:, 2] - p.height / 4])
 
 
 def canister_blind_volume(p):
