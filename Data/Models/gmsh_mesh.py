@@ -7,7 +7,6 @@ quadrilaterals are frontal triangles (algorithm 6) recombined in pairs by Blosso
 
 import gmsh
 import numpy as np
-
 from vtkmodules.vtkCommonDataModel import VTK_TETRA
 
 from .model_mesh import ModelMesh

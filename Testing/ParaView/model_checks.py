@@ -113,6 +113,14 @@ class MeshChecks:
         self.assertEqual(np.unique(self.mesh.face_surface).tolist(),
                          [int(surface) for surface in self.geometry.Surface])
 
+    def test_point_arrays_alone_tell_the_faces_surfaces(self):
+        mesh = self.mesh
+        inside = mesh.geometry_dimension[mesh.faces] == 2
+        self.assertTrue(np.all(inside.any(axis=1)))
+        corner = np.argmax(inside, axis=1)
+        node = mesh.faces[np.arange(len(corner)), corner]
+        self.assertTrue(np.array_equal(mesh.geometry_id[node], mesh.face_surface))
+
     def test_no_face_turns_over(self):
         mesh = self.mesh
         for t in [*STEPS, self.furthest or self.geometry.last]:
