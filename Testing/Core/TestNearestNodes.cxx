@@ -130,9 +130,9 @@ TEST(NearestNodes, AgreesWithSortingAllDistances)
   expectNearest(cloud, inside, {}, 3, "none of them");
 }
 
-TEST(NearestNodes, ShortBlocksOfPlacesInTheCornerOfALongOneAreExact)
+TEST(NearestNodes, PlacesAndNodesOnSpheresAreExact)
 {
-  // Eight places whose box has its middle outside the ball round all of them, and nodes just beyond that ball.
+  // The middle of a box round places on a sphere may lie outside the sphere, and nodes wait just beyond it.
   std::mt19937 random(meshes::seed());
   for (int round = 0; round < 15; ++round)
   {
