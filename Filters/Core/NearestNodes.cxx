@@ -196,7 +196,8 @@ double kthSmallest(double* values, Index n, Index k)
   return values[k - 1];
 }
 
-/// A ball round consecutive places; its middle's k-th neighbor is at most `reach` away.
+/// A ball round the box of consecutive places; its middle's k-th neighbor is at most `reach` away. Round the box, not only
+/// the places: the middles of the blocks inside must be in the ball as well.
 struct Block
 {
   Place middle;
@@ -222,12 +223,8 @@ Block blockAround(const Points& x, const Index* rows, Index n)
   {
     block.middle[j] = low[j] + (high[j] - low[j]) / 2;
   }
-  double square = 0;
-  for (Index i = 0; i < n; ++i)
-  {
-    square = std::max(square, squaredDistance(x.data() + 3 * rows[i], block.middle.data()));
-  }
-  block.radius = std::sqrt(square);
+  block.radius = std::sqrt(std::max(squaredDistance(low.data(), block.middle.data()),
+    squaredDistance(high.data(), block.middle.data())));
   return block;
 }
 

@@ -36,8 +36,8 @@ public:
   struct Report
   {
     Fit fit = Fit::Affine;
-    double determinant =
-      1; ///< of the affine map before any replacement; zero or negative where it was replaced
+    /// Of the affine map before any replacement; zero or negative where it was replaced.
+    double determinant = 1;
     bool replaced() const { return this->fit == Fit::Similarity; }
   };
 

@@ -18,14 +18,15 @@ namespace morph
 ///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),    w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
 ///
 /// Exact for affine motions of prescribed nodes that do not all lie in one plane; where they do, the fit of minimum
-/// norm keeps the method linear, and the nodes off the plane follow it without a change of their distance. A free
-/// node within 1e-12 of the size of a site gets that site's displacement. The n nearest are the smallest by
+/// norm keeps the method linear, and nodes off the plane get the displacement of the map below them. A free node
+/// within 1e-12 of the size of a site gets that site's displacement. The n nearest are the smallest by
 /// (distance, site number). The map is not continuous in x: where the n-th neighbor changes, u jumps by its share
 /// of the residual, and on fine meshes the nodes either side of the middle see different walls, which is why this
 /// method inverts cells first.
 ///
 /// prepare(): a search for the neighbors, O((free + prescribed) log(prescribed)); keeps 12 bytes per neighbor of a
-/// free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass over those weights.
+/// free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass over those weights. Options count from
+/// the next prepare() on.
 class WeightedResidual : public LinearMorpher
 {
 public:

@@ -130,6 +130,25 @@ TEST(NearestNodes, AgreesWithSortingAllDistances)
   expectNearest(cloud, inside, {}, 3, "none of them");
 }
 
+TEST(NearestNodes, PlacesAndNodesOnSpheresAreExact)
+{
+  // The middle of a box round places on a sphere may lie outside the sphere, and nodes wait just beyond it.
+  std::mt19937 random(meshes::seed());
+  for (int round = 0; round < 15; ++round)
+  {
+    Points x = randomPoints(64, random);
+    x = x.rowwise().normalized();
+    x.topRows(56) *= .9;
+    x.bottomRows(8) = x.bottomRows(8).cwiseAbs().array() * .3 + .7;
+    x.bottomRows(8) = x.bottomRows(8).rowwise().normalized();
+    const Points nodes = 1.02 * randomPoints(600, random).rowwise().normalized();
+    for (Index k : { 1, 2, 6 })
+    {
+      expectNearest(nodes, x, allIds(64), k, "on a sphere");
+    }
+  }
+}
+
 TEST(NearestNodes, TiesGoToTheLowestNumbers)
 {
   Monitor monitor;
