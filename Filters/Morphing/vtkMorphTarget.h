@@ -8,8 +8,8 @@
 
 class vtkPolyData;
 
-/// Polygonal data as a surface to project boundary nodes onto. Polygons and strips are cut into
-/// triangles, and points in one place (within 1e-7 of the target's size) are one point, so the triangles of an STL file hang together.
+/// Polygonal data as a surface to project boundary nodes onto. Polygons and strips are cut into triangles, and points
+/// in one place (within 1e-7 of the target's size) are one point, so the triangles of an STL file hang together.
 class vtkMorphTarget : public morph::ProjectionTarget
 {
 public:
