@@ -37,10 +37,11 @@ struct ProjectionReport
 ProjectionReport projectCurves(const Classification& geometry, const ProjectionTarget& target,
   BoundaryMotion& motion, Monitor& monitor);
 
-/// Moves the nodes that their surface moved (state OnSurface) to the target, each by the mean normal of the moved
-/// faces of its surface around it. Faces that fold thereby (see faceQuality()) take their nodes back to where they
-/// were, until none does that was not folded before. To be called after morphSurfaces(). Cost: one search per node,
-/// and a few passes over the faces.
+/// Moves the nodes that their surface moved (state OnSurface) to the target, each by the mean normal of the moved faces
+/// of its surface around it. Where faces fold thereby (see faceQuality()), their projected nodes and the neighbors of
+/// those go to the mean of their neighbors, and on to the target again, for up to 100 rounds (Laplacian smoothing
+/// constrained to the target). Faces that are folded even then, and were not before, take their nodes back to where
+/// they were. To be called after morphSurfaces(). Cost: one search per node, and a few passes over the faces a round.
 ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget& target, BoundaryMotion& motion, Monitor& monitor);
 

@@ -16,7 +16,8 @@
  * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
  * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges, and
  *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits.
- *   Given nodes and vertices are left where they are. Where a face would fold, its nodes keep their
+ *   Given nodes and vertices are left where they are. Where faces fold
+ *   thereby, nodes are spread out on the target; where that does not help, they keep their
  *   unprojected position, and a warning names them.
  *
  * Port 0 takes the mesh at rest (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary

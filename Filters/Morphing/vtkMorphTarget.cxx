@@ -207,15 +207,21 @@ vtkMorphTarget::~vtkMorphTarget() = default;
 void vtkMorphTarget::Orient(const morph::Points& points, const morph::Points& normals)
 {
   Implementation& own = *this->Internals;
+  std::vector<Index> voters;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    if (!normals.row(i).isZero(0))
+    {
+      voters.push_back(i);
+    }
+  }
   Index agree = 0, disagree = 0;
   vtkNew<vtkGenericCell> cell;
   Row y;
-  for (Index i = 0; i < points.rows(); ++i)
+  const std::size_t stride = 1 + voters.size() / 2000; // as good as all of them
+  for (std::size_t k = 0; k < voters.size(); k += stride)
   {
-    if (normals.row(i).isZero(0))
-    {
-      continue;
-    }
+    const Index i = voters[k];
     const vtkIdType triangle = nearest(own.SurfaceLocator, points.row(i), own.Reach, cell, y);
     const double cosine = triangle < 0 ? 0 : own.Normals.row(triangle).dot(normals.row(i));
     agree += cosine > 0.5;
