@@ -18,7 +18,8 @@ enum class Unattached : std::uint8_t
   Stay
 };
 
-/// The boundary on its way, one geometric dimension after the other: vertices, curves, surfaces (Staten et al., IMR 2011, section 2).
+/// The boundary on its way, one geometric dimension after the other: vertices, curves, surfaces (Staten et al., IMR
+/// 2011, section 2).
 struct BoundaryMotion
 {
   /// How a node came by its displacement. What is settled in one step stays fixed in the later ones.
@@ -45,9 +46,9 @@ struct BoundaryMotion
   Points moved() const;
 };
 
-/// Starts with the given nodes; vertices that are not among them are held in place. `ids`: of boundary nodes; `targets`: #ids x 3, their
-/// new positions. Throws Error naming ids that do not exist, come twice or are not on the boundary, targets that are not
-/// finite or not as many, and where nothing is given at all.
+/// Starts with the given nodes; vertices that are not among them are held in place. `ids`: of boundary nodes;
+/// `targets`: #ids x 3, their new positions. Throws Error naming ids that do not exist, come twice or are not on the
+/// boundary, targets that are not finite or not as many, and where nothing is given at all.
 BoundaryMotion beginMotion(const Mesh& rest, const BoundaryFaces& faces,
   const Classification& geometry, const std::vector<Index>& ids, const ConstPoints& targets);
 }

@@ -4,6 +4,8 @@
 #include "FaceQuality.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace morph
 {
@@ -79,6 +81,134 @@ bool takeBack(const std::vector<Index>& nodes, const Points& before, ProjectionR
 }
 }
 
+namespace
+{
+/// Enough for folds some tens of faces across to open; a round costs little beside the projection.
+constexpr int RelaxationRounds = 100;
+
+/// Spreads projected nodes out where faces fold.
+class Relaxation
+{
+public:
+  Relaxation(const BoundaryFaces& faces, const SurfaceEdges& edges, const ProjectionTarget& target,
+    const Points& normals, BoundaryMotion& motion, Monitor& monitor)
+    : faces_(faces)
+    , target_(target)
+    , normals_(normals)
+    , motion_(motion)
+    , monitor_(monitor)
+    , wasMoved_(motion.state.size(), 0)
+  {
+    for (const auto& [a, b] : edges.nodes)
+    {
+      this->pairs_.emplace_back(a, b);
+      this->pairs_.emplace_back(b, a);
+    }
+    std::sort(this->pairs_.begin(), this->pairs_.end());
+  }
+
+  /// Moves those of `nodes` and their neighbors that are projected to the place on the target nearest to the mean of
+  /// their neighbors, all at once.
+  void round(const std::vector<Index>& nodes, const std::vector<Index>& projected)
+  {
+    std::vector<Index> around = nodes;
+    for (Index node : nodes)
+    {
+      this->eachNeighbor(node, [&](Index other) { around.push_back(other); });
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::vector<Index> moving;
+    std::set_intersection(
+      around.begin(), around.end(), projected.begin(), projected.end(), std::back_inserter(moving));
+    const Points now = this->motion_.moved();
+    this->place(moving,
+      [&](Index node)
+      {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        Index count = 0;
+        this->eachNeighbor(node,
+          [&](Index other)
+          {
+            sum += now.row(other);
+            ++count;
+          });
+        return Eigen::RowVector3d(sum / static_cast<double>(count));
+      });
+  }
+
+  /// Brings projected mid-side and face nodes back between their corners where those were moved.
+  void finish(const std::vector<Index>& projected)
+  {
+    std::vector<Index> moving;
+    for (Index node : projected)
+    {
+      const auto [first, last] = this->between(node);
+      if (std::any_of(first, last, [&](Index corner) { return this->wasMoved_[corner]; }))
+      {
+        moving.push_back(node);
+      }
+    }
+    const Points now = this->motion_.moved();
+    this->place(moving,
+      [&](Index node)
+      {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        const auto [first, last] = this->between(node);
+        std::for_each(first, last, [&](Index corner) { sum += now.row(corner); });
+        return Eigen::RowVector3d(sum / static_cast<double>(last - first));
+      });
+  }
+
+private:
+  template <typename Visit>
+  void eachNeighbor(Index node, const Visit& visit) const
+  {
+    for (auto p = std::lower_bound(
+           this->pairs_.begin(), this->pairs_.end(), std::pair<Index, Index>(node, -1));
+         p != this->pairs_.end() && p->first == node; ++p)
+    {
+      visit(p->second);
+    }
+  }
+
+  std::pair<const Index*, const Index*> between(Index node) const
+  {
+    const Index i = std::lower_bound(this->faces_.nodes.begin(), this->faces_.nodes.end(), node) -
+                    this->faces_.nodes.begin();
+    return { this->faces_.between.begin(i), this->faces_.between.end(i) };
+  }
+
+  template <typename Wanted>
+  void place(const std::vector<Index>& nodes, const Wanted& wanted)
+  {
+    this->monitor_.parallelFor(static_cast<Index>(nodes.size()), 64,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          const Index node = nodes[i];
+          Eigen::RowVector3d to;
+          if (this->target_.closestOnSurface(wanted(node), this->normals_.row(node), to) &&
+              to.allFinite())
+          {
+            this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
+            this->wasMoved_[node] = 1;
+          }
+        }
+      });
+  }
+
+  const BoundaryFaces& faces_;
+  const ProjectionTarget& target_;
+  const Points& normals_;
+  BoundaryMotion& motion_;
+  Monitor& monitor_;
+  std::vector<std::uint8_t> wasMoved_;
+  std::vector<std::pair<Index, Index>> pairs_; ///< corners that share an edge, both ways
+};
+}
+
 ProjectionReport projectCurves(const Classification& geometry, const ProjectionTarget& target,
   BoundaryMotion& motion, Monitor& monitor)
 {
@@ -121,11 +251,9 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
     { return target.closestOnSurface(x, normals.row(node), y); },
     motion, monitor);
-  std::vector<Index> nodes;
-  do
+  const auto folding = [&]
   {
-    monitor.check();
-    nodes.clear();
+    std::vector<Index> nodes;
     for (Index f : faceQuality(motion.rest, motion.moved(), faces, geometry).folded)
     {
       if (!std::binary_search(foldedBefore.begin(), foldedBefore.end(), f))
@@ -134,7 +262,26 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
           faces.connectivity.begin() + faces.offsets[f + 1]);
       }
     }
-  } while (takeBack(nodes, displacement, report, motion));
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    monitor.check();
+    return nodes;
+  };
+  std::vector<Index> nodes = folding();
+  if (!nodes.empty())
+  {
+    Relaxation relaxation(faces, geometry.edges, target, normals, motion, monitor);
+    for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
+    {
+      relaxation.round(nodes, report.projected);
+      nodes = folding();
+    }
+    relaxation.finish(report.projected);
+  }
+  while (takeBack(nodes, displacement, report, motion))
+  {
+    nodes = folding();
+  }
   return report;
 }
 

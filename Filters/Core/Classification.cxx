@@ -310,7 +310,8 @@ private:
     }
   }
 
-  /// Fills curve.parameter where every node inside has a given one; the nodes are then in the parameter's order. False where the given ones make no sense.
+  /// Fills curve.parameter where every node inside has a given one; the nodes are then in the parameter's order.
+  /// False where the given ones make no sense.
   bool takeGivenParameters(GeometryCurve& curve) const
   {
     const auto given = [&](Index node)

@@ -74,24 +74,26 @@ struct Classification
 
 /// Finds vertices, curves and surfaces on the boundary of a mesh.
 ///
-/// Surfaces are connected patches of boundary faces: of one given id, or with no feature edge between (see surfacePatches()). Curves are the
-/// edges where surfaces meet, where other than two faces meet, and feature edges that end inside a surface, cut into chains at
-/// vertices. A node is a vertex where it is given as one; where a curve ends, or three or more curve edges meet; where a curve turns by more than
-/// `cornerAngle` or changes the surfaces beside it; and where surfaces touch in the node alone. Closed curves without a vertex and
-/// closed surfaces without a curve are left so.
+/// Surfaces are connected patches of boundary faces: of one given id, or with no feature edge between (see
+/// surfacePatches()). Curves are the edges where surfaces meet, where other than two faces meet, and feature edges
+/// that end inside a surface, cut into chains at vertices. A node is a vertex where it is given as one; where a curve
+/// ends, or three or more curve edges meet; where a curve turns by more than `cornerAngle` or changes the surfaces
+/// beside it; and where surfaces touch in the node alone. Closed curves without a vertex and closed surfaces without
+/// a curve are left so.
 ///
-/// With `given.dimension` the faces' ids are those of their surface nodes; a face all of whose nodes are on curves goes with a neighbor. Curve edges
-/// inside a surface (seams) are those that join nodes given to one curve. Mid-side and face nodes belong to the edge or face they lie in.
+/// With `given.dimension` the faces' ids are those of their surface nodes; a face all of whose nodes are on curves
+/// goes with a neighbor. Curve edges inside a surface (seams) are those that join nodes given to one curve. Mid-side
+/// and face nodes belong to the edge or face they lie in.
 ///
-/// Numbers follow the node ids as the members say and are the ids where none are given; ids that are missing among given ones follow
-/// the greatest of them. The shape of the result does not depend on the numbering. Throws Error for arrays of the wrong length,
-/// angles outside their range, and given dimensions or ids that contradict each other, with node ids. Cost: a sort of the
-/// boundary's edges; about a microsecond a face.
+/// Numbers follow the node ids as the members say and are the ids where none are given; ids that are missing among
+/// given ones follow the greatest of them. The shape of the result does not depend on the numbering. Throws Error for
+/// arrays of the wrong length, angles outside their range, and given dimensions or ids that contradict each other,
+/// with node ids. Cost: a sort of the boundary's edges; about a microsecond a face.
 Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor);
 
-/// The same for faces without cells, a triangulated surface for instance: all its nodes are corners of faces or `between`
-/// them. Volumes have no part in it.
+/// The same for faces without cells, a triangulated surface for instance: all its nodes are corners of faces or
+/// `between` them. Volumes have no part in it.
 Classification classify(const ConstPoints& points, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor);
 }

@@ -55,6 +55,7 @@ double leastCorner(
   const ConstPoints& x, const Index* nodes, Index size, const Eigen::RowVector3d& normal)
 {
   double least = std::numeric_limits<double>::infinity();
+  bool turned = false;
   for (Index k = 0; k < size; ++k)
   {
     const Eigen::RowVector3d a = x.row(nodes[(k + 1) % size]) - x.row(nodes[k]);
@@ -62,9 +63,11 @@ double leastCorner(
     const double lengths = a.norm() * b.norm();
     const Eigen::RowVector3d area = a.cross(b);
     const double sine = lengths > 0 ? area.norm() / lengths : 0;
-    least = std::min(least, area.dot(normal) < 0 ? -sine : sine);
+    turned = area.dot(normal) < 0;
+    // The corners of a triangle turn together: there the sign goes to the least of them.
+    least = std::min(least, turned && size == 4 ? -sine : sine);
   }
-  return size == 3 ? least * 2 / std::sqrt(3.) : least;
+  return size == 3 ? (turned ? -least : least) * 2 / std::sqrt(3.) : least;
 }
 }
 

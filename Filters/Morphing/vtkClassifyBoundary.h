@@ -20,7 +20,7 @@
  * - `GeometryDimension` (signed char): 0 vertex, 1 curve, 2 surface, 3 volume, -1 in no volume cell;
  * - `GeometryId` (vtkIdType): of that vertex, curve or surface, as given, or counted from 0 in the
  *   order of their lowest node ids; of a volume node, the number of its body;
- * - `CurveParameter` (double): in [0, 1] where the dimension is 1, NaN elsewhere.
+ * - `CurveParameter` (double): in [0, 1] where the dimension is 1, 0 elsewhere.
  *
  * Port 1 is the boundary as vtkExtractMorphBoundary writes it, with these point arrays and the cell
  * array `GeometryId`, the id of the face's surface. Port 2 are the vertices and curves as polygonal

@@ -216,7 +216,9 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
     const vtkIdType k = static_cast<vtkIdType>(i);
     dimension->SetValue(k, geometry.dimension[nodes[i]]);
     id->SetValue(k, geometry.id(nodes[i]));
-    parameter->SetValue(k, geometry.parameter[nodes[i]]);
+    // Not NaN elsewhere: VTK writes that to ASCII files, and cannot read it.
+    parameter->SetValue(
+      k, geometry.dimension[nodes[i]] == 1 ? geometry.parameter[nodes[i]] : 0);
   }
   output->AddArray(dimension);
   output->AddArray(id);

@@ -7,6 +7,7 @@
 
 #include <vtkCompositeDataSet.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -50,6 +51,15 @@ vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
     return points;
   }
   refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
+}
+
+vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
+  {
+    return surface;
+  }
+  refuse(input, port, "polygonal data (Extract Surface makes it)");
 }
 
 int RequireOneRankWithCells(vtkUnstructuredGrid* grid)

@@ -8,6 +8,7 @@
 
 class vtkDataObject;
 class vtkPointSet;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 /// The checks that every filter of this module makes of its inputs. Filters accept vtkDataObject on
@@ -19,6 +20,7 @@ namespace vtkMorphInput
 /// message: "The input".
 vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
+vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
 /// To be called on every process, before anything can fail there: with the grid, or null where its
 /// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how

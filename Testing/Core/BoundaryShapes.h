@@ -17,7 +17,8 @@ Mesh cut(const Mesh& mesh, const std::function<bool(const Row&)>& keep);
 /// Both meshes in one.
 Mesh together(const Mesh& a, const Mesh& b);
 
-/// hexes(n, n, layers) with its square bent to a disc of radius 1 about the z axis, from z = 0 to `height`: 4 n cells around.
+/// hexes(n, n, layers) with its square bent to a disc of radius 1 about the z axis, from z = 0 to `height`: 4 n cells
+/// around.
 Mesh cylinder(int n, int layers, double height = 2);
 /// hexes(n, n, n) bent to the unit ball about the origin.
 Mesh ball(int n);

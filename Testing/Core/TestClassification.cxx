@@ -257,7 +257,8 @@ TEST(Classification, CreaseThatEndsInsideASurface)
   const Found found = find(mesh);
   expectConsistent(mesh, found);
   const Classification& g = found.geometry;
-  // The ridge turns by 2 atan(1 - x / 4) on average over an edge, its feet by half of that: more than 25 degrees up to x = 3 and 2.
+  // The ridge turns by 2 atan(1 - x / 4) on average over an edge, its feet by half of that: more than 25 degrees up
+  // to x = 3 and 2.
   std::map<double, std::size_t> length; // by y
   for (const GeometryCurve& curve : g.curves)
   {
@@ -448,6 +449,34 @@ TEST(Classification, FaceWithoutAreaSeparatesNothing)
   mesh.points.row(center) = mesh.points.row(side);
   const Found found = find(mesh);
   EXPECT_EQ(counts(found.geometry), expected);
+}
+
+TEST(Classification, OpenSurface)
+{
+  // The top of a box without one of its faces: rim and gap are curves.
+  Mesh mesh = meshes::hexes(4, 4, 1);
+  meshes::ThreadedMonitor monitor;
+  const BoundaryFaces all = boundaryFaces(mesh, monitor);
+  BoundaryFaces open;
+  open.offsets.push_back(0);
+  for (std::size_t f = 0; f < all.cells.size(); ++f)
+  {
+    const auto first = all.connectivity.begin() + all.offsets[f];
+    const std::vector<Index> nodes(first, first + 4);
+    const Row center = meshes::rows(mesh.points, nodes).colwise().mean();
+    if (center[2] == 1 && center != Row(1.5, 1.5, 1))
+    {
+      open.connectivity.insert(open.connectivity.end(), nodes.begin(), nodes.end());
+      open.offsets.push_back(static_cast<Index>(open.connectivity.size()));
+    }
+  }
+  open.nodes = open.connectivity;
+  std::sort(open.nodes.begin(), open.nodes.end());
+  open.nodes.erase(std::unique(open.nodes.begin(), open.nodes.end()), open.nodes.end());
+  open.between.offsets.assign(open.nodes.size() + 1, 0);
+  const Classification g = classify(mesh.points, open, {}, monitor);
+  EXPECT_EQ(counts(g), (Counts{ 8, 8, 1 }));
+  EXPECT_EQ(g.dimension[0], -1); // on no face
 }
 
 TEST(Classification, WrongInputIsNamed)

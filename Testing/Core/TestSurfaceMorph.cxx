@@ -501,7 +501,8 @@ TEST(FaceQuality, IdealAndFoldedFaces)
     EXPECT_TRUE(faceQuality(box.mesh.points, moved, box.faces, box.geometry).folded.empty());
   }
 
-  // A node in the middle of the top is pulled over its neighbor: faces fold, in the plane, where no normal flips by much less.
+  // A node in the middle of the top is pulled over its neighbor: faces fold, in the plane, where no normal flips by
+  // much less.
   Points moved = box.mesh.points;
   Index node = -1;
   for (Index n = 0; n < moved.rows(); ++n)
@@ -521,4 +522,17 @@ TEST(FaceQuality, IdealAndFoldedFaces)
   const Case tets(meshes::tets(1, 1, 1));
   quality = faceQuality(tets.mesh.points, tets.mesh.points, tets.faces, tets.geometry);
   EXPECT_NEAR(quality.minimum, 2 / std::sqrt(3.) * std::sqrt(0.5), 1e-14);
+  // An apex of the top pulled over its opposite side: the triangle's measure with the other sign.
+  const Case one(meshes::tets(2, 2, 2));
+  moved = one.mesh.points;
+  for (Index n = 0; n < moved.rows(); ++n)
+  {
+    if (moved.row(n) == Row(1, 1, 2))
+    {
+      moved(n, 0) = 2.5;
+    }
+  }
+  quality = faceQuality(one.mesh.points, moved, one.faces, one.geometry);
+  EXPECT_FALSE(quality.folded.empty());
+  EXPECT_GE(quality.minimum, -1);
 }

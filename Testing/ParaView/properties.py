@@ -65,7 +65,8 @@ class Properties(unittest.TestCase):
         boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid),
                                      Function="iHat*coordsX*0.1", ResultArrayName="Shift")
         boundary.UpdatePipeline()
-        cls.inputs = {"Input": grid, "Boundary": boundary}
+        target = ExtractMorphBoundary(Input=grid)
+        cls.inputs = {"Input": grid, "Boundary": boundary, "Target": target}
 
     def create(self, xml):
         names = [p.get("name") for p in xml.iter("InputProperty")]
