@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
+#include "Motions.h"
 
 #include "ElementStiffness.h"
 #include "Error.h"
@@ -14,32 +15,11 @@
 #include <limits>
 #include <numeric>
 
+using namespace meshes;
 using namespace morph;
 
 namespace
 {
-const Eigen::Matrix3d Shear =
-  (Eigen::Matrix3d() << 1.1, .3, .2, -.1, 1.4, .05, .2, .1, .9).finished();
-
-Eigen::RowVector3d affine(const Eigen::RowVector3d& x)
-{
-  return x * Shear + Eigen::RowVector3d(3, -2, .5);
-}
-
-/// A motion that is not affine: a twist about the z axis through the middle of a box of width w and height h.
-Eigen::RowVector3d twist(const Eigen::RowVector3d& x, double w, double h, double angle)
-{
-  const double a = angle * x[2] / h, dx = x[0] - w / 2, dy = x[1] - w / 2;
-  return { w / 2 + dx * std::cos(a) - dy * std::sin(a), w / 2 + dx * std::sin(a) + dy * std::cos(a),
-    1.5 * x[2] };
-}
-
-NodePartition outerPartition(const Mesh& mesh)
-{
-  Monitor monitor;
-  return partitionNodes(mesh, boundaryFaces(mesh, monitor).nodes);
-}
-
 Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target,
   double tolerance = 1e-12, int threads = 1)
 {
@@ -51,39 +31,6 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   method.evaluate(target, result, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
   return result;
-}
-
-Points targets(const Mesh& mesh, const NodePartition& partition,
-  const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& map)
-{
-  Mesh copy = mesh;
-  meshes::transform(copy, map);
-  return meshes::rows(copy.points, partition.prescribed);
-}
-
-std::vector<std::pair<std::string, Mesh>> jittered()
-{
-  auto list = meshes::all(4, 4, 4);
-  for (auto& [name, mesh] : list)
-  {
-    meshes::jitterInterior(mesh, name == "hexes, pyramids and tets" ? 0.1 : 0.15, meshes::seed());
-  }
-  return list;
-}
-
-Error::Kind kindOf(const std::function<void()>& call, std::string& message)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    message = error.what();
-    return error.kind();
-  }
-  ADD_FAILURE() << "no error";
-  return Error::Kind::InvalidInput;
 }
 }
 
