@@ -13,12 +13,14 @@ namespace morph
 namespace
 {
 constexpr int UsualIterations = 30;
-constexpr int MostIterations = 500;   // towards a face of the hull a step grows mu by a sixth
-constexpr double DampedAbove = 0.25;  // of the Newton decrement
-constexpr double EndDecrement = 1e-6; // the step from there leaves its square
-constexpr double LargestMu = 1e8;
+constexpr int MostIterations = 500;     // towards a face of the hull a step grows mu by a sixth
+constexpr double DampedAbove = 0.25;    // of the Newton decrement
+constexpr double EndDecrement = 1e-6;   // the step from there leaves its square
+constexpr double UsualMu = 1e3;
+constexpr double LargestMu = 1e10;
+constexpr double TurnEvery = 1e2;       // growth of mu
 constexpr double HullTolerance = 1e-11; // of the local size, for neighbors beyond the plane through the node
-constexpr double FaceTolerance = 1e-7;  // for neighbors in it
+constexpr double FaceTolerance = 1e-8;  // for neighbors in it; their own part of mu tilts the plane a little less
 constexpr double LargestResidual = 1e-10;
 
 /// Solves H x = -g, H symmetric positive definite with entries xx, xy, xz, yy, yz, zz. Returns x and the Newton decrement.
@@ -125,75 +127,96 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
   return principal.dimension;
 }
 
-LogBarrierWeights::Dual LogBarrierWeights::minimise(int k, int dimension, int maxIterations)
+/// Newton's method from dual.mu, with iterations up to a count of `mostIterations`, while mu stays below `limit`.
+void LogBarrierWeights::minimise(
+  Dual& dual, int k, int dimension, double limit, int mostIterations)
 {
-  Dual dual;
   const std::size_t pairs = static_cast<std::size_t>(k + 1) / 2;
-  // Whitening made the Hessian at mu = 0 k times the identity: the first step needs no sums.
-  double decrement = std::sqrt(static_cast<double>(k)) * this->mean_.norm();
-  Eigen::Vector3d step = this->mean_;
-  dual.mu.setZero();
-  for (dual.iterations = 1;; ++dual.iterations)
+  dual.status = Status::Stalled;
+  while (dual.iterations < mostIterations)
   {
-    if (!(decrement > DampedAbove))
+    Eigen::Vector3d step;
+    double decrement = 0;
+    if (dual.iterations == 0)
     {
-      dual.mu += step;
+      // Whitening made the Hessian at mu = 0 k times the identity: the first step needs no sums.
+      step = this->mean_;
+      decrement = std::sqrt(static_cast<double>(k)) * step.norm();
     }
     else
     {
-      dual.mu += step / (1 + decrement);
+      const Pair mx = Pair::Constant(dual.mu[0]), my = Pair::Constant(dual.mu[1]),
+                 mz = Pair::Constant(dual.mu[2]);
+      Pair gx = Pair::Zero(), gy = gx, gz = gx, xx = gx, xy = gx, xz = gx, yy = gx, yz = gx, zz = gx;
+      Pair least = gx, most = gx;
+      for (std::size_t p = 0; p < pairs; ++p)
+      {
+        const Pair x = this->x_[p], y = this->y_[p], z = this->z_[p];
+        const Pair along = mx * x + my * y + mz * z;
+        least = least.min(along);
+        most = most.max(along);
+        const Pair r = 1 / (1 + along);
+        const Pair a = r * x, b = r * y, c = r * z;
+        gx -= a;
+        gy -= b;
+        gz -= c;
+        xx += a * a;
+        xy += a * b;
+        xz += a * c;
+        yy += b * b;
+        yz += b * c;
+        zz += c * c;
+      }
+      // mu . d_j >= 0 for all j: a plane through the node has all neighbors on one side.
+      if (least.minCoeff() >= -HullTolerance * most.maxCoeff() && most.maxCoeff() > 0)
+      {
+        dual.status = Status::OnBoundary;
+        return;
+      }
+      const Eigen::Vector3d g(gx.sum(), gy.sum(), gz.sum());
+      const double H[6] = { xx.sum(), xy.sum(), xz.sum(), dimension < 2 ? 1 : yy.sum(), yz.sum(),
+        dimension < 3 ? 1 : zz.sum() };
+      decrement = newtonStep(H, g, step);
     }
-    const bool last = decrement <= EndDecrement;
-    const Pair mx = Pair::Constant(dual.mu[0]), my = Pair::Constant(dual.mu[1]),
-               mz = Pair::Constant(dual.mu[2]);
-    if (last)
+    dual.mu += decrement > DampedAbove ? Eigen::Vector3d(step / (1 + decrement)) : step;
+    ++dual.iterations;
+    if (decrement <= EndDecrement)
     {
+      const Pair mx = Pair::Constant(dual.mu[0]), my = Pair::Constant(dual.mu[1]),
+                 mz = Pair::Constant(dual.mu[2]);
       for (std::size_t p = 0; p < pairs; ++p)
       {
         this->inverse_[p] = 1 / (1 + (mx * this->x_[p] + my * this->y_[p] + mz * this->z_[p]));
       }
       dual.status = Status::Converged;
-      return dual;
+      return;
     }
-
-    Pair gx = Pair::Zero(), gy = gx, gz = gx, xx = gx, xy = gx, xz = gx, yy = gx, yz = gx, zz = gx;
-    Pair least = Pair::Constant(HUGE_VAL), most = -least;
-    for (std::size_t p = 0; p < pairs; ++p)
+    if (!(dual.mu.norm() <= limit))
     {
-      const Pair x = this->x_[p], y = this->y_[p], z = this->z_[p];
-      const Pair along = mx * x + my * y + mz * z;
-      least = least.min(along);
-      most = most.max(along);
-      const Pair r = 1 / (1 + along);
-      const Pair a = r * x, b = r * y, c = r * z;
-      gx -= a;
-      gy -= b;
-      gz -= c;
-      xx += a * a;
-      xy += a * b;
-      xz += a * c;
-      yy += b * b;
-      yz += b * c;
-      zz += c * c;
+      dual.status = std::isfinite(dual.mu.norm()) ? Status::BeyondLimit : Status::Stalled;
+      return;
     }
-    // mu . d_j >= 0 for all j: the node is not inside the hull. Padding has mu . d = 0, which does not hide that.
-    if (!(least.minCoeff() < -HullTolerance * most.maxCoeff()) || !(dual.mu.norm() < LargestMu))
-    {
-      if (most.maxCoeff() > 0)
-      {
-        dual.status = Status::OnBoundary;
-        return dual;
-      }
-    }
-    if (dual.iterations == maxIterations)
-    {
-      return dual;
-    }
-    const Eigen::Vector3d g(gx.sum(), gy.sum(), gz.sum());
-    const double H[6] = { xx.sum(), xy.sum(), xz.sum(), dimension < 2 ? 1 : yy.sum(), yz.sum(),
-      dimension < 3 ? 1 : zz.sum() };
-    decrement = newtonStep(H, g, step);
   }
+}
+
+/// Reflects the whitened coordinates so that mu lies along the last of them. Next to the hull mu is huge and nearly orthogonal to the
+/// neighbors that carry the node: along an axis their products with it, and the Hessian's smallest pivot, keep their digits.
+void LogBarrierWeights::turn(Dual& dual, int k, int dimension)
+{
+  Eigen::Vector3d axis = dual.mu.normalized();
+  axis[dimension - 1] += axis[dimension - 1] < 0 ? -1 : 1;
+  const double scale = 2 / axis.squaredNorm();
+  double* x = this->x_[0].data();
+  double* y = this->y_[0].data();
+  double* z = this->z_[0].data();
+  for (int j = 0; j < k; ++j)
+  {
+    const double along = scale * (axis[0] * x[j] + axis[1] * y[j] + axis[2] * z[j]);
+    x[j] -= along * axis[0];
+    y[j] -= along * axis[1];
+    z[j] -= along * axis[2];
+  }
+  dual.mu -= scale * axis.dot(dual.mu) * axis;
 }
 
 void LogBarrierWeights::fillWeights(int k, double* weights) const
@@ -236,7 +259,8 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
   int iterations = 0;
   if (this->whiten(offsets, k, scale))
   {
-    const Dual dual = this->minimise(k, 3, UsualIterations);
+    Dual dual;
+    this->minimise(dual, k, 3, UsualMu, UsualIterations);
     iterations = dual.iterations;
     if (dual.status == Status::Converged)
     {
@@ -271,8 +295,17 @@ LogBarrierWeights::Result LogBarrierWeights::computeCarefully(
     const int count = static_cast<int>(kept.size());
     const auto* d = reinterpret_cast<const double(*)[3]>(some.data());
     this->resize(count);
-    const int dimension = this->whitenCarefully(d, count, scale);
-    const Dual dual = this->minimise(count, std::max(dimension, 1), MostIterations);
+    const int dimension = std::max(this->whitenCarefully(d, count, scale), 1);
+    Dual dual;
+    for (double limit = TurnEvery; limit <= LargestMu; limit *= TurnEvery)
+    {
+      this->minimise(dual, count, dimension, limit, MostIterations);
+      if (dual.status != Status::BeyondLimit)
+      {
+        break;
+      }
+      this->turn(dual, count, dimension);
+    }
     result.iterations += dual.iterations;
     if (dual.status == Status::Converged)
     {
