@@ -20,7 +20,8 @@ struct Projected
   Eigen::Matrix<double, Steps + 1, Steps> H = Eigen::Matrix<double, Steps + 1, Steps>::Zero();
   Eigen::Matrix<double, Steps + 1, 1> rhs = Eigen::Matrix<double, Steps + 1, 1>::Zero();
   std::array<double, Steps> cosine = {}, sine = {};
-  int size = 0; ///< columns of H in use; fewer than the steps made where the column has come to its end
+  int size =
+    0; ///< columns of H in use; fewer than the steps made where the column has come to its end
 
   /// Rotates the new column j, and the right-hand side with it.
   void rotate(int j)
@@ -79,7 +80,8 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
     columns[c].rhs[0] = std::sqrt(norm2[c]);
     inverse[c] = norm2[c] > goal2[c] ? 1 / columns[c].rhs[0] : 0;
   }
-  const auto basis = [&](int j) -> ThreeColumnRows& {
+  const auto basis = [&](int j) -> ThreeColumnRows&
+  {
     if (static_cast<int>(this->basis_.size()) <= j)
     {
       this->basis_.emplace_back(n);
@@ -88,12 +90,14 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
   };
   ThreeColumnRows work(n);
   ThreeColumnRows& start = basis(0);
-  monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
     {
-      start[i] = residual[i].cwiseProduct(inverse);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        start[i] = residual[i].cwiseProduct(inverse);
+      }
+    });
 
   Eigen::Array4i running = (inverse.array() != 0).cast<int>();
   int made = 0;
@@ -104,23 +108,27 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
     work = this->basis_[made];
     this->preconditioner_.apply(work);
     ThreeColumnRows& next = this->basis_[made + 1];
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
       {
-        next[i] = rowTimes(*this->matrix_, i, work);
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          next[i] = rowTimes(*this->matrix_, i, work);
+        }
+      });
     for (int k = 0; k <= made; ++k)
     {
       const ThreeColumnRows& old = this->basis_[k];
       const ThreeColumns along = blockSum(
         n, monitor, zero, [&](Index i) { return ThreeColumns(next[i].cwiseProduct(old[i])); });
-      monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-        for (Index i = first; i < last; ++i)
+      monitor.parallelFor(n, Grain,
+        [&](Index first, Index last)
         {
-          next[i] -= along.cwiseProduct(old[i]);
-        }
-      });
+          for (Index i = first; i < last; ++i)
+          {
+            next[i] -= along.cwiseProduct(old[i]);
+          }
+        });
       for (int c = 0; c < 3; ++c)
       {
         columns[c].H(k, made) = along[c];
@@ -141,18 +149,20 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
       shrink[c] = length > 0 ? 1 / length : 0;
       // The end of the space, or the goal.
       if (!(length > 0) || !(columns[c].size == made + 1) ||
-        columns[c].rhs[made + 1] * columns[c].rhs[made + 1] <= goal2[c])
+          columns[c].rhs[made + 1] * columns[c].rhs[made + 1] <= goal2[c])
       {
         running[c] = 0;
         shrink[c] = 0;
       }
     }
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
       {
-        next[i] = next[i].cwiseProduct(shrink);
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          next[i] = next[i].cwiseProduct(shrink);
+        }
+      });
     ++made;
   }
 
@@ -165,23 +175,27 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
       y[k][c] = own[k];
     }
   }
-  monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
     {
-      work[i] = zero;
-      for (int k = 0; k < made; ++k)
+      for (Index i = first; i < last; ++i)
       {
-        work[i] += y[k].cwiseProduct(this->basis_[k][i]);
+        work[i] = zero;
+        for (int k = 0; k < made; ++k)
+        {
+          work[i] += y[k].cwiseProduct(this->basis_[k][i]);
+        }
       }
-    }
-  });
+    });
   this->preconditioner_.apply(work);
-  monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
     {
-      solution[i] += work[i];
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        solution[i] += work[i];
+      }
+    });
   return std::max(made, 1);
 }
 }

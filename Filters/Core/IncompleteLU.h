@@ -18,7 +18,8 @@ public:
 
 private:
   const SparseMatrix* matrix_;
-  std::vector<double> value_; ///< L below the diagonal (its own diagonal is 1), U above, and the inverse of U's diagonal
+  std::vector<double>
+    value_; ///< L below the diagonal (its own diagonal is 1), U above, and the inverse of U's diagonal
   std::vector<int> diagonal_; ///< place of each diagonal entry
 };
 }

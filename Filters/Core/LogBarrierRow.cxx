@@ -73,8 +73,7 @@ void LogBarrierRow::takeOffsets(Index node)
   this->offsets_.resize(this->columns_.size());
   for (std::size_t i = 0; i < this->columns_.size(); ++i)
   {
-    const double* point =
-      this->mesh_->points.data() + 3 * this->numbers_->nodes[this->columns_[i]];
+    const double* point = this->mesh_->points.data() + 3 * this->numbers_->nodes[this->columns_[i]];
     this->offsets_[i] = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
   }
 }
@@ -111,7 +110,7 @@ bool LogBarrierRow::leastNormAffine()
   }
   const Eigen::RowVector3d residual = w.transpose() * d / size;
   if (!w.allFinite() || !(residual.norm() <= LargestResidual) ||
-    !(std::abs(w.sum() - 1) <= LargestResidual))
+      !(std::abs(w.sum() - 1) <= LargestResidual))
   {
     return false;
   }
@@ -164,7 +163,8 @@ bool LogBarrierRow::stiffness(Index node)
 
 LogBarrierRow::Kind LogBarrierRow::compute(Index node, bool relax)
 {
-  const auto oneRing = [&] {
+  const auto oneRing = [&]
+  {
     ++this->gathering_;
     this->columns_.clear();
     this->mark_[this->numbers_->ofNode[node]] = this->gathering_;

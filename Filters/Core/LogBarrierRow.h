@@ -26,9 +26,9 @@ public:
   /// Where the weights come from.
   enum class Kind
   {
-    OneRing,   ///< log-barrier weights among the nodes that share a volume cell with the node
-    TwoRing,   ///< log-barrier weights among those and their neighbors
-    Affine,    ///< least-norm affine weights of the one ring: exact for affine maps, some of them negative
+    OneRing, ///< log-barrier weights among the nodes that share a volume cell with the node
+    TwoRing, ///< log-barrier weights among those and their neighbors
+    Affine, ///< least-norm affine weights of the one ring: exact for affine maps, some of them negative
     Stiffness, ///< FEMWARP's row
     None       ///< no weights: asked for OneRing only, or every cell around has zero volume
   };

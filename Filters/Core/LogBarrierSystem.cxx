@@ -54,10 +54,13 @@ struct Chunk
     }
   }
 
-  void append(int row, int rows, const std::vector<int>& columns, const std::vector<double>& weights)
+  void append(
+    int row, int rows, const std::vector<int>& columns, const std::vector<double>& weights)
   {
-    const std::size_t before = this->insideColumn.size(), outsideBefore = this->outsideColumn.size();
-    const auto put = [this](int column, double value) {
+    const std::size_t before = this->insideColumn.size(),
+                      outsideBefore = this->outsideColumn.size();
+    const auto put = [this](int column, double value)
+    {
       this->insideColumn.push_back(column);
       this->insideValue.push_back(value);
     };
@@ -94,17 +97,19 @@ void join(SparseMatrix& matrix, Index rows, Index width, std::vector<Chunk>& chu
     all.insert(all.end(), (chunk.*sizes).begin(), (chunk.*sizes).end());
   }
   openRows(matrix, width, all);
-  monitor.parallelFor(static_cast<Index>(chunks.size()), 1, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(static_cast<Index>(chunks.size()), 1,
+    [&](Index first, Index last)
     {
-      Chunk& chunk = chunks[c];
-      const int at = matrix.outerIndexPtr()[c * ChunkRows];
-      std::copy((chunk.*column).begin(), (chunk.*column).end(), matrix.innerIndexPtr() + at);
-      std::copy((chunk.*value).begin(), (chunk.*value).end(), matrix.valuePtr() + at);
-      chunk.*column = {};
-      chunk.*value = {};
-    }
-  });
+      for (Index c = first; c < last; ++c)
+      {
+        Chunk& chunk = chunks[c];
+        const int at = matrix.outerIndexPtr()[c * ChunkRows];
+        std::copy((chunk.*column).begin(), (chunk.*column).end(), matrix.innerIndexPtr() + at);
+        std::copy((chunk.*value).begin(), (chunk.*value).end(), matrix.valuePtr() + at);
+        chunk.*column = {};
+        chunk.*value = {};
+      }
+    });
 }
 }
 
@@ -119,28 +124,30 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   const Index n = static_cast<Index>(rows.size());
   const Index count = (n + ChunkRows - 1) / ChunkRows;
   std::vector<Chunk> chunks(count);
-  monitor.parallelFor(count, 1, [&](Index first, Index last) {
-    LogBarrierRow row(mesh, around, columns);
-    Chunk scratch; // keeps its capacity from chunk to chunk
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(count, 1,
+    [&](Index first, Index last)
     {
-      scratch.clear();
-      for (Index i = c * ChunkRows; i < std::min(n, (c + 1) * ChunkRows); ++i)
+      LogBarrierRow row(mesh, around, columns);
+      Chunk scratch; // keeps its capacity from chunk to chunk
+      for (Index c = first; c < last; ++c)
       {
-        const LogBarrierRow::Kind kind = row.compute(rows[i], relax);
-        scratch.count(rows[i], kind, row.iterations());
-        if (kind == LogBarrierRow::Kind::None)
+        scratch.clear();
+        for (Index i = c * ChunkRows; i < std::min(n, (c + 1) * ChunkRows); ++i)
         {
-          scratch.append(static_cast<int>(i), static_cast<int>(n), {}, {});
+          const LogBarrierRow::Kind kind = row.compute(rows[i], relax);
+          scratch.count(rows[i], kind, row.iterations());
+          if (kind == LogBarrierRow::Kind::None)
+          {
+            scratch.append(static_cast<int>(i), static_cast<int>(n), {}, {});
+          }
+          else
+          {
+            scratch.append(static_cast<int>(i), static_cast<int>(n), row.columns(), row.weights());
+          }
         }
-        else
-        {
-          scratch.append(static_cast<int>(i), static_cast<int>(n), row.columns(), row.weights());
-        }
+        chunks[c] = scratch;
       }
-      chunks[c] = scratch;
-    }
-  });
+    });
   monitor.check();
   monitor.progress(0.5);
 

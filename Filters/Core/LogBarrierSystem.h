@@ -16,10 +16,11 @@ struct LogBarrierSystem
   SparseMatrix interior; ///< I - W_I, #rows x #rows
   SparseMatrix coupling; ///< -W_B, #rows x #prescribed
 
-  std::vector<Index> outside; ///< nodes without log-barrier weights among their neighbors, in the order of the rows
-  std::vector<Index> empty;   ///< those among them without any weights; their rows are not valid
+  std::vector<Index>
+    outside; ///< nodes without log-barrier weights among their neighbors, in the order of the rows
+  std::vector<Index> empty; ///< those among them without any weights; their rows are not valid
   Index twoRing = 0, affine = 0, stiffness = 0; ///< how many of `outside` took which fall-back
-  int mostIterations = 0;      ///< Newton steps, of all nodes
+  int mostIterations = 0;                       ///< Newton steps, of all nodes
   double meanIterations = 0;
 };
 

@@ -30,11 +30,11 @@ void requireWeights(const LogBarrierSystem& system, bool relax)
         " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
   }
   std::ostringstream text;
-  text << system.empty.size()
-       << (system.empty.size() == 1 ? " free node does" : " free nodes do")
-       << " not lie inside the hull of the neighbors, at inverted or strongly concave cells, and so "
-       << "cannot be a convex combination of them: node ids " << listIds(system.empty)
-       << ". Repair the rest mesh, prescribe those nodes, or set OutsideHull to Relax.";
+  text
+    << system.empty.size() << (system.empty.size() == 1 ? " free node does" : " free nodes do")
+    << " not lie inside the hull of the neighbors, at inverted or strongly concave cells, and so "
+    << "cannot be a convex combination of them: node ids " << listIds(system.empty)
+    << ". Repair the rest mesh, prescribe those nodes, or set OutsideHull to Relax.";
   throw Error(text.str());
 }
 }
@@ -67,9 +67,10 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   if (!system.outside.empty())
   {
     monitor.warn("Free nodes outside the hull of their neighbors: node ids " +
-      listIds(system.outside) + ". " + std::to_string(system.twoRing) +
-      " took weights among a second ring of neighbors, " + std::to_string(system.affine) +
-      " affine weights, " + std::to_string(system.stiffness) + " FEMWARP's row.");
+                 listIds(system.outside) + ". " + std::to_string(system.twoRing) +
+                 " took weights among a second ring of neighbors, " +
+                 std::to_string(system.affine) + " affine weights, " +
+                 std::to_string(system.stiffness) + " FEMWARP's row.");
   }
   monitor.check();
   monitor.progress(0.6);
@@ -107,26 +108,31 @@ EvaluateReport LogBarrierWarp::displace(
   // Affine motions solve the equations; what remains of the others is all the iteration has to find.
   const AffineFit fit(this->restPoints(), this->partition().prescribed, prescribed);
   Points rhs(free.rows(), 3), x(free.rows(), 3);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(free.rows(), Grain,
+    [&](Index first, Index last)
     {
-      x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+      for (Index i = first; i < last; ++i)
       {
-        sum -= entry.value() * prescribed.row(entry.col());
+        x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry;
+             ++entry)
+        {
+          sum -= entry.value() * prescribed.row(entry.col());
+        }
+        rhs.row(i) = sum;
       }
-      rhs.row(i) = sum;
-    }
-  });
+    });
   const NonsymmetricSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(free.rows(), Grain,
+    [&](Index first, Index last)
     {
-      free.row(this->freeIndex(i)) = x.row(i);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        free.row(this->freeIndex(i)) = x.row(i);
+      }
+    });
   return this->report(solved, monitor);
 }
 
@@ -149,7 +155,7 @@ std::size_t LogBarrierWarp::memory() const
 {
   const NodePartition& partition = this->partition();
   return this->solver_.memory() + 12 * static_cast<std::size_t>(this->coupling_.nonZeros()) +
-    4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
-    8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
+         4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
+         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
 }
 }

@@ -57,8 +57,7 @@ protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   /// Counts in the report: OutsideHullNodes, and how many of them became TwoRingNodes, AffineNodes and StiffnessNodes;
   /// FallBackIterations, the solver's.
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 

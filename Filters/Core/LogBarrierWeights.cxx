@@ -13,14 +13,16 @@ namespace morph
 namespace
 {
 constexpr int UsualIterations = 30;
-constexpr int MostIterations = 500;     // towards a face of the hull a step grows mu by a sixth
-constexpr double DampedAbove = 0.25;    // of the Newton decrement
-constexpr double EndDecrement = 1e-6;   // the step from there leaves its square
+constexpr int MostIterations = 500;   // towards a face of the hull a step grows mu by a sixth
+constexpr double DampedAbove = 0.25;  // of the Newton decrement
+constexpr double EndDecrement = 1e-6; // the step from there leaves its square
 constexpr double UsualMu = 1e3;
 constexpr double LargestMu = 1e10;
-constexpr double TurnEvery = 1e2;       // growth of mu
-constexpr double HullTolerance = 1e-11; // of the local size, for neighbors beyond the plane through the node
-constexpr double FaceTolerance = 1e-8;  // for neighbors in it; their own part of mu tilts the plane a little less
+constexpr double TurnEvery = 1e2; // growth of mu
+constexpr double HullTolerance =
+  1e-11; // of the local size, for neighbors beyond the plane through the node
+constexpr double FaceTolerance =
+  1e-8; // for neighbors in it; their own part of mu tilts the plane a little less
 constexpr double LargestResidual = 1e-10;
 
 /// Solves H x = -g, H symmetric positive definite with entries xx, xy, xz, yy, yz, zz. Returns x and the Newton decrement.
@@ -89,7 +91,8 @@ bool LogBarrierWeights::whiten(const double (*offsets)[3], int k, double scale)
   {
     return false;
   }
-  const auto solve = [&](const double* d, double by, double& x, double& y, double& z) {
+  const auto solve = [&](const double* d, double by, double& x, double& y, double& z)
+  {
     x = by * d[0] * i0;
     y = (by * d[1] - l1 * x) * i1;
     z = (by * d[2] - l2 * x - l3 * y) * i2;
@@ -114,7 +117,8 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
   Eigen::Matrix3d toWhite = Eigen::Matrix3d::Zero();
   for (int c = 0; c < principal.dimension; ++c)
   {
-    toWhite.col(c) = principal.axes.col(c) * (std::sqrt(static_cast<double>(k)) / principal.extent[c]);
+    toWhite.col(c) =
+      principal.axes.col(c) * (std::sqrt(static_cast<double>(k)) / principal.extent[c]);
   }
   const Points white = d * toWhite;
   for (int j = 0; j < k; ++j)
@@ -128,8 +132,7 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
 }
 
 /// Newton's method from dual.mu, with iterations up to a count of `mostIterations`, while mu stays below `limit`.
-void LogBarrierWeights::minimise(
-  Dual& dual, int k, int dimension, double limit, int mostIterations)
+void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit, int mostIterations)
 {
   const std::size_t pairs = static_cast<std::size_t>(k + 1) / 2;
   dual.status = Status::Stalled;
@@ -147,7 +150,8 @@ void LogBarrierWeights::minimise(
     {
       const Pair mx = Pair::Constant(dual.mu[0]), my = Pair::Constant(dual.mu[1]),
                  mz = Pair::Constant(dual.mu[2]);
-      Pair gx = Pair::Zero(), gy = gx, gz = gx, xx = gx, xy = gx, xz = gx, yy = gx, yz = gx, zz = gx;
+      Pair gx = Pair::Zero(), gy = gx, gz = gx, xx = gx, xy = gx, xz = gx, yy = gx, yz = gx,
+           zz = gx;
       Pair least = gx, most = gx;
       for (std::size_t p = 0; p < pairs; ++p)
       {

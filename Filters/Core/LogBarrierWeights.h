@@ -22,9 +22,9 @@ class LogBarrierWeights
 public:
   enum class Place
   {
-    Inside,  ///< strictly inside the hull, all weights positive
-    OnHull,  ///< on a face or edge of the hull: the limit of the weights, zero for neighbors off that face
-    Outside  ///< no convex weights exist
+    Inside, ///< strictly inside the hull, all weights positive
+    OnHull, ///< on a face or edge of the hull: the limit of the weights, zero for neighbors off that face
+    Outside ///< no convex weights exist
   };
   struct Result
   {

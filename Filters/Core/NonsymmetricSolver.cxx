@@ -19,9 +19,9 @@ namespace
 constexpr Index Grain = 4096;
 constexpr double Rounding = 1e-14;
 constexpr double BreakdownCosine = 1e-13;
-constexpr int StagnationWindow = 24;      // iterations
-constexpr double StagnationFactor = 0.1;  // that they must gain
-constexpr int Warm = 8;                   // iterations that a first run may take to find its way
+constexpr int StagnationWindow = 24;     // iterations
+constexpr double StagnationFactor = 0.1; // that they must gain
+constexpr int Warm = 8;                  // iterations that a first run may take to find its way
 
 using Row = ThreeColumns;
 using Rows = ThreeColumnRows;
@@ -44,8 +44,9 @@ struct Workspace
   }
 
   Rows solution, residual, shadow, direction;
-  Rows image, second;                        ///< A times the preconditioned direction, and residual
-  Multigrid::Vector scaled, step, secondStep; ///< to the preconditioner and from it, in units of `scale`
+  Rows image, second; ///< A times the preconditioned direction, and residual
+  Multigrid::Vector scaled, step,
+    secondStep; ///< to the preconditioner and from it, in units of `scale`
   Multigrid::Workspace multigrid;
 };
 
@@ -101,14 +102,14 @@ struct NonsymmetricSolver::System
   std::size_t memory() const
   {
     return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
-      this->preconditioner.memory() +
-      this->A.rows() * (6 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f));
+           this->preconditioner.memory() +
+           this->A.rows() * (6 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f));
   }
 
   /// Sets the residual to b - A x; returns the squared norms.
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
-  void precondition(
-    const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const;
+  void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
+    Monitor& monitor) const;
   /// One run of BiCGSTAB from the solution at hand. True if it went on to the goal, false where it stagnated or broke down.
   bool bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
@@ -119,22 +120,26 @@ struct NonsymmetricSolver::System
 Row NonsymmetricSolver::System::trueResidual(
   const Points& b, Workspace& work, Monitor& monitor) const
 {
-  return blockSum(this->A.rows(), monitor, Row(Row::Zero()), [&](Index i) {
-    work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
-    return Row(work.residual[i].cwiseAbs2());
-  });
+  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index i)
+    {
+      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      return Row(work.residual[i].cwiseAbs2());
+    });
 }
 
 /// step = B (scale v).
-void NonsymmetricSolver::System::precondition(const Rows& v, const Row& scale, Workspace& work,
-  Multigrid::Vector& step, Monitor& monitor) const
+void NonsymmetricSolver::System::precondition(
+  const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const
 {
-  monitor.parallelFor(this->A.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(this->A.rows(), Grain,
+    [&](Index first, Index last)
     {
-      work.scaled[i] = v[i].cwiseProduct(scale).cast<float>();
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        work.scaled[i] = v[i].cwiseProduct(scale).cast<float>();
+      }
+    });
   this->preconditioner.apply(work.scaled, step, work.multigrid, monitor);
 }
 
@@ -149,7 +154,8 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
 
   // The preconditioner works in single precision: bring each column's residual to about 1.
   Row scale = zero, unscale = zero;
-  const auto rescale = [&] {
+  const auto rescale = [&]
+  {
     for (int c = 0; c < 3; ++c)
     {
       unscale[c] = norm2[c] > goal2[c] ? std::sqrt(norm2[c] / static_cast<double>(n)) : 0;
@@ -157,12 +163,14 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     }
   };
 
-  monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
     {
-      work.shadow[i] = direction[i] = residual[i];
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        work.shadow[i] = direction[i] = residual[i];
+      }
+    });
   const Row shadowNorm2 = norm2;
   Row rho = norm2;
   double windowStart = largestRatio(norm2, goal2);
@@ -178,7 +186,7 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     for (int c = 0; c < 3; ++c)
     {
       if (running[c] &&
-        !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c] * shadowNorm2[c])))
+          !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c] * shadowNorm2[c])))
       {
         return false;
       }
@@ -192,22 +200,26 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     rescale();
     const Row firstUnscale = unscale;
     this->precondition(direction, scale, work, work.step, monitor);
-    const Row along = blockSum(n, monitor, zero, [&](Index i) {
-      image[i] = rowTimes(this->A, i, work.step).cwiseProduct(firstUnscale);
-      return Row(image[i].cwiseProduct(work.shadow[i]));
-    });
+    const Row along = blockSum(n, monitor, zero,
+      [&](Index i)
+      {
+        image[i] = rowTimes(this->A, i, work.step).cwiseProduct(firstUnscale);
+        return Row(image[i].cwiseProduct(work.shadow[i]));
+      });
     ++report.iterations;
     const Row alpha = ratio(rho, along, running);
     if (!alpha.allFinite())
     {
       return false;
     }
-    norm2 = blockSum(n, monitor, zero, [&](Index i) {
-      residual[i] -= alpha.cwiseProduct(image[i]);
-      work.solution[i] +=
-        alpha.cwiseProduct(firstUnscale).cwiseProduct(work.step[i].cast<double>());
-      return Row(residual[i].cwiseAbs2());
-    });
+    norm2 = blockSum(n, monitor, zero,
+      [&](Index i)
+      {
+        residual[i] -= alpha.cwiseProduct(image[i]);
+        work.solution[i] +=
+          alpha.cwiseProduct(firstUnscale).cwiseProduct(work.step[i].cast<double>());
+        return Row(residual[i].cwiseAbs2());
+      });
     const Eigen::Array4i still = running * above(norm2, goal2);
     if (!still.any())
     {
@@ -216,26 +228,30 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
 
     rescale();
     this->precondition(residual, scale, work, work.secondStep, monitor);
-    const Two products = blockSum(n, monitor, Two(Two::Zero()), [&](Index i) {
-      second[i] = rowTimes(this->A, i, work.secondStep).cwiseProduct(unscale);
-      Two pair;
-      pair << second[i].cwiseProduct(residual[i]), second[i].cwiseAbs2();
-      return pair;
-    });
+    const Two products = blockSum(n, monitor, Two(Two::Zero()),
+      [&](Index i)
+      {
+        second[i] = rowTimes(this->A, i, work.secondStep).cwiseProduct(unscale);
+        Two pair;
+        pair << second[i].cwiseProduct(residual[i]), second[i].cwiseAbs2();
+        return pair;
+      });
     ++report.iterations;
     const Row omega = ratio(products.col(0), products.col(1), still);
     if (!omega.allFinite())
     {
       return false;
     }
-    const Two sums = blockSum(n, monitor, Two(Two::Zero()), [&](Index i) {
-      work.solution[i] +=
-        omega.cwiseProduct(unscale).cwiseProduct(work.secondStep[i].cast<double>());
-      residual[i] -= omega.cwiseProduct(second[i]);
-      Two pair;
-      pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i]);
-      return pair;
-    });
+    const Two sums = blockSum(n, monitor, Two(Two::Zero()),
+      [&](Index i)
+      {
+        work.solution[i] +=
+          omega.cwiseProduct(unscale).cwiseProduct(work.secondStep[i].cast<double>());
+        residual[i] -= omega.cwiseProduct(second[i]);
+        Two pair;
+        pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i]);
+        return pair;
+      });
     norm2 = sums.col(0);
     const Row rhoBefore = rho;
     rho = sums.col(1);
@@ -248,13 +264,15 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     {
       return false;
     }
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
       {
-        direction[i] =
-          residual[i] + beta.cwiseProduct(direction[i] - omega.cwiseProduct(image[i]));
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          direction[i] =
+            residual[i] + beta.cwiseProduct(direction[i] - omega.cwiseProduct(image[i]));
+        }
+      });
 
     const double left = largestRatio(norm2, goal2);
     progress(left);
@@ -275,7 +293,8 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
-  const auto start = [&] {
+  const auto start = [&]
+  {
     for (Index i = 0; i < n; ++i)
     {
       work->solution[i] = lift(x.row(i));
@@ -292,18 +311,19 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
   const double floor2 = Rounding * Rounding * bNorm2.sum();
   const Row goal2 = (tolerance * tolerance * bNorm2).cwiseMax(floor2);
   const double atStart = largestRatio(norm2, goal2);
-  const auto progress = [&](double left) {
+  const auto progress = [&](double left)
+  {
     if (left > 1 && atStart > 1)
     {
       monitor.progress(std::clamp(1 - std::log(left) / std::log(atStart), 0., 1.));
     }
   };
   // The residual that rounding leaves in b - A x for such an x.
-  const auto reachable2 = [&] {
-    const Row xNorm2 = blockSum(n, monitor, Row(Row::Zero()),
-      [&](Index i) { return Row(work->solution[i].cwiseAbs2()); });
-    return Row(
-      Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
+  const auto reachable2 = [&]
+  {
+    const Row xNorm2 = blockSum(
+      n, monitor, Row(Row::Zero()), [&](Index i) { return Row(work->solution[i].cwiseAbs2()); });
+    return Row(Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
   };
 
   Report report;
@@ -338,7 +358,8 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
         std::ostringstream text;
         text << "The linear solver did not converge: after " << report.iterations
              << " iterations the relative residual is " << largestRatio(norm2, bNorm2) << " where "
-             << tolerance << " is asked for. Look for inverted or nearly flat cells in the rest mesh, "
+             << tolerance
+             << " is asked for. Look for inverted or nearly flat cells in the rest mesh, "
              << "or raise the tolerance.";
         throw Error(Error::Kind::NoConvergence, text.str());
       }
@@ -446,6 +467,6 @@ std::size_t NonsymmetricSolver::memory() const
 {
   const std::lock_guard<std::mutex> lock(this->implementation_->mutex);
   return this->implementation_->forward.memory() +
-    (this->implementation_->transposed ? this->implementation_->transposed->memory() : 0);
+         (this->implementation_->transposed ? this->implementation_->transposed->memory() : 0);
 }
 }

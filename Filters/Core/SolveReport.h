@@ -8,9 +8,10 @@ namespace morph
 /// What an iterative solution took.
 struct SolveReport
 {
-  int iterations = 0;          ///< of all right-hand sides together
-  double relativeResidual = 0; ///< largest over the right-hand sides, |b - A x| / |b|, computed from x
-  double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
+  int iterations = 0; ///< of all right-hand sides together
+  double relativeResidual =
+    0;                   ///< largest over the right-hand sides, |b - A x| / |b|, computed from x
+  double bytesMoved = 0; ///< estimate of the memory traffic, for benchmarks
 };
 
 /// Warns where rounding kept the residual above what `tolerance` asks for.

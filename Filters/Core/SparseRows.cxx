@@ -14,7 +14,7 @@ void openRows(SparseMatrix& matrix, Index width, const std::vector<int>& sizes)
   if (entries > std::numeric_limits<int>::max())
   {
     throw Error("The mesh is too large: its matrix has " + std::to_string(entries) +
-      " entries, more than the solver can number (2^31 - 1).");
+                " entries, more than the solver can number (2^31 - 1).");
   }
   matrix.resize(static_cast<Index>(sizes.size()) - 1, width);
   std::partial_sum(sizes.begin(), sizes.end(), matrix.outerIndexPtr());

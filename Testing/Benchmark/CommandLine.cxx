@@ -88,8 +88,7 @@ int commandLine(int argc, char** argv, const std::string& name, const std::strin
   }
   if (optind != argc)
   {
-    std::fprintf(stderr, "Unexpected argument \"%s\".\n%s", argv[optind],
-      usage.c_str());
+    std::fprintf(stderr, "Unexpected argument \"%s\".\n%s", argv[optind], usage.c_str());
     return WrongUsage;
   }
 
@@ -100,9 +99,8 @@ int commandLine(int argc, char** argv, const std::string& name, const std::strin
     const Interference interference;
     bool correct = false;
     const Report report = measure(options, correct);
-    std::printf("After: %s\nBeside the benchmark ran: %s\n\n%s",
-      machineDescription().c_str(), interference.description().c_str(),
-      report.table().c_str());
+    std::printf("After: %s\nBeside the benchmark ran: %s\n\n%s", machineDescription().c_str(),
+      interference.description().c_str(), report.table().c_str());
     if (!csv.empty())
     {
       report.writeCsv(csv);

@@ -45,7 +45,8 @@ void FigureRun::add(const Problem& problem, const std::string& figure, double me
     problem.name + ": " + figure, measured, unit, this->options_.quick ? Target::none() : target);
 }
 
-void FigureRun::check(const Problem& problem, const std::string& figure, double measured, double atMost)
+void FigureRun::check(
+  const Problem& problem, const std::string& figure, double measured, double atMost)
 {
   this->report.add(problem.name + ": " + figure, measured, "", Target::atMost(atMost));
   this->correct = this->correct && measured <= atMost; // false for NaN

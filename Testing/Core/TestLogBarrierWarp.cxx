@@ -40,7 +40,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 double missed(const LogBarrierWarp& method, const Mesh& mesh)
 {
   const Points residual = method.solver().matrix() * rows(mesh.points, method.rows()) +
-    method.coupling() * rows(mesh.points, method.partition().prescribed);
+                          method.coupling() * rows(mesh.points, method.partition().prescribed);
   return residual.cwiseAbs().maxCoeff();
 }
 
@@ -74,9 +74,8 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
   jitterInterior(flat, .2, seed());
   const Eigen::Matrix3d turn =
     Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  transform(flat, [&](const Eigen::RowVector3d& x) {
-    return Eigen::RowVector3d(Eigen::RowVector3d(x[0], .03 * x[1], 1e-4 * x[2]) * turn);
-  });
+  transform(flat, [&](const Eigen::RowVector3d& x)
+    { return Eigen::RowVector3d(Eigen::RowVector3d(x[0], .03 * x[1], 1e-4 * x[2]) * turn); });
   list.emplace_back("flat 1e4", flat);
   list.emplace_back("lattice", hexes(5, 5, 5));
   for (const auto& [name, mesh] : list)
@@ -87,7 +86,8 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
     method.prepare(mesh, partition, monitor);
     EXPECT_LT(missed(method, mesh), 1e-12) << name;
     const SparseMatrix& A = method.solver().matrix();
-    const Eigen::VectorXd sums = A * Eigen::VectorXd::Ones(A.cols()) +
+    const Eigen::VectorXd sums =
+      A * Eigen::VectorXd::Ones(A.cols()) +
       method.coupling() * Eigen::VectorXd::Ones(method.coupling().cols());
     EXPECT_LT(sums.cwiseAbs().maxCoeff(), 1e-14) << name;
     // An M-matrix: a unit diagonal and nothing positive beside it.
@@ -153,7 +153,8 @@ TEST(LogBarrierWarp, AgreesWithADirectSolve)
   for (const auto& [name, mesh] : jittered())
   {
     const NodePartition partition = outerPartition(mesh);
-    const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
     Monitor monitor;
     LogBarrierWarp method;
     method.setTolerance(1e-13);
@@ -196,13 +197,13 @@ TEST(LogBarrierWarp, RigidMotionScaleAndRenumberingGoThrough)
 {
   const Eigen::Matrix3d R =
     (Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized())).toRotationMatrix();
-  const auto rigid = [&](const Eigen::RowVector3d& x) {
-    return Eigen::RowVector3d(17.5 * x * R + Eigen::RowVector3d(40, -3, 8));
-  };
+  const auto rigid = [&](const Eigen::RowVector3d& x)
+  { return Eigen::RowVector3d(17.5 * x * R + Eigen::RowVector3d(40, -3, 8)); };
   for (const auto& [name, mesh] : jittered())
   {
     const NodePartition partition = outerPartition(mesh);
-    const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
     const Points reference = morphed(mesh, partition, target);
 
     Mesh turned = mesh;
@@ -270,7 +271,8 @@ TEST(LogBarrierWarp, AdjointEqualsFiniteDifferences)
     LogBarrierWarp method;
     method.setTolerance(1e-13);
     method.prepare(mesh, partition, monitor);
-    Points gradient(mesh.numberOfNodes(), 3), step(static_cast<Index>(partition.prescribed.size()), 3);
+    Points gradient(mesh.numberOfNodes(), 3),
+      step(static_cast<Index>(partition.prescribed.size()), 3);
     gradient = gradient.unaryExpr([&](double) { return value(random); });
     step = step.unaryExpr([&](double) { return value(random); });
 
@@ -363,10 +365,13 @@ TEST(LogBarrierWarp, StretchedAndGradedMeshesConvergeFast)
     Mesh mesh = hexes(20, 20, 20);
     jitterInterior(mesh, .1, seed());
     const bool graded = std::string(kind) == "graded";
-    transform(mesh, [graded](const Eigen::RowVector3d& x) {
-      return graded ? Eigen::RowVector3d(x[0], x[1], std::pow(1.6, x[2] - 20) * 20) // edges of 0.001 to 7.5
-                    : Eigen::RowVector3d(x[0], .01 * x[1], 1e-4 * x[2]);
-    });
+    transform(mesh,
+      [graded](const Eigen::RowVector3d& x)
+      {
+        return graded ? Eigen::RowVector3d(
+                          x[0], x[1], std::pow(1.6, x[2] - 20) * 20) // edges of 0.001 to 7.5
+                      : Eigen::RowVector3d(x[0], .01 * x[1], 1e-4 * x[2]);
+      });
     const NodePartition partition = outerPartition(mesh);
     Monitor monitor;
     LogBarrierWarp method;
@@ -391,7 +396,8 @@ TEST(LogBarrierWarp, TheUnitOfLengthDoesNotShow)
   {
     Mesh scaled = mesh;
     scaled.points *= unit;
-    EXPECT_LT((morphed(scaled, partition, unit * target) / unit - reference).cwiseAbs().maxCoeff(), 1e-9)
+    EXPECT_LT(
+      (morphed(scaled, partition, unit * target) / unit - reference).cwiseAbs().maxCoeff(), 1e-9)
       << unit;
   }
 }
@@ -474,7 +480,8 @@ TEST(LogBarrierWarp, RelaxTakesTheSecondRingFirst)
   const Points at = rows(mesh.points, partition.prescribed);
   method.evaluate(at + step, plus, monitor);
   method.evaluate(at - step, minus, monitor);
-  EXPECT_NEAR((plus(Centre + 1, 0) - minus(Centre + 1, 0)) / 2, step.squaredNorm(), 1e-8 * step.squaredNorm());
+  EXPECT_NEAR((plus(Centre + 1, 0) - minus(Centre + 1, 0)) / 2, step.squaredNorm(),
+    1e-8 * step.squaredNorm());
 }
 
 TEST(LogBarrierWarp, RelaxThenTakesAffineWeights)
@@ -518,7 +525,8 @@ TEST(LogBarrierWarp, RelaxAtLastTakesTheStiffness)
   method.setOutsideHull(OutsideHull::Relax);
   method.prepare(mesh, partition, monitor);
   Points result;
-  const Points target = rows(mesh.points, partition.prescribed).rowwise() + Eigen::RowVector3d(1, 2, 3);
+  const Points target =
+    rows(mesh.points, partition.prescribed).rowwise() + Eigen::RowVector3d(1, 2, 3);
   const EvaluateReport report = method.evaluate(target, result, monitor);
   EXPECT_EQ(count(report, "StiffnessNodes"), 1);
   EXPECT_LT((result.row(13) - mesh.points.row(13) - Eigen::RowVector3d(1, 2, 3)).norm(), 1e-12);
@@ -575,7 +583,8 @@ TEST(LogBarrierWarp, MirroredMeshesAndUnusedNodesAreNoMatter)
   const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
   Mesh expected = mesh;
   transform(expected, affine);
-  EXPECT_LT((result - expected.points).topRows(125).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points));
+  EXPECT_LT(
+    (result - expected.points).topRows(125).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points));
   EXPECT_EQ(result.bottomRows(2), mesh.points.bottomRows(2));
 }
 
@@ -598,7 +607,8 @@ TEST(LogBarrierWarp, ABodyWithoutPrescribedNodesIsNamed)
   Monitor monitor;
   LogBarrierWarp method;
   std::string message;
-  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); }, message),
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); }, message),
     Error::Kind::Singular);
   EXPECT_NE(message.find("Body 1 (8 cells"), std::string::npos) << message;
 }
@@ -636,7 +646,8 @@ TEST(LogBarrierWarp, CancelStopsAndLeavesTheResultAlone)
   LogBarrierWarp method;
   std::string message;
   monitor.cancelAt = 0.3;
-  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partition, monitor); }, message), Error::Kind::Cancelled);
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partition, monitor); }, message), Error::Kind::Cancelled);
 
   monitor.cancelAt = 2;
   method.prepare(mesh, partition, monitor);
@@ -644,7 +655,8 @@ TEST(LogBarrierWarp, CancelStopsAndLeavesTheResultAlone)
   monitor.cancelAt = 0; // at once
   Points moved = Points::Constant(1, 3, 5);
   const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 8, 8, 1); });
-  EXPECT_EQ(kindOf([&] { method.evaluate(target, moved, monitor); }, message), Error::Kind::Cancelled);
+  EXPECT_EQ(
+    kindOf([&] { method.evaluate(target, moved, monitor); }, message), Error::Kind::Cancelled);
   EXPECT_EQ(kindOf([&] { method.applyTranspose(mesh.points, moved, monitor); }, message),
     Error::Kind::Cancelled);
   EXPECT_EQ(moved, Points::Constant(1, 3, 5));

@@ -50,7 +50,7 @@ Points neighborhood(int k, std::mt19937& random)
   for (int c = 0; c < 4; ++c) // a tetrahedron round the node, so that it lies inside
   {
     d.row(c) = Eigen::RowVector3d(c & 1 ? 1 : -1, c & 2 ? 1 : -1, (c == 0 || c == 3) ? 1 : -1) +
-      0.3 * Eigen::RowVector3d(value(random), value(random), value(random));
+               0.3 * Eigen::RowVector3d(value(random), value(random), value(random));
   }
   return d;
 }
@@ -67,20 +67,18 @@ Eigen::VectorXd primal(const Points& d)
   Eigen::VectorXd w = Eigen::VectorXd::Constant(k, 1. / static_cast<double>(k));
   Eigen::Vector4d multiplier = Eigen::Vector4d::Zero();
   // Infeasible-start Newton with backtracking on the norm of all residuals.
-  const auto norm = [&](const Eigen::VectorXd& x, const Eigen::Vector4d& l) {
-    return std::hypot((A.transpose() * l - x.cwiseInverse()).norm(), (A * x - b).norm());
-  };
+  const auto norm = [&](const Eigen::VectorXd& x, const Eigen::Vector4d& l)
+  { return std::hypot((A.transpose() * l - x.cwiseInverse()).norm(), (A * x - b).norm()); };
   for (int i = 0; i < 200 && norm(w, multiplier) > 1e-13; ++i)
   {
     const Eigen::VectorXd w2 = w.cwiseAbs2();
     const Eigen::VectorXd dual = A.transpose() * multiplier - w.cwiseInverse();
-    const Eigen::Vector4d step = (A * w2.asDiagonal() * A.transpose())
-                                   .ldlt()
-                                   .solve(A * w - b - A * w2.cwiseProduct(dual));
+    const Eigen::Vector4d step =
+      (A * w2.asDiagonal() * A.transpose()).ldlt().solve(A * w - b - A * w2.cwiseProduct(dual));
     const Eigen::VectorXd dw = -w2.cwiseProduct(dual + A.transpose() * step);
     double t = 1;
     while ((w + t * dw).minCoeff() <= 0 ||
-      norm(w + t * dw, multiplier + t * step) > (1 - 0.1 * t) * norm(w, multiplier))
+           norm(w + t * dw, multiplier + t * step) > (1 - 0.1 * t) * norm(w, multiplier))
     {
       t /= 2;
       if (t < 1e-12)
@@ -188,13 +186,13 @@ TEST(LogBarrierWeights, AspectRatiosDoNotShow)
     {
       const Points round = neighborhood(k, random);
       const Eigen::VectorXd expected = weightsOf(round).w;
-      const Points flat =
-        round * Eigen::Vector3d(1, std::sqrt(thin), thin).asDiagonal() * turn;
+      const Points flat = round * Eigen::Vector3d(1, std::sqrt(thin), thin).asDiagonal() * turn;
       const Outcome found = weightsOf(flat);
       ASSERT_EQ(found.place, Place::Inside) << thin << ' ' << k;
       EXPECT_LT(residual(flat, found.w), 1e-12) << thin << ' ' << k;
       // The barrier is invariant to affine maps; what rounding took from the thin direction is gone.
-      EXPECT_LT((found.w - expected).cwiseAbs().maxCoeff(), 1e-10 + 1e-14 / thin) << thin << ' ' << k;
+      EXPECT_LT((found.w - expected).cwiseAbs().maxCoeff(), 1e-10 + 1e-14 / thin)
+        << thin << ' ' << k;
       EXPECT_LE(found.iterations, 30) << thin << ' ' << k;
     }
   }
@@ -269,10 +267,11 @@ TEST(LogBarrierWeights, OnAFaceOfTheHullTheLimitHolds)
   ASSERT_EQ(found.place, Place::OnHull);
   EXPECT_LT(residual(turned, found.w), 1e-10);
   EXPECT_LT(found.w.tail(6).cwiseAbs().maxCoeff(), 1e-15);
-  EXPECT_LT((found.w.head(10) - primal(d.topRows(10).leftCols(2).eval().rowwise().homogeneous().eval() *
-                                  Eigen::DiagonalMatrix<double, 3>(1, 1, 0)))
-              .cwiseAbs()
-              .maxCoeff(),
+  EXPECT_LT(
+    (found.w.head(10) - primal(d.topRows(10).leftCols(2).eval().rowwise().homogeneous().eval() *
+                               Eigen::DiagonalMatrix<double, 3>(1, 1, 0)))
+      .cwiseAbs()
+      .maxCoeff(),
     1e-9);
 }
 

@@ -82,7 +82,8 @@ TEST(NonsymmetricSolver, AgreesWithADirectSolve)
     solver.prepare(problem.A, problem.places, monitor);
     Points x = Points::Zero(A.rows(), 3), y = x;
     const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-12, 500, monitor);
-    const NonsymmetricSolver::Report back = solver.solveTransposed(problem.b, y, 1e-12, 500, monitor);
+    const NonsymmetricSolver::Report back =
+      solver.solveTransposed(problem.b, y, 1e-12, 500, monitor);
     EXPECT_LE(report.relativeResidual, 1e-12) << wind;
     EXPECT_LE(back.relativeResidual, 1e-12) << wind;
     EXPECT_EQ(report.fallBackIterations, 0) << wind;
