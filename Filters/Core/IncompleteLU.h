@@ -6,8 +6,9 @@
 namespace morph
 {
 /// Incomplete factorisation A = L U without fill-in, as a preconditioner. For an M-matrix all pivots are positive
-/// (Meijerink and van der Vorst, Math. Comp. 31 (1977) 148-162); for others a pivot next to zero is replaced by the diagonal entry.
-/// Sequential. Cost: 8 bytes an entry; a product of the rows' lengths to make, a pass over the matrix to apply.
+/// (Meijerink and van der Vorst, Math. Comp. 31 (1977) 148-162); for others a pivot next to zero is replaced by the
+/// diagonal entry. Sequential. Cost: 8 bytes an entry; a product of the rows' lengths to make, a pass over the
+/// matrix to apply.
 class IncompleteLU
 {
 public:

@@ -19,7 +19,8 @@ struct WeightColumns
   std::vector<Index> nodes; ///< node of each column
 };
 
-/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them. One object per thread.
+/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them. One object per
+/// thread.
 class LogBarrierRow
 {
 public:

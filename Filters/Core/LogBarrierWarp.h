@@ -8,17 +8,18 @@
 
 namespace morph
 {
-/// LBWARP: every free node is a convex combination of its neighbors, the nodes that share a volume cell with it, with the
-/// weights that a log barrier finds on the rest mesh; the same combinations hold on the moved mesh (Shontz and Vavasis,
-/// IMR 2003, 147-158; Staten et al., IMR 2011, equation (13)): (I - W_I) U_I = W_B U_B in displacements.
+/// LBWARP: every free node is a convex combination of its neighbors, the nodes that share a volume cell with it,
+/// with the weights that a log barrier finds on the rest mesh; the same combinations hold on the moved mesh (Shontz
+/// and Vavasis, IMR 2003, 147-158; Staten et al., IMR 2011, equation (13)): (I - W_I) U_I = W_B U_B in
+/// displacements.
 ///
-/// The matrix is an M-matrix, so every free node stays in the convex hull of the prescribed ones. Affine motions come out
-/// exactly, to the solver's tolerance. Weights exist for a node strictly inside the hull of its neighbors, whatever their cells
-/// are like, and in the limit for one on a face of that hull (see LogBarrierWeights.h).
+/// The matrix is an M-matrix, so every free node stays in the convex hull of the prescribed ones. Affine motions
+/// come out exactly, to the solver's tolerance. Weights exist for a node strictly inside the hull of its neighbors,
+/// whatever their cells are like, and in the limit for one on a face of that hull (see LogBarrierWeights.h).
 ///
-/// prepare(): one pass over the nodes; keeps about 0.8 kB per node of a hexahedral mesh. evaluate(): 6 to 20 applications of the
-/// preconditioner to 1e-10, nearly independent of the mesh's size. applyTranspose(): as evaluate(); the first one also makes the
-/// transposed system, 0.7 kB per node.
+/// prepare(): one pass over the nodes; keeps about 0.8 kB per node of a hexahedral mesh. evaluate(): 6 to 20
+/// applications of the preconditioner to 1e-10, nearly independent of the mesh's size. applyTranspose(): as
+/// evaluate(); the first one also makes the transposed system, 0.7 kB per node.
 class LogBarrierWarp : public LinearMorpher
 {
 public:
@@ -28,8 +29,8 @@ public:
     /// prepare() throws Error with their number and the first ids.
     Error,
     /// It takes the first of these that there are: log-barrier weights among its neighbors and theirs; least-norm
-    /// affine weights, which keep affine motions exact but may be negative, so nothing bounds the node; FEMWARP's row of
-    /// the matrix.
+    /// affine weights, which keep affine motions exact but may be negative, so nothing bounds the node; FEMWARP's
+    /// row of the matrix.
     Relax
   };
 

@@ -110,7 +110,8 @@ struct NonsymmetricSolver::System
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
   void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
     Monitor& monitor) const;
-  /// One run of BiCGSTAB from the solution at hand. True if it went on to the goal, false where it stagnated or broke down.
+  /// One run of BiCGSTAB from the solution at hand. True if it went on to the goal, false where it stagnated or
+  /// broke down.
   bool bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
   Report solve(
@@ -335,12 +336,12 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
     const double before = largestRatio(norm2, goal2);
     this->bicgstab(norm2, goal2, *work, maxIterations, report, monitor, progress);
     norm2 = this->trueResidual(b, *work, monitor);
-    stuck = !(largestRatio(norm2, goal2) <= 0.5 * before);
+    stuck = !norm2.allFinite() || largestRatio(norm2, goal2) > 0.5 * before;
     ++runs;
   }
   if (above(norm2, goal2).any() && !(norm2.array() <= goal2.cwiseMax(reachable2()).array()).all())
   {
-    if (!(largestRatio(norm2, goal2) < atStart)) // false for NaN as well
+    if (!norm2.allFinite() || largestRatio(norm2, goal2) >= atStart)
     {
       norm2 = start();
     }

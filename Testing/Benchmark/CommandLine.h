@@ -23,8 +23,9 @@ struct Options
 /// std::runtime_error or morph::Error where something cannot be measured.
 using Measure = Report (*)(const Options& options, bool& correct);
 
-/// The main function of a benchmark: reads the command line, measures and prints. `name`: of the executable; `about`: two lines or
-/// three for --help; `libraries`: what else to say of the machine, or empty. Returns the exit status.
+/// The main function of a benchmark: reads the command line, measures and prints. `name`: of the executable;
+/// `about`: two lines or three for --help; `libraries`: what else to say of the machine, or empty. Returns the exit
+/// status.
 int commandLine(int argc, char** argv, const std::string& name, const std::string& about,
   const std::string& libraries, Measure measure);
 }

@@ -22,8 +22,9 @@ struct MethodTimes
   double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
 };
 
-/// One repetition: a fresh Method (a Morpher with setTolerance), prepared and evaluated twice. Appends to `times`; `moved`
-/// becomes the moved mesh. Returns the morpher. Throws std::runtime_error if the two evaluations differ in a bit.
+/// One repetition: a fresh Method (a Morpher with setTolerance), prepared and evaluated twice. Appends to `times`;
+/// `moved` becomes the moved mesh. Returns the morpher. Throws std::runtime_error if the two evaluations differ in
+/// a bit.
 template <typename Method>
 std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
   morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)

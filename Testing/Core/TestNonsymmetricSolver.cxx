@@ -24,8 +24,8 @@ struct Problem
   Points places, b;
 };
 
-/// I - W with random W >= 0 on the 6 lattice neighbors of an n^3 grid, some of it to the outside: an M-matrix. `wind` in
-/// [0, 1): how much more the neighbor upstream along z weighs.
+/// I - W with random W >= 0 on the 6 lattice neighbors of an n^3 grid, some of it to the outside: an M-matrix.
+/// `wind` in [0, 1): how much more the neighbor upstream along z weighs.
 Problem lattice(int n, double wind)
 {
   std::mt19937 random(meshes::seed());
