@@ -42,6 +42,7 @@ class Method:
 FEMWARP = Method("FEMWARP", "femwarp", "MorphFEMWARP")
 METHODS = (
     FEMWARP,
+    Method("LBWARP", "lbwarp", "MorphLBWARP"),
     Method("Weighted residual", "weighted-residual", "MorphWeightedResidual"),
     Method("Simplex-linear", "simplex-linear", "MorphSimplexLinear"),
     Method("Simplex-natural neighbor", "simplex-natural-neighbor", "MorphSimplexNaturalNeighbor"),
