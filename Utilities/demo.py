@@ -15,20 +15,19 @@ quality and times."""
 import argparse
 import os
 import sys
-import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, producer, save_picture  # noqa: E402  (needs the path above)
-from Models import bore, bore_mesh  # noqa: E402
-from Models.model_mesh import write_grid  # noqa: E402
+import Models  # noqa: E402
+from Models.model_mesh import vtk_points  # noqa: E402
+from Models.vtk_files import write_grid, write_pvd  # noqa: E402
 
 
 @dataclass
@@ -43,6 +42,7 @@ class Method:
 FEMWARP = Method("FEMWARP", "femwarp", "MorphFEMWARP")
 METHODS = (
     FEMWARP,
+    Method("LBWARP", "lbwarp", "MorphLBWARP"),
     Method("Weighted residual", "weighted-residual", "MorphWeightedResidual"),
     Method("Simplex-linear", "simplex-linear", "MorphSimplexLinear"),
     Method("Simplex-natural neighbor", "simplex-natural-neighbor", "MorphSimplexNaturalNeighbor"),
@@ -68,43 +68,29 @@ def number(grid, name):
 def with_positions(surface, positions):
     """A copy of the polydata `surface` with other points, and its arrays (MorphPointId,
     RestPosition) along."""
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=1))
     moved = surface.NewInstance()
     moved.ShallowCopy(surface)
-    moved.SetPoints(points)
+    moved.SetPoints(vtk_points(positions))
     return moved
-
-
-def write_pvd(path, files, times):
-    """A ParaView data file: these files, named relative to it, as one series in time."""
-    root = xml.Element("VTKFile", type="Collection", version="1.0")
-    collection = xml.SubElement(root, "Collection")
-    for file, time in zip(files, times):
-        name = str(file.relative_to(path.parent))
-        xml.SubElement(collection, "DataSet", timestep=repr(time), file=name)
-    xml.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 
 
 class Bore:
     """The bore at rest as one mesh, and its displaced boundary, which `move_to` moves."""
 
-    def __init__(self, name, cell_name, model):
-        self.name, self.cell_name = name, cell_name
-        self.mesh, nodes, self.places = model
+    def __init__(self, name, cell_name, mesh):
+        self.name, self.cell_name, self.mesh = name, cell_name, mesh
         self.rest = producer(self.mesh.to_vtk())
         boundary = simple.ExtractMorphBoundary(Input=self.rest)
         boundary.UpdatePipeline()
         self.surface = boundary.GetClientSideObject().GetOutputDataObject(0)
         ids = vtk_to_numpy(self.surface.GetPointData().GetArray("MorphPointId"))
-        self.row = np.searchsorted(nodes, ids)
-        if len(ids) != len(nodes) or not np.array_equal(nodes[self.row], ids):
+        if not np.array_equal(ids, mesh.nodes):
             raise RuntimeError(f"{name}: Extract Morph Boundary found other nodes than the model")
         self.moved = producer(self.surface)
 
     def move_to(self, t):
-        positions = self.places.positions(bore.S_0.toward(bore.S_F, t))[self.row]
-        self.moved.GetClientSideObject().SetOutput(with_positions(self.surface, positions))
+        moved = with_positions(self.surface, self.mesh.boundary_positions(t))
+        self.moved.GetClientSideObject().SetOutput(moved)
         self.moved.MarkModified(self.moved)
 
 
@@ -224,9 +210,10 @@ def main():
     times = [step / arguments.steps for step in range(arguments.steps + 1)]
     all_panels = {method.file_name: [] for method in METHODS}
     print_head()
+    bore = Models.get("bore")
     for name, cell_name, make in (
-        ("bore_hex", "Hexahedra", bore_mesh.hex_mesh),
-        ("bore_tet", "Tetrahedra", bore_mesh.tet_mesh),
+        ("bore_hex", "Hexahedra", bore.hex_mesh),
+        ("bore_tet", "Tetrahedra", bore.tet_mesh),
     ):
         model = Bore(name, cell_name, make())
         all_series = [morph_series(model, method, times) for method in METHODS]

@@ -5,13 +5,11 @@
 #include "CellShape.h"
 #include "ElementStiffness.h"
 #include "Error.h"
+#include "RowOrder.h"
 #include "SimplicialDecomposition.h"
-#include "SpatialOrder.h"
 #include "Topology.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -96,30 +94,6 @@ CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monit
   });
   reportBadCells(mesh, bodies, sign, monitor);
   return result;
-}
-
-/// The free nodes in the order of the matrix rows: by id where that keeps neighbors near in memory (structured
-/// meshes, swept ones), along a space-filling curve where it does not (Delaunay generators number at random: 2.5 times
-/// slower on 130,000 nodes).
-std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
-{
-  constexpr Index Small = 10000;       // fits a cache in any order
-  constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
-  const Index cells = mesh.numberOfCells();
-  double spans = 0;
-  Index count = 0;
-  for (Index c = 0; c < cells; ++c)
-  {
-    const int n = numberOfCorners(cellShape(mesh.types[c])->shape);
-    if (n > 0)
-    {
-      const auto range = std::minmax_element(mesh.cell(c), mesh.cell(c) + n);
-      spans += static_cast<double>(*range.second - *range.first);
-      ++count;
-    }
-  }
-  const bool far = spans > FarShare * static_cast<double>(count) * mesh.numberOfNodes();
-  return static_cast<Index>(free.size()) > Small && far ? spatialOrder(mesh.points, free) : free;
 }
 
 /// triangleIndex(n, a, b) of every n up to 8, looked up: the assembly's inner loop.
@@ -215,20 +189,9 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   monitor.check();
   monitor.progress(0.4);
 
-  const auto open = [rows](SparseMatrix& matrix, Index width, const std::vector<int>& sizes) {
-    const Index entries = std::accumulate(sizes.begin(), sizes.end(), Index(0));
-    if (entries > std::numeric_limits<int>::max())
-    {
-      throw Error("The mesh is too large: its matrix has " + std::to_string(entries) +
-        " entries, more than the solver can number (2^31 - 1).");
-    }
-    matrix.resize(static_cast<int>(rows), static_cast<int>(width));
-    std::partial_sum(sizes.begin(), sizes.end(), matrix.outerIndexPtr());
-    matrix.resizeNonZeros(static_cast<int>(entries));
-  };
   System system;
-  open(system.interior, rows, interiorSize);
-  open(system.coupling, columns, couplingSize);
+  openRows(system.interior, rows, interiorSize);
+  openRows(system.coupling, columns, couplingSize);
 
   monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
     std::vector<int> place(rows + columns, -1); // of a column in `entries`, where that names the column
@@ -266,21 +229,6 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
     }
   });
   return system;
-}
-}
-
-namespace
-{
-void reportRounding(const SolveReport& report, double tolerance, Monitor& monitor)
-{
-  // Within a factor of ten, and below 1e-13, nobody would see it.
-  if (report.relativeResidual > std::max(10 * tolerance, 1e-13))
-  {
-    std::ostringstream text;
-    text << "Rounding kept the relative residual at " << report.relativeResidual << " where "
-         << tolerance << " is asked for: the rest mesh has cells that are nearly flat.";
-    monitor.warn(text.str());
-  }
 }
 }
 
@@ -330,12 +278,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
 Index FemWarp::freeIndex(Index row) const
 {
-  const std::vector<Index>& free = this->partition().free;
-  if (this->rows_[row] == free[row])
-  {
-    return row;
-  }
-  return std::lower_bound(free.begin(), free.end(), this->rows_[row]) - free.begin();
+  return placeInFree(this->rows_, this->partition().free, row);
 }
 
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const

@@ -86,12 +86,13 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   return true;
 }
 
-void Multigrid::prepare(const SparseMatrix& matrix, double unit, const ConstPoints& coordinates,
-  Monitor& monitor)
+void Multigrid::prepare(const SparseMatrix& matrix, Symmetry symmetry, double unit,
+  const ConstPoints& coordinates, Monitor& monitor)
 {
   this->levels_.clear();
   this->levels_.reserve(MostLevels); // a level points into itself
-  this->coarsest_.reset();
+  this->symmetricCoarsest_.reset();
+  this->generalCoarsest_.reset();
   ExactMatrix exact;
   exact.rows = static_cast<int>(matrix.rows());
   exact.start = matrix.outerIndexPtr();
@@ -146,11 +147,42 @@ void Multigrid::prepare(const SparseMatrix& matrix, double unit, const ConstPoin
   Level& last = this->levels_.back();
   last.P = last.R = {};
   last.eigenvalue = largestEigenvalue(last, monitor);
-  this->factorizeCoarsest(exact, unit);
+  this->factorizeCoarsest(exact, symmetry, unit);
 }
 
-void Multigrid::factorizeCoarsest(const ExactMatrix& exact, double unit)
+void Multigrid::prepareTransposed(const Multigrid& other)
 {
+  this->levels_.clear();
+  this->levels_.reserve(MostLevels);
+  this->symmetricCoarsest_ = other.symmetricCoarsest_;
+  this->generalCoarsest_.reset();
+  if (other.generalCoarsest_)
+  {
+    this->generalCoarsest_.emplace(other.generalCoarsest_->reconstructedMatrix().transpose());
+  }
+  const auto refer = [](const Matrix& from, Matrix& to) {
+    to.rows = from.rows;
+    to.start = from.start;
+    to.column = from.column;
+    to.value = from.value;
+  };
+  // The cycle's two smoothing steps are the same polynomial in D^-1 A, so transposing the matrices transposes the cycle.
+  for (const Level& from : other.levels_)
+  {
+    this->levels_.emplace_back();
+    Level& level = this->levels_.back();
+    level.A = transpose(from.A, from.A.rows);
+    level.A.adopt();
+    refer(from.P, level.P);
+    refer(from.R, level.R);
+    level.inverseDiagonal = from.inverseDiagonal;
+    level.eigenvalue = from.eigenvalue;
+  }
+}
+
+void Multigrid::factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit)
+{
+  constexpr double LeastReciprocalCondition = 1e-13;
   if (exact.rows > 4 * CoarsestSize)
   {
     return;
@@ -163,11 +195,40 @@ void Multigrid::factorizeCoarsest(const ExactMatrix& exact, double unit)
       dense(i, exact.column[k]) += exact.value[k] / unit;
     }
   }
-  this->coarsest_.emplace(dense);
-  if (this->coarsest_->info() != Eigen::Success)
+  if (symmetry == Symmetry::General)
   {
-    this->coarsest_.reset();
+    this->generalCoarsest_.emplace(dense);
+    if (!(this->generalCoarsest_->rcond() > LeastReciprocalCondition))
+    {
+      this->generalCoarsest_.reset();
+    }
+    return;
   }
+  this->symmetricCoarsest_.emplace(dense);
+  if (this->symmetricCoarsest_->info() != Eigen::Success)
+  {
+    this->symmetricCoarsest_.reset();
+  }
+}
+
+bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
+{
+  using Lanes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+  const int n = this->levels_.back().A.rows;
+  const Solution right = Eigen::Map<const Lanes>(rhs[0].data(), n, 4).cast<double>();
+  Eigen::Map<Lanes> left(x[0].data(), n, 4);
+  if (this->symmetricCoarsest_)
+  {
+    left = Solution(this->symmetricCoarsest_->solve(right)).cast<float>();
+    return true;
+  }
+  if (this->generalCoarsest_)
+  {
+    left = Solution(this->generalCoarsest_->solve(right)).cast<float>();
+    return true;
+  }
+  return false;
 }
 
 float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
@@ -559,16 +620,7 @@ void Multigrid::cycle(
   Workspace::Level& work = workspace.levels_[k];
   if (k + 1 == this->levels_.size())
   {
-    const int n = level.A.rows;
-    if (this->coarsest_)
-    {
-      using Lanes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
-      Eigen::Matrix<double, Eigen::Dynamic, 4> solution =
-        Eigen::Map<const Lanes>(rhs[0].data(), n, 4).cast<double>();
-      this->coarsest_->solveInPlace(solution);
-      Eigen::Map<Lanes>(x[0].data(), n, 4) = solution.cast<float>();
-    }
-    else
+    if (!this->solveCoarsest(rhs, x))
     {
       this->smooth(level, rhs, true, x, work, monitor);
       this->smooth(level, rhs, false, x, work, monitor);
@@ -602,7 +654,8 @@ void Multigrid::cycle(
 
 std::size_t Multigrid::coarsestBytes() const
 {
-  return this->coarsest_ ? this->coarsest_->rows() * this->coarsest_->cols() * sizeof(double) : 0;
+  const std::size_t n = this->levels_.empty() ? 0 : this->levels_.back().A.rows;
+  return this->symmetricCoarsest_ || this->generalCoarsest_ ? n * n * sizeof(double) : 0;
 }
 
 std::size_t Multigrid::memory() const

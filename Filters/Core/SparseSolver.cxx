@@ -4,6 +4,7 @@
 #include "BlockSum.h"
 #include "Error.h"
 #include "Multigrid.h"
+#include "ThreeColumns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,28 +17,8 @@ namespace
 {
 constexpr Index Grain = 4096;
 
-using Row = Eigen::Vector4d; // three right-hand sides and a zero
-using Rows = std::vector<Row>;
-
-template <typename Values>
-Row lift(const Values& row)
-{
-  return Row(row[0], row[1], row[2], 0);
-}
-
-/// a / b per column, 0 for the columns that have stopped.
-Row ratio(const Row& a, const Row& b, const Eigen::Array4i& running)
-{
-  Row result = Row::Zero();
-  for (int c = 0; c < 3; ++c)
-  {
-    if (running[c])
-    {
-      result[c] = a[c] / b[c];
-    }
-  }
-  return result;
-}
+using Row = ThreeColumns;
+using Rows = ThreeColumnRows;
 
 /// The vectors of one solve.
 struct Workspace
@@ -57,12 +38,6 @@ struct Workspace
   Multigrid::Vector residual32, step32;
   Multigrid::Workspace multigrid;
 };
-
-/// Largest sqrt(a / b) over the three columns.
-double largestRatio(const Row& a, const Row& b)
-{
-  return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
-}
 }
 
 struct SparseSolver::Implementation
@@ -84,17 +59,6 @@ struct SparseSolver::Implementation
   {
     const std::lock_guard<std::mutex> lock(this->mutex);
     this->spare = std::move(workspace);
-  }
-
-  Row rowTimes(Index i, const Rows& x) const
-  {
-    Row sum = Row::Zero();
-    const int last = this->A.outerIndexPtr()[i + 1];
-    for (int k = this->A.outerIndexPtr()[i]; k < last; ++k)
-    {
-      sum += this->A.valuePtr()[k] * x[this->A.innerIndexPtr()[k]];
-    }
-    return sum;
   }
 
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
@@ -134,7 +98,8 @@ void SparseSolver::prepare(
   {
     throw SingularRows(notPositive);
   }
-  fresh->preconditioner.prepare(fresh->A, diagonal.maxCoeff(), coordinates, monitor);
+  fresh->preconditioner.prepare(
+    fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
@@ -142,7 +107,7 @@ Row SparseSolver::Implementation::trueResidual(
   const Points& b, Workspace& work, Monitor& monitor) const
 {
   return blockSum(this->A.rows(), monitor, Row(Row::Zero()), [&](Index i) {
-    work.residual[i] = lift(b.row(i)) - this->rowTimes(i, work.solution);
+    work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
     work.direction[i] = Row::Zero();
     return Row(work.residual[i].cwiseAbs2());
   });
@@ -241,7 +206,7 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
         }
       });
       const Row curvature = blockSum(n, monitor, zero, [&](Index i) {
-        image[i] = this->rowTimes(i, direction);
+        image[i] = rowTimes(this->A, i, direction);
         return Row(image[i].cwiseProduct(direction[i]));
       });
       const Row alpha = ratio(rz, curvature, running);

@@ -2,6 +2,7 @@
 #include "LinearMethods.h"
 
 #include "FemWarp.h"
+#include "LogBarrierWarp.h"
 #include "SimplexLinear.h"
 #include "SimplexNaturalNeighbor.h"
 #include "WeightedResidual.h"
@@ -19,6 +20,13 @@ const std::vector<LinearMethod>& linearMethods()
       []
       {
         auto method = std::make_unique<FemWarp>();
+        method->setTolerance(1e-13);
+        return method;
+      } },
+    { "LogBarrierWarp",
+      []
+      {
+        auto method = std::make_unique<LogBarrierWarp>();
         method->setTolerance(1e-13);
         return method;
       } },

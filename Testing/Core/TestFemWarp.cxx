@@ -15,6 +15,7 @@
 #include <limits>
 #include <numeric>
 
+using namespace meshes;
 using namespace morph;
 using motions::affine;
 using motions::jittered;

@@ -2,6 +2,7 @@
 #include "MorphFilters.h"
 
 #include "vtkFEMWarpMorph.h"
+#include "vtkLBWarpMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkWeightedResidualMorph.h"
@@ -29,6 +30,7 @@ std::function<Result(vtkMorphAlgorithm*)> on(Result (*call)(Filter*))
 const std::vector<MorphFilter>& morphFilters()
 {
   using Fem = vtkFEMWarpMorph;
+  using LogBarrier = vtkLBWarpMorph;
   using Linear = vtkSimplexLinearMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
   using Residual = vtkWeightedResidualMorph;
@@ -41,6 +43,24 @@ const std::vector<MorphFilter>& morphFilters()
         return vtkSmartPointer<vtkMorphAlgorithm>(filter);
       },
       { { "Tolerance", on<Fem, void>([](Fem* f) { f->SetTolerance(1e-3); }), false } }, {} },
+    { "LBWarp",
+      []
+      {
+        auto filter = vtkSmartPointer<LogBarrier>::New();
+        filter->SetTolerance(1e-12);
+        return vtkSmartPointer<vtkMorphAlgorithm>(filter);
+      },
+      { { "Tolerance", on<LogBarrier, void>([](LogBarrier* f) { f->SetTolerance(1e-3); }), false },
+        { "OutsideHull", on<LogBarrier, void>([](LogBarrier* f) { f->SetOutsideHullToRelax(); }),
+          true } },
+      { { "OutsideHullNodes",
+          on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetOutsideHullNodes(); }) },
+        { "TwoRingNodes",
+          on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetTwoRingNodes(); }) },
+        { "AffineNodes",
+          on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetAffineNodes(); }) },
+        { "StiffnessNodes",
+          on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetStiffnessNodes(); }) } } },
     { "SimplexLinear", make<Linear>, {},
       { { "FoldedTetrahedra",
           on<Linear, vtkIdType>([](Linear* f) { return f->GetFoldedTetrahedra(); }) },
