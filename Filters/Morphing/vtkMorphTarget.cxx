@@ -130,6 +130,8 @@ public:
   Triangles(vtkPoints* points, const morph::Points& x, const morph::BoundaryFaces& faces,
     const std::vector<Index>& some)
     : Normals(static_cast<Index>(some.size()), 3)
+    , Centers(static_cast<Index>(some.size()), 3)
+    , Radii(some.size(), 0)
   {
     vtkNew<vtkCellArray> polygons;
     for (std::size_t i = 0; i < some.size(); ++i)
@@ -137,11 +139,22 @@ public:
       const Index* nodes = faces.connectivity.data() + 3 * some[i];
       const vtkIdType corners[3] = { nodes[0], nodes[1], nodes[2] };
       polygons->InsertNextCell(3, corners);
-      this->Normals.row(static_cast<Index>(i)) = morph::vectorArea(x, nodes, 3).normalized();
+      const Index row = static_cast<Index>(i);
+      this->Normals.row(row) = morph::vectorArea(x, nodes, 3).normalized();
+      this->Centers.row(row) = (x.row(nodes[0]) + x.row(nodes[1]) + x.row(nodes[2])) / 3;
+      for (int k = 0; k < 3; ++k)
+      {
+        this->Radii[i] =
+          std::max(this->Radii[i], (x.row(nodes[k]) - this->Centers.row(row)).norm());
+      }
+      this->Largest = std::max(this->Largest, this->Radii[i]);
     }
     this->Data->SetPoints(points);
     this->Data->SetPolys(polygons);
     locate(this->Data, this->Locator);
+    this->CenterData->SetPoints(makePoints(this->Centers));
+    this->CenterLocator->SetDataSet(this->CenterData);
+    this->CenterLocator->BuildLocator();
   }
 
   vtkIdType Nearest(const Row& x, double radius, Row& y) const
@@ -158,16 +171,16 @@ public:
   {
     vtkNew<vtkIdList> near;
     vtkNew<vtkGenericCell> cell;
-    double box[6] = { x[0] - radius, x[0] + radius, x[1] - radius, x[1] + radius, x[2] - radius,
-      x[2] + radius };
-    this->Locator->FindCellsWithinBounds(box, near);
+    // Not by the cell locator, whose search in a box takes time quadratic in what it finds.
+    this->CenterLocator->FindPointsWithinRadius(radius + this->Largest, x.data(), near);
     near->Sort(); // of equally near triangles the first
     double least = radius * radius;
     bool found = false;
     for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
     {
       const vtkIdType triangle = near->GetId(k);
-      if (!fits(triangle))
+      const double nearest = (x - this->Centers.row(triangle)).norm() - this->Radii[triangle];
+      if (nearest > std::sqrt(least) || !fits(triangle))
       {
         continue;
       }
@@ -188,7 +201,12 @@ public:
 private:
   vtkNew<vtkPolyData> Data;
   vtkNew<vtkStaticCellLocator> Locator;
-  morph::Points Normals; ///< #triangles x 3, unit length; zero without area
+  vtkNew<vtkPolyData> CenterData;
+  vtkNew<vtkStaticPointLocator> CenterLocator;
+  morph::Points Normals;     ///< #triangles x 3, unit length; zero without area
+  morph::Points Centers;     ///< #triangles x 3
+  std::vector<double> Radii; ///< #triangles, of the spheres about the centers that hold them
+  double Largest = 0;
 };
 }
 
