@@ -90,16 +90,17 @@ constexpr int RelaxationRounds = 100;
 class Relaxation
 {
 public:
-  Relaxation(const BoundaryFaces& faces, const SurfaceEdges& edges, const ProjectionTarget& target,
-    const Points& normals, BoundaryMotion& motion, Monitor& monitor)
+  Relaxation(const BoundaryFaces& faces, const Classification& geometry,
+    const ProjectionTarget& target, const Points& normals, BoundaryMotion& motion, Monitor& monitor)
     : faces_(faces)
+    , geometry_(geometry)
     , target_(target)
     , normals_(normals)
     , motion_(motion)
     , monitor_(monitor)
     , wasMoved_(motion.state.size(), 0)
   {
-    for (const auto& [a, b] : edges.nodes)
+    for (const auto& [a, b] : geometry.edges.nodes)
     {
       this->pairs_.emplace_back(a, b);
       this->pairs_.emplace_back(b, a);
@@ -189,7 +190,8 @@ private:
         {
           const Index node = nodes[i];
           Eigen::RowVector3d to;
-          if (this->target_.closestOnSurface(wanted(node), this->normals_.row(node), to) &&
+          if (this->target_.closestOnSurface(
+                this->geometry_.entity[node], wanted(node), this->normals_.row(node), to) &&
               to.allFinite())
           {
             this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
@@ -200,6 +202,7 @@ private:
   }
 
   const BoundaryFaces& faces_;
+  const Classification& geometry_;
   const ProjectionTarget& target_;
   const Points& normals_;
   BoundaryMotion& motion_;
@@ -249,7 +252,7 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
   ProjectionReport report = moveTo(
     nodesIn(motion, BoundaryMotion::OnSurface),
     [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
-    { return target.closestOnSurface(x, normals.row(node), y); },
+    { return target.closestOnSurface(geometry.entity[node], x, normals.row(node), y); },
     motion, monitor);
   const auto folding = [&]
   {
@@ -270,7 +273,7 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
   std::vector<Index> nodes = folding();
   if (!nodes.empty())
   {
-    Relaxation relaxation(faces, geometry.edges, target, normals, motion, monitor);
+    Relaxation relaxation(faces, geometry, target, normals, motion, monitor);
     for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
     {
       relaxation.round(nodes, report.projected);

@@ -35,7 +35,7 @@ public:
   /// `offsets`: k x 3, the d_j, in any unit; neighbors may coincide. `weights`: k numbers, filled unless Outside,
   /// with sum 1 to rounding and |sum w_j d_j| <= 1e-10 max |d_j|. On the hull means within 1e-11 of the local size,
   /// and such that the limit keeps that residual; a node that is inside but nearer to the hull than about 1e-9 may
-  /// count as either. Cost: 0.3 to 0.6 microseconds for the 26 neighbors in a hexahedral mesh.
+  /// count as either. Cost: 0.5 to 1 microsecond for the 26 neighbors in a hexahedral mesh.
   Result compute(const double (*offsets)[3], int k, double* weights);
 
 private:

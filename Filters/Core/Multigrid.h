@@ -18,8 +18,8 @@ namespace morph
 /// three right-hand sides at once, in single precision: it only steers the iteration, and half the bytes are
 /// half the time. One V-cycle with Chebyshev smoothing, symmetric for a symmetric matrix.
 ///
-/// A matrix that is not symmetric is coarsened as it is, P^T A P. Measured on log-barrier weights that takes two thirds of the
-/// iterations of a hierarchy made from the symmetrised matrix, and half of them on graded meshes.
+/// A matrix that is not symmetric is coarsened as it is, P^T A P. On log-barrier weights that gave 4 BiCGSTAB iterations
+/// where a hierarchy of the symmetrised matrix took 4 to 9, and 7 where it took 13 on a mesh graded 1.6 times a layer.
 ///
 /// Nodes are grouped by nearness (1 / distance^2 against the nearest neighbor), not by the size of the matrix entries:
 /// a trilinear hexahedron has no entry between nodes that share an edge, and stretched cells still

@@ -15,10 +15,11 @@
  *   nodes, or by Laplacian smoothing of the displacements.
  * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
  * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges, and
- *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits.
- *   Given nodes and vertices are left where they are. Where faces fold
- *   thereby, nodes are spread out on the target; where that does not help, they keep their
- *   unprojected position, and a warning names them.
+ *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits (on
+ *   the one surface of the target that holds most of their surface's curve nodes, if there is one).
+ *   Given nodes and vertices are left where they are. Where faces fold thereby, nodes are spread out
+ *   on the target; where that does not help, they keep their unprojected position, and a warning
+ *   names them.
  *
  * Port 0 takes the mesh at rest (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
  * finds it, whose output can be given here. Port 1 takes the moved nodes (vtkPointSet), matched to

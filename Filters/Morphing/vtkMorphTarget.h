@@ -24,9 +24,15 @@ public:
   /// and `points`, #nodes x 3; a zero normal has no say.
   void Orient(const morph::Points& points, const morph::Points& normals);
 
+  /// Lets each surface of `geometry` project onto one surface of the target, as its feature edges part
+  /// it: that on which most of the nodes on its curves lie, at `moved` (#nodes x 3), within 1e-3 of the
+  /// target's size, if that is more than half of them. Other surfaces project onto all of the target.
+  void Assign(const morph::Classification& geometry, const morph::Points& moved);
+
   bool HasFeatures() const;
 
-  bool closestOnSurface(const Row& x, const Row& normal, Row& y) const override;
+  bool closestOnSurface(
+    morph::Index surface, const Row& x, const Row& normal, Row& y) const override;
   bool closestOnFeatures(const Row& x, Row& y) const override;
 
 private:

@@ -21,7 +21,7 @@ struct Formula : ProjectionTarget
   { return false; };
   std::function<bool(const Row&, Row&)> features = [](const Row&, Row&) { return false; };
 
-  bool closestOnSurface(const Row& x, const Row& normal, Row& y) const override
+  bool closestOnSurface(Index, const Row& x, const Row& normal, Row& y) const override
   {
     return this->surface(x, normal, y);
   }

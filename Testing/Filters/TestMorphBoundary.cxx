@@ -239,7 +239,7 @@ TEST(MorphBoundary, ProjectsOntoATarget)
   for (const bool inwards : { false, true })
   {
     auto filter = morpher(grid, grids::boundary(grid, same));
-    filter->SetTargetData(lathe(radius, 128, 32, inwards));
+    filter->SetTargetData(lathe(radius, 64, 32, inwards));
     grids::Listener listener(filter);
     filter->Update();
     EXPECT_TRUE(listener.Errors.empty());
@@ -329,6 +329,45 @@ TEST(MorphBoundary, AThinWallKeepsItsSides)
     }
   }
   EXPECT_EQ(tops, 25);
+}
+
+TEST(MorphBoundary, WallsOfATubeStayApart)
+{
+  // A tube that is to bend sideways by more than its radius while its ends stay: the nearest places
+  // with a fitting normal are on the other wall, but each wall's rims lie on its own.
+  const auto tube = [](int around, int layers, double bend)
+  {
+    morph::Mesh mesh = shapes::boxWithHole(around, 1, layers);
+    meshes::transform(mesh,
+      [&](const Row& x)
+      {
+        const double z = 6 * x[2] / layers, r = x.head(2).norm();
+        const double scale = (r > 1 + 1e-9 ? 1 : 0.8) / r;
+        const double shift = bend * std::sin(std::acos(-1.) * z / 6);
+        return Row(x[0] * scale + shift, x[1] * scale, z);
+      });
+    return mesh;
+  };
+  vtkNew<vtkClassifyBoundary> classify;
+  classify->SetInputData(grids::make(tube(24, 24, 0)));
+  classify->Update();
+  ASSERT_EQ(classify->GetNumberOfSurfaces(), 4);
+  auto* grid = classify->GetOutput();
+  auto filter = morpher(grid, grids::boundary(grid, same));
+  filter->SetTargetData(grids::boundary(grids::make(tube(64, 64, 1.2)), same));
+  filter->SetProjectionDistance(0.5);
+  filter->Update();
+  EXPECT_EQ(filter->GetUnprojectedPoints(), 0);
+  EXPECT_EQ(filter->GetProjectedPoints(), 2 * 24 * 23);
+  EXPECT_EQ(filter->GetFoldedFaces(), 0);
+  const morph::Points x = grids::points(filter->GetOutput());
+  vtkDataArray* rest = filter->GetOutput()->GetPointData()->GetArray("RestPosition");
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const double wall = std::hypot(rest->GetComponent(i, 0), rest->GetComponent(i, 1));
+    const double shift = 1.2 * std::sin(std::acos(-1.) * x(i, 2) / 6);
+    EXPECT_NEAR(std::hypot(x(i, 0) - shift, x(i, 1)), wall, 3e-3);
+  }
 }
 
 TEST(MorphBoundary, WhatATargetLacksIsNamed)
