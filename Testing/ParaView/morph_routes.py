@@ -96,7 +96,7 @@ class Routes(unittest.TestCase):
                           Function="coords + 0.02*RestPosition_Z*RestPosition_Z*iHat")
         expected = (self.rest * [1, 2, 1]) @ rotation(30).T
         outer = ((self.rest == self.rest.min(axis=0)) | (self.rest == self.rest.max(axis=0))).any(axis=1)
-        for method in (MorphFEMWARP, MorphSimplexLinear, MorphSimplexNaturalNeighbor,
+        for method in (MorphFEMWARP, MorphLBWARP, MorphSimplexLinear, MorphSimplexNaturalNeighbor,
                        MorphWeightedResidual):
             with self.subTest(method=method.__name__):
                 morph = method(Input=self.grid, Boundary=moved)
