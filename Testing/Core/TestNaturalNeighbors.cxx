@@ -5,6 +5,7 @@
 #include "Motions.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/natural_neighbor_coordinates_3.h>
@@ -62,8 +63,9 @@ private:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Point = Kernel::Point_3;
   using Vertex = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
+  using Cell = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
   using Triangulation =
-    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex>>;
+    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
   Index count_;
   Triangulation triangulation_;
 };

@@ -184,7 +184,7 @@ TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
   NonsymmetricSolver solver;
   solver.prepare(A, places, monitor);
   std::string message;
-  EXPECT_EQ(meshes::kindOf([&] { solver.solve(b, x, 1e-12, 60, monitor); }, message),
+  EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-12, 60, monitor); }, message),
     Error::Kind::NoConvergence);
   EXPECT_NE(message.find("relative residual"), std::string::npos) << message;
   EXPECT_EQ(x.squaredNorm(), 0); // untouched

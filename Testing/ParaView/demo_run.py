@@ -77,6 +77,25 @@ class Demo(unittest.TestCase):
                     self.assertLess(np.abs(measured - verdict(grid)).max(), 1e-12)
                     self.assertIn(f"{number(grid, 'MinScaledJacobian'):.4f}", self.process.stdout)
 
+    def test_every_method_has_a_row(self):
+        # Weighted residual's from an independent implementation on the same mesh.
+        rows = [line.split() for line in self.process.stdout.splitlines()]
+        for name, words, minimum in (("FEMWARP", 1, 0.3461), ("Weighted residual", 2, 0.275),
+                                     ("Simplex-linear", 1, None),
+                                     ("Simplex-natural neighbor", 2, None)):
+            with self.subTest(name=name):
+                found = [row[words:] for row in rows if row[:words] == name.split()]
+                self.assertEqual([len(row) for row in found], [5, 5])  # hexahedra and tetrahedra
+                for least, mean, inverted, prepare, evaluate in found:
+                    self.assertLess(float(least), float(mean))
+                    self.assertEqual(int(inverted) > 0, float(least) <= 0)
+                    self.assertGreater(float(prepare), 0)
+                    self.assertGreater(float(evaluate), 0)
+                if minimum:
+                    self.assertAlmostEqual(float(found[0][0]), minimum, delta=5e-4)
+                else:
+                    self.assertGreater(float(found[0][0]), 0.3)
+
     def test_positions(self):
         for name, mesh in self.meshes.items():
             with self.subTest(name=name):
