@@ -2,6 +2,7 @@
 #include "InverseDistanceWeights.h"
 
 #include "ConvexHullTest.h"
+#include "Error.h"
 #include "NearestNodes.h"
 #include "SpatialOrder.h"
 
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 namespace morph
@@ -117,11 +119,25 @@ void writeRow(
   }
 }
 
+/// Distances must have squares.
+void requireModerate(const Points& places)
+{
+  const double largest = places.size() > 0 ? places.cwiseAbs().maxCoeff() : 0;
+  if (!(largest < 1e150))
+  {
+    std::ostringstream text;
+    text << "Coordinates go up to " << largest
+         << ", too far for squares of distances. Scale the mesh to a reasonable unit.";
+    throw Error(text.str());
+  }
+}
 }
 
 WeightMatrix inverseDistanceWeights(const PrescribedSites& sites, const Points& places,
   const Neighborhood& neighborhood, Monitor& monitor)
 {
+  requireModerate(sites.coordinates());
+  requireModerate(places);
   const Index n = places.rows();
   std::vector<Index> ids(n);
   std::iota(ids.begin(), ids.end(), Index(0));

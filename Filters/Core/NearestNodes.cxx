@@ -163,7 +163,41 @@ void squaredDistances(const Candidates& candidates, const double* x, std::vector
   }
 }
 
-/// A ball round consecutive places; its middle's k-th neighbor is at most `reach` away.
+/// The k-th smallest of n values, which are reordered. Counting them by size first leaves few to compare: comparisons
+/// of values in no order are mispredicted half the time.
+double kthSmallest(double* values, Index n, Index k)
+{
+  constexpr int Bins = 64;
+  const auto range = std::minmax_element(values, values + n);
+  const double low = *range.first, scale = (Bins - .5) / (*range.second - low);
+  if (n >= Bins && scale > 0 && scale <= std::numeric_limits<double>::max())
+  {
+    const auto bin = [=](double value) { return static_cast<int>((value - low) * scale); };
+    std::array<Index, Bins> sizes{};
+    for (Index i = 0; i < n; ++i)
+    {
+      ++sizes[bin(values[i])];
+    }
+    int wanted = 0;
+    for (; k > sizes[wanted]; ++wanted)
+    {
+      k -= sizes[wanted];
+    }
+    Index m = 0;
+    for (Index i = 0; i < n; ++i)
+    {
+      const double value = values[i];
+      values[m] = value; // m <= i
+      m += bin(value) == wanted ? 1 : 0;
+    }
+    n = m;
+  }
+  std::nth_element(values, values + k - 1, values + n);
+  return values[k - 1];
+}
+
+/// A ball round the box of consecutive places; its middle's k-th neighbor is at most `reach` away. Round the box, not only
+/// the places: the middles of the blocks inside must be in the ball as well.
 struct Block
 {
   Place middle;
@@ -189,12 +223,8 @@ Block blockAround(const Points& x, const Index* rows, Index n)
   {
     block.middle[j] = low[j] + (high[j] - low[j]) / 2;
   }
-  double square = 0;
-  for (Index i = 0; i < n; ++i)
-  {
-    square = std::max(square, squaredDistance(x.data() + 3 * rows[i], block.middle.data()));
-  }
-  block.radius = std::sqrt(square);
+  block.radius = std::sqrt(std::max(squaredDistance(low.data(), block.middle.data()),
+    squaredDistance(high.data(), block.middle.data())));
   return block;
 }
 
@@ -286,8 +316,11 @@ private:
     {
       const Index last = std::min(end, first + BlockLength[level]);
       Block block = blockAround(this->x_, this->rows_ + first, last - first);
+      const Candidates& candidates = this->candidates_[level - 1];
+      squaredDistances(candidates, block.middle.data(), this->distances_);
       block.reach = this->reach(block.middle.data(), outer);
-      this->narrow(block, this->candidates_[level - 1], this->candidates_[level]);
+      block.reach = std::sqrt(this->kthDistance(candidates.count, block.reach));
+      this->narrow(block, candidates, this->candidates_[level]);
       this->divide(first, last, level + 1, block);
     }
   }
@@ -301,16 +334,37 @@ private:
     {
       return fromOuter;
     }
-    squaredDistances(this->neighbors_, x, this->distances_);
-    const double largest =
-      *std::max_element(this->distances_.begin(), this->distances_.begin() + this->k_);
+    double largest = 0;
+    for (Index i = 0; i < this->k_; ++i)
+    {
+      const double u = this->neighbors_.coordinates[0][i] - x[0],
+                   v = this->neighbors_.coordinates[1][i] - x[1],
+                   w = this->neighbors_.coordinates[2][i] - x[2];
+      largest = std::max(largest, u * u + v * v + w * w);
+    }
     return std::min(fromOuter, std::sqrt(largest));
   }
 
+  /// The k-th smallest of the first `count` distances_, all squared, given that it is at most the square of `reach`.
+  double kthDistance(Index count, double reach)
+  {
+    makeRoom(this->nearDistances_, count);
+    const double most = widened(reach * reach);
+    const double* d = this->distances_.data();
+    double* near = this->nearDistances_.data();
+    Index m = 0;
+    for (Index i = 0; i < count; ++i)
+    {
+      near[m] = d[i];
+      m += d[i] <= most ? 1 : 0;
+    }
+    return kthSmallest(near, m, this->k_);
+  }
+
+  /// distances_ are those of `outer` from the middle of the block.
   void narrow(const Block& block, const Candidates& outer, Candidates& inner)
   {
     const double most = squaredRadius(block);
-    squaredDistances(outer, block.middle.data(), this->distances_);
     inner.reserve(outer.count);
     const double *a = outer.coordinates[0].data(), *b = outer.coordinates[1].data(),
                  *c = outer.coordinates[2].data(), *d = this->distances_.data();
@@ -349,10 +403,10 @@ private:
     }
 
     std::copy(nearDistances, nearDistances + m, d);
-    std::nth_element(d, d + this->k_ - 1, d + m);
-    const double largest = d[this->k_ - 1];
+    const double largest = kthSmallest(d, m, this->k_);
     // Of those as far as the k-th, the ones with the lowest numbers.
-    Index ties = this->k_ - std::count_if(d, d + this->k_, [=](double e) { return e < largest; });
+    Index ties = this->k_ - std::count_if(nearDistances, nearDistances + m,
+                              [=](double e) { return e < largest; });
     this->neighbors_.reserve(this->k_ + 1);
     makeRoom(this->neighborDistances_, this->k_ + 1);
     Index kept = 0;

@@ -10,12 +10,12 @@
 
 namespace morph
 {
-/// Weighted residuals on one surface: its points follow the motion of prescribed points, as a rule those of the curves round
-/// it. Equations (3) to (6) of Staten et al. (IMR 2011), as WeightedResidual has them for volumes, with what surfaces
-/// need: prescribed points in a plane leave the affine map unknown across it, which would flatten a dome, so there the
-/// normal is carried over to the normal of the moved points' best-fit plane, scaled by the root of the ratio of areas.
-/// X. Roca and J. Sarrate, "Least-squares approximation of affine mappings for sweep mesh generation", show how the plain
-/// functional fails without such a term.
+/// Weighted residuals on one surface: its points follow the motion of prescribed points, as a rule those of the
+/// curves round it. Equations (3) to (6) of Staten et al. (IMR 2011), as WeightedResidual has them for volumes,
+/// with what surfaces need: prescribed points in a plane leave the affine map unknown across it, which would
+/// flatten a dome, so there the normal is carried over to the normal of the moved points' best-fit plane, scaled by
+/// the root of the ratio of areas. X. Roca and J. Sarrate, "Least-squares approximation of affine mappings for
+/// sweep mesh generation", show how the plain functional fails without such a term.
 ///
 /// The result is not linear in the prescribed positions, so there is no adjoint.
 class SurfaceResidual
@@ -36,8 +36,8 @@ public:
   struct Report
   {
     Fit fit = Fit::Affine;
-    double determinant =
-      1; ///< of the affine map before any replacement; zero or negative where it was replaced
+    /// Of the affine map before any replacement; zero or negative where it was replaced.
+    double determinant = 1;
     bool replaced() const { return this->fit == Fit::Similarity; }
   };
 
@@ -46,10 +46,11 @@ public:
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
-  /// `prescribed`: #prescribed x 3 and `points`: #points x 3, rest positions; coincident prescribed points count once.
-  /// `loops` may be empty: then the moved plane faces where the affine map turns it, and areas are those of the map. With
-  /// loops, their vector area decides both. Throws Error for positions that are not finite, loops of fewer than three
-  /// points or with rows that do not exist, and where nothing is prescribed. Cost: as inverseDistanceWeights.
+  /// `prescribed`: #prescribed x 3 and `points`: #points x 3, rest positions; coincident prescribed points count
+  /// once. `loops` may be empty: then the moved plane faces where the affine map turns it, and areas are those of
+  /// the map. With loops, their vector area decides both. Throws Error for positions that are not finite, loops of
+  /// fewer than three points or with rows that do not exist, and where nothing is prescribed. Cost: as
+  /// inverseDistanceWeights.
   void prepare(
     const Points& prescribed, const Points& points, const Loops& loops, Monitor& monitor);
 

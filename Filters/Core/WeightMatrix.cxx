@@ -14,6 +14,7 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr Index MostBlocks = 32;
+constexpr Index MostEntries = Index(1) << 36; // 800 GB: do not even ask for it
 
 using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 }
@@ -26,12 +27,17 @@ void WeightMatrix::open(Index columns, std::vector<Index> offsets)
                 " prescribed places, more than the weights can number (2^31 - 1).");
   }
   const Index entries = offsets.back();
+  bool fits = entries <= MostEntries;
   try
   {
-    this->column_.resize(entries);
-    this->weight_.resize(entries);
+    this->column_.resize(fits ? entries : 0);
+    this->weight_.resize(fits ? entries : 0);
   }
   catch (const std::bad_alloc&)
+  {
+    fits = false;
+  }
+  if (!fits)
   {
     *this = WeightMatrix();
     throw Error("The weights need " + std::to_string(12 * entries / 1000000) +

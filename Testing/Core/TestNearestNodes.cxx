@@ -81,7 +81,8 @@ void expectNearest(const Points& nodes, const Points& x, const std::vector<Index
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), Index(0)), n) << what;
 }
 
-/// Whether x is in the hull of points in general position: no plane through x and two points has all others on one side.
+/// Whether x is in the hull of points in general position: no plane through x and two points has all others on one
+/// side.
 bool insideByAllPlanes(const Eigen::RowVector3d& x, const Points& points)
 {
   const Points d = points.rowwise() - x;
@@ -127,6 +128,25 @@ TEST(NearestNodes, AgreesWithSortingAllDistances)
   expectNearest(cloud.topRows(1), inside, allIds(inside.rows()), 3, "a single node");
   expectNearest(cloud, inside, { 8, 3 }, 3, "two of them");
   expectNearest(cloud, inside, {}, 3, "none of them");
+}
+
+TEST(NearestNodes, PlacesAndNodesOnSpheresAreExact)
+{
+  // The middle of a box round places on a sphere may lie outside the sphere, and nodes wait just beyond it.
+  std::mt19937 random(meshes::seed());
+  for (int round = 0; round < 15; ++round)
+  {
+    Points x = randomPoints(64, random);
+    x = x.rowwise().normalized();
+    x.topRows(56) *= .9;
+    x.bottomRows(8) = x.bottomRows(8).cwiseAbs().array() * .3 + .7;
+    x.bottomRows(8) = x.bottomRows(8).rowwise().normalized();
+    const Points nodes = 1.02 * randomPoints(600, random).rowwise().normalized();
+    for (Index k : { 1, 2, 6 })
+    {
+      expectNearest(nodes, x, allIds(64), k, "on a sphere");
+    }
+  }
 }
 
 TEST(NearestNodes, TiesGoToTheLowestNumbers)

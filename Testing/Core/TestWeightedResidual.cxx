@@ -558,6 +558,11 @@ TEST(WeightedResidual, RefusesWhatItCannotUse)
   target(5, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(method.evaluate(target, moved, monitor), Error);
   EXPECT_EQ(moved, Points::Constant(1, 3, 5)); // untouched
+
+  Mesh far = mesh;
+  far.points(21, 0) = 1e160; // a free node
+  EXPECT_THROW(method.prepare(far, partition, monitor), Error);
+  EXPECT_THROW(method.evaluate(mesh.points, moved, monitor), Error); // not prepared any more
 }
 
 TEST(WeightedResidual, CancelStopsAndLeavesTheResultAlone)
