@@ -19,7 +19,7 @@ enum class Unattached : std::uint8_t
 };
 
 /// The boundary on its way, one geometric dimension after the other: vertices, curves, surfaces (Staten et al., IMR
-/// 2011, section 2).
+/// 2011).
 struct BoundaryMotion
 {
   /// How a node came by its displacement. What is settled in one step stays fixed in the later ones.

@@ -15,8 +15,8 @@ class ProjectionTarget
 public:
   using Row = Eigen::RowVector3d;
   virtual ~ProjectionTarget();
-  /// The point `y` of the target nearest to `x` for a node of surface number `surface` (see Classification), among those
-  /// whose normal fits `normal` (unit length, or zero where unknown). False where there is none near enough.
+  /// The point `y` of the target nearest to `x` for a node of surface number `surface` (see Classification), among
+  /// those whose normal fits `normal` (unit length, or zero where unknown). False where there is none near enough.
   virtual bool closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const = 0;
   /// The point `y` nearest to `x` on the target's feature edges. False where there is none near enough.
   virtual bool closestOnFeatures(const Row& x, Row& y) const = 0;

@@ -88,7 +88,7 @@ struct Classification
 /// Numbers follow the node ids as the members say and are the ids where none are given; ids that are missing among
 /// given ones follow the greatest of them. The shape of the result does not depend on the numbering. Throws Error for
 /// arrays of the wrong length, angles outside their range, and given dimensions or ids that contradict each other,
-/// with node ids. Cost: a sort of the boundary's edges; about a microsecond a face.
+/// with node ids. Cost: a sort of the boundary's edges.
 Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor);
 

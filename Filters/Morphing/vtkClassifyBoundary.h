@@ -11,13 +11,14 @@
  *   one patch, so that a curved wall is one surface. With SurfaceIdArray, or the point arrays
  *   GeometryDimension and GeometryId, they are what those say.
  * - Curves are where surfaces meet, where other than two faces meet, and features that end inside a
- *   surface; they are ordered chains from vertex to vertex, with a parameter in [0, 1] by arc length
- *   (or as CurveParameter says).
+ *   surface; they are ordered chains from vertex to vertex, with a parameter in [0, 1] by arc
+ *   length (or as CurveParameter says).
  * - Vertices are where curves end or meet, turn by more than CornerAngle, or change the surfaces
  *   beside them. Closed curves without a vertex and closed surfaces without a curve occur.
  *
  * Output port 0 is the input with the point arrays
- * - `GeometryDimension` (signed char): 0 vertex, 1 curve, 2 surface, 3 volume, -1 in no volume cell;
+ * - `GeometryDimension` (signed char): 0 vertex, 1 curve, 2 surface, 3 volume, -1 in no volume
+ *   cell;
  * - `GeometryId` (vtkIdType): of that vertex, curve or surface, as given, or counted from 0 in the
  *   order of their lowest node ids; of a volume node, the number of its body;
  * - `CurveParameter` (double): in [0, 1] where the dimension is 1, 0 elsewhere.
@@ -27,14 +28,14 @@
  * data, with the cell arrays `GeometryDimension` and `GeometryId`. Mid-side and face nodes of
  * quadratic cells belong to the edge or face they are in the middle of.
  *
- * Errors, with empty outputs: composite data (use Merge Blocks first), no volume cells, cells that a
- * morph does not support, coordinates that are not finite, arrays of the wrong type or length or
- * that contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives empty
- * outputs and no message. With several MPI processes an execution is collective. Cost: about 2
- * microseconds a boundary face and 0.4 a cell.
+ * Errors, with empty outputs: composite data (use Merge Blocks first), no volume cells, cells that
+ * a morph does not support, coordinates that are not finite, arrays of the wrong type or length or
+ * that contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives
+ * empty outputs and no message. With several MPI processes an execution is collective. Cost: a
+ * pass over the cells, and a sort of the boundary's edges.
  *
- * M. L. Staten et al., "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", Proc. 20th
- * Int. Meshing Roundtable (2011) 293-311, section 2: the order of the geometry's dimensions.
+ * M. L. Staten et al., "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", Proc.
+ * 20th Int. Meshing Roundtable (2011) 293-311.
  *
  * @sa vtkExtractMorphBoundary vtkMorphAlgorithm vtkFeatureEdges
  */
@@ -84,10 +85,10 @@ public:
 
   ///@{
   /**
-   * Name of a cell array of one component with whole numbers: the surface ids. A boundary face takes
-   * that of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets, after
-   * Merge Blocks); in a grid without two-dimensional cells, of the volume cell behind it. Faces that
-   * no two-dimensional cell lies on are grouped by FeatureAngle. Takes precedence over
+   * Name of a cell array of one component with whole numbers: the surface ids. A boundary face
+   * takes that of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets,
+   * after Merge Blocks); in a grid without two-dimensional cells, of the volume cell behind it.
+   * Faces that no two-dimensional cell lies on are grouped by FeatureAngle. Takes precedence over
    * UseGeometryArrays. Empty or "None": none. Default: none.
    */
   vtkSetStringMacro(SurfaceIdArray);

@@ -8,24 +8,24 @@
  * each step with the nodes of lower dimension fixed. Its output is the displaced boundary that a
  * morph filter takes on its port 1, which then moves the volume.
  *
- * - Curves: nodes keep their parameter between the given ones. On a straight curve displacements are
- *   linear in the arc length; a curved one is carried along by the affine map nearest to the motion
- *   around it, so affine motions come out exactly.
+ * - Curves: nodes keep their parameter between the given ones. On a straight curve displacements
+ *   are linear in the arc length; a curved one is carried along by the affine map nearest to the
+ *   motion around it, so affine motions come out exactly.
  * - Surfaces: by weighted residual, the paper's equations (3) to (6) with NumberOfNeighbors nearest
  *   nodes, or by Laplacian smoothing of the displacements.
  * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
  * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges, and
- *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits (on
- *   the one surface of the target that holds most of their surface's curve nodes, if there is one).
- *   Given nodes and vertices are left where they are. Where faces fold thereby, nodes are spread out
- *   on the target; where that does not help, they keep their unprojected position, and a warning
- *   names them.
+ *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits
+ *   (on the one surface of the target that holds most of their surface's curve nodes, if there is
+ *   one). Given nodes and vertices are left where they are. Where faces fold thereby, nodes are
+ *   spread out on the target; where that does not help, they keep their unprojected position, and a
+ *   warning names them.
  *
  * Port 0 takes the mesh at rest (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
  * finds it, whose output can be given here. Port 1 takes the moved nodes (vtkPointSet), matched to
- * the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on geometry of a dimension up to
- * PrescribedDimension are given; the others are ignored. Vertices that port 1 does not name are held
- * in place. Port 2, optional, takes the target (vtkPolyData, an STL file for instance).
+ * the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on geometry of a dimension up
+ * to PrescribedDimension are given; the others are ignored. Vertices that port 1 does not name are
+ * held in place. Port 2, optional, takes the target (vtkPolyData, an STL file for instance).
  *
  * The output is the boundary as vtkExtractMorphBoundary writes it, at its moved points, with the
  * arrays of vtkClassifyBoundary, the point vectors `MorphDisplacement`, and the cell array
@@ -37,10 +37,11 @@
  *
  * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime.
  *
- * Errors, with an empty output: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports; port 1
- * names no node of a dimension up to PrescribedDimension; a target without polygons. An execution that
- * is aborted gives an empty output and no message. With several MPI processes an execution is
- * collective. Cost: some microseconds a boundary node, and a search per node with a target.
+ * Errors, with an empty output: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports; port
+ * 1 names no node of a dimension up to PrescribedDimension; a target without polygons. An execution
+ * that is aborted gives an empty output and no message. With several MPI processes an execution is
+ * collective. Cost: a search for the nearest
+ * curve nodes for each surface node, and a few in the target.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.

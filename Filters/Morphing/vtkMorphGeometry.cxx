@@ -26,7 +26,8 @@ namespace
 using morph::Error;
 using morph::Index;
 
-/// The array of that name, one number for each of `count` cells or points; null where there is none.
+/// The array of that name, one number for each of `count` cells or points; null where there is
+/// none.
 vtkDataArray* findNumbers(
   vtkDataSetAttributes* data, const std::string& name, vtkIdType count, const char* what)
 {
@@ -217,8 +218,7 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
     dimension->SetValue(k, geometry.dimension[nodes[i]]);
     id->SetValue(k, geometry.id(nodes[i]));
     // Not NaN elsewhere: VTK writes that to ASCII files, and cannot read it.
-    parameter->SetValue(
-      k, geometry.dimension[nodes[i]] == 1 ? geometry.parameter[nodes[i]] : 0);
+    parameter->SetValue(k, geometry.dimension[nodes[i]] == 1 ? geometry.parameter[nodes[i]] : 0);
   }
   output->AddArray(dimension);
   output->AddArray(id);

@@ -28,8 +28,8 @@ struct Options
 };
 
 /// Classifies the boundary of `grid`; `mesh` and `faces` are its own. Surface ids come from
-/// SurfaceIdArray: a boundary face has that of the two-dimensional cell on it, or, in a grid without
-/// such cells, of the volume cell behind it; faces without a cell on them have none. Else
+/// SurfaceIdArray: a boundary face has that of the two-dimensional cell on it, or, in a grid
+/// without such cells, of the volume cell behind it; faces without a cell on them have none. Else
 /// GeometryDimension and GeometryId (and CurveParameter) are used where the grid has them. Throws
 /// morph::Error for arrays that do not exist, or have the wrong type or length or values that are
 /// no whole numbers, and where morph::classify() does.
@@ -41,13 +41,13 @@ morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mes
 void AddPointArrays(const morph::Classification& geometry, const std::vector<morph::Index>& nodes,
   vtkDataSetAttributes* output);
 
-/// Adds the cell array GeometryId to the boundary's polygons: the id of each one's surface. `faceOf`:
-/// the face of each polygon.
+/// Adds the cell array GeometryId to the boundary's polygons: the id of each one's surface.
+/// `faceOf`: the face of each polygon.
 void AddSurfaceIds(const morph::Classification& geometry, const std::vector<morph::Index>& faceOf,
   vtkPolyData* output);
 
-/// The vertices as vtkVertex and the curves as vtkPolyLine, at rest, with the three arrays above and
-/// MorphPointId on the points, and GeometryDimension (0 and 1) and GeometryId on the cells.
+/// The vertices as vtkVertex and the curves as vtkPolyLine, at rest, with the three arrays above
+/// and MorphPointId on the points, and GeometryDimension (0 and 1) and GeometryId on the cells.
 void WriteCurves(
   vtkUnstructuredGrid* grid, const morph::Classification& geometry, vtkPolyData* output);
 }

@@ -165,7 +165,8 @@ public:
 
   Row Normal(vtkIdType triangle) const { return this->Normals.row(triangle); }
 
-  /// Whether there is a triangle within `radius` that `fits`; `y` is then the nearest place on those.
+  /// Whether there is a triangle within `radius` that `fits`; `y` is then the nearest place on
+  /// those.
   template <typename Fits>
   bool NearestThat(const Row& x, double radius, const Fits& fits, Row& y) const
   {

@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 namespace
 {
 vtkSmartPointer<vtkLBWarpMorph> morph1(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
@@ -34,24 +32,6 @@ vtkIdType field(vtkLBWarpMorph* filter, const char* name)
   EXPECT_NE(array, nullptr) << name;
   return array ? static_cast<vtkIdType>(array->GetComponent(0, 0)) : -1;
 }
-}
-
-TEST(LBWarpMorph, AffineMotionIsExact)
-{
-  for (auto& [name, mesh] : meshes::all(4, 3, 5))
-  {
-    SCOPED_TRACE(name);
-    meshes::jitterInterior(mesh, 0.1, meshes::seed());
-    auto grid = grids::make(mesh);
-    auto filter = morph1(grid, grids::boundary(grid, grids::affine));
-    filter->Update();
-    EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(mesh.points, grids::affine))
-                .cwiseAbs()
-                .maxCoeff(),
-      1e-10 * meshes::size(mesh.points));
-    EXPECT_EQ(filter->GetOutsideHullNodes(), 0);
-    EXPECT_EQ(field(filter, "OutsideHullNodes"), 0);
-  }
 }
 
 TEST(LBWarpMorph, FreeNodesStayInTheBoundarysHull)
@@ -96,23 +76,4 @@ TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
               .cwiseAbs()
               .maxCoeff(),
     1e-8);
-}
-
-TEST(LBWarpMorph, OptionsPrepareAnewOnlyWhereTheyMust)
-{
-  auto grid = grids::hexes(4);
-  auto filter = morph1(grid, grids::boundary(grid, grids::twist));
-  filter->Update();
-  EXPECT_EQ(filter->GetPrepareCount(), 1);
-  filter->SetTolerance(1e-4);
-  filter->Update();
-  EXPECT_EQ(filter->GetPrepareCount(), 1);
-  filter->SetOutsideHullToRelax();
-  filter->Update();
-  EXPECT_EQ(filter->GetPrepareCount(), 2);
-  filter->SetOutsideHull(7);
-  EXPECT_EQ(filter->GetOutsideHull(), vtkLBWarpMorph::RELAX_OUTSIDE_HULL);
-  std::ostringstream text;
-  filter->Print(text);
-  EXPECT_NE(text.str().find("OutsideHull: Relax"), std::string::npos);
 }
