@@ -7,15 +7,15 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
 
-def write_grid(data, path):
-    """Writes a vtkUnstructuredGrid as compressed .vtu or a vtkPolyData as .vtp. Raises OSError
+def write_grid(data, path, compression=1):
+    """Writes a vtkUnstructuredGrid as compressed .vtu or a vtkPolyData as .vtp; `compression` from 1, fast, to 9. Raises OSError
     where the file cannot be written."""
     is_surface = isinstance(data, vtkPolyData)
     writer = vtkXMLPolyDataWriter() if is_surface else vtkXMLUnstructuredGridWriter()
     # Appended data, VTK's default, cannot be read back by VTK 9.2 with an expat that defers
     # parsing, as Debian 12's does (https://gitlab.kitware.com/vtk/vtk/-/issues/19258).
     writer.SetDataModeToBinary()
-    writer.SetCompressionLevel(9)
+    writer.SetCompressionLevel(compression)
     writer.SetFileName(str(path))
     writer.SetInputData(data)
     if writer.Write() != 1 or writer.GetErrorCode() != 0:
