@@ -38,7 +38,7 @@ double distance(const Sector& sector, const Vector& d)
 {
   const Vector inPlane = d - d.dot(sector.normal) * sector.normal;
   const bool between = sector.normal.dot(sector.first.cross(inPlane)) >= 0 &&
-    sector.normal.dot(inPlane.cross(sector.second)) >= 0;
+                       sector.normal.dot(inPlane.cross(sector.second)) >= 0;
   return 1 - (between ? inPlane.norm() : std::max(d.dot(sector.first), d.dot(sector.second)));
 }
 
@@ -120,7 +120,8 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
   }
   Sectors sectors;
   sectors.offsets.assign(nodes.size() + 1, 0);
-  const auto visit = [&](const auto& onCorner) {
+  const auto visit = [&](const auto& onCorner)
+  {
     for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
     {
       const Index* corner = faces.connectivity.data() + faces.offsets[f];
@@ -151,17 +152,19 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
 /// The cells fill the tessellation: a convex mesh. Much cheaper to find out than its outer faces.
 bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 {
-  const double cells = blockSum(mesh.numberOfCells(), monitor, 0., [&](Index c) {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    const int n = numberOfCorners(shape.shape);
-    double corners[8][3];
-    for (int a = 0; a < n; ++a)
+  const double cells = blockSum(mesh.numberOfCells(), monitor, 0.,
+    [&](Index c)
     {
-      const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
-      std::copy(point.data(), point.data() + 3, corners[a]);
-    }
-    return n == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
-  });
+      const CellShape& shape = *cellShape(mesh.types[c]);
+      const int n = numberOfCorners(shape.shape);
+      double corners[8][3];
+      for (int a = 0; a < n; ++a)
+      {
+        const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
+        std::copy(point.data(), point.data() + 3, corners[a]);
+      }
+      return n == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
+    });
   const auto& tetrahedra = delaunay.tetrahedra();
   const double hull = blockSum(static_cast<Index>(tetrahedra.size()), monitor, 0.,
     [&](Index t) { return Delaunay::sixVolumes(tetrahedra[t], delaunay.sites()) / 6; });
@@ -172,15 +175,18 @@ bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site
 {
   // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave by.
   const Index* end = sites.prescribed().end(site);
-  return std::all_of(sites.prescribed().begin(site), end, [&](Index node) {
-    return leaves(
-      sectors.values.data() + sectors.offsets[node], sectors.values.data() + sectors.offsets[node + 1], d);
-  });
+  return std::all_of(sites.prescribed().begin(site), end,
+    [&](Index node)
+    {
+      return leaves(sectors.values.data() + sectors.offsets[node],
+        sectors.values.data() + sectors.offsets[node + 1], d);
+    });
 }
 }
 
 std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& prescribed,
-  const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used, Monitor& monitor)
+  const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used,
+  Monitor& monitor)
 {
   if (fillsHull(mesh, delaunay, monitor))
   {
@@ -188,21 +194,24 @@ std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& 
   }
   const Sectors sectors = sectorsAt(mesh, prescribed, monitor);
   std::vector<std::uint8_t> bridges(used.size(), 0);
-  monitor.parallelFor(static_cast<Index>(used.size()), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(static_cast<Index>(used.size()), Grain,
+    [&](Index first, Index last)
     {
-      const auto& corners = delaunay.tetrahedra()[used[i]].sites;
-      for (int a = 0; a < 4; ++a)
+      for (Index i = first; i < last; ++i)
       {
-        for (int b = a + 1; b < 4; ++b)
+        const auto& corners = delaunay.tetrahedra()[used[i]].sites;
+        for (int a = 0; a < 4; ++a)
         {
-          const Vector d =
-            (delaunay.sites().row(corners[b]) - delaunay.sites().row(corners[a])).normalized();
-          bridges[i] |= leavesMesh(sites, sectors, corners[a], d) || leavesMesh(sites, sectors, corners[b], -d);
+          for (int b = a + 1; b < 4; ++b)
+          {
+            const Vector d =
+              (delaunay.sites().row(corners[b]) - delaunay.sites().row(corners[a])).normalized();
+            bridges[i] |= leavesMesh(sites, sectors, corners[a], d) ||
+                          leavesMesh(sites, sectors, corners[b], -d);
+          }
         }
       }
-    }
-  });
+    });
   std::vector<int> result;
   for (std::size_t i = 0; i < used.size(); ++i)
   {

@@ -24,12 +24,12 @@ constexpr int MaxIterations = 2000;
 struct CellMatrices
 {
   std::vector<Index> start; ///< #cells + 1
-  Eigen::ArrayXd K;         ///< not initialised by resize: each thread is the first to touch its part
+  Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
 };
 
 /// Warns of cells whose Jacobian is not that of a valid cell. `sign`: #cells, from elementStiffness.
-void reportBadCells(const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign,
-  Monitor& monitor)
+void reportBadCells(
+  const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign, Monitor& monitor)
 {
   if (std::all_of(sign.begin(), sign.end(), [](std::int8_t s) { return s == 1; }))
   {
@@ -73,25 +73,27 @@ CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monit
   result.K.resize(result.start.back());
 
   std::vector<std::int8_t> sign(cells, 1);
-  monitor.parallelFor(cells, Grain, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
     {
-      const CellShape& shape = *cellShape(mesh.types[c]);
-      const int n = numberOfCorners(shape.shape);
-      if (n == 0)
+      for (Index c = first; c < last; ++c)
       {
-        continue;
+        const CellShape& shape = *cellShape(mesh.types[c]);
+        const int n = numberOfCorners(shape.shape);
+        if (n == 0)
+        {
+          continue;
+        }
+        double corners[8][3];
+        for (int a = 0; a < n; ++a)
+        {
+          const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
+          std::copy(point.data(), point.data() + 3, corners[a]);
+        }
+        sign[c] = static_cast<std::int8_t>(
+          elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
       }
-      double corners[8][3];
-      for (int a = 0; a < n; ++a)
-      {
-        const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
-        std::copy(point.data(), point.data() + 3, corners[a]);
-      }
-      sign[c] = static_cast<std::int8_t>(
-        elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
-    }
-  });
+    });
   reportBadCells(mesh, bodies, sign, monitor);
   return result;
 }
@@ -146,7 +148,8 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
 
   // Visits every corner of every cell around the free node of a row, and its share of the row.
   const TriangleTable triangle;
-  const auto visit = [&](Index row, const auto& onEntry) {
+  const auto visit = [&](Index row, const auto& onEntry)
+  {
     const Index node = free[row];
     for (const Index* cell = around.begin(node); cell != around.end(node); ++cell)
     {
@@ -170,22 +173,26 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   };
 
   std::vector<int> interiorSize(rows + 1, 0), couplingSize(rows + 1, 0);
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    std::vector<int> seen(rows + columns, -1);
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      int inside = 0, outside = 0;
-      visit(row, [&](int at, double) {
-        if (seen[at] != row)
-        {
-          seen[at] = static_cast<int>(row);
-          ++(at < rows ? inside : outside);
-        }
-      });
-      interiorSize[row + 1] = inside;
-      couplingSize[row + 1] = outside;
-    }
-  });
+      std::vector<int> seen(rows + columns, -1);
+      for (Index row = first; row < last; ++row)
+      {
+        int inside = 0, outside = 0;
+        visit(row,
+          [&](int at, double)
+          {
+            if (seen[at] != row)
+            {
+              seen[at] = static_cast<int>(row);
+              ++(at < rows ? inside : outside);
+            }
+          });
+        interiorSize[row + 1] = inside;
+        couplingSize[row + 1] = outside;
+      }
+    });
   monitor.check();
   monitor.progress(0.4);
 
@@ -193,41 +200,46 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   openRows(system.interior, rows, interiorSize);
   openRows(system.coupling, columns, couplingSize);
 
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    std::vector<int> place(rows + columns, -1); // of a column in `entries`, where that names the column
-    std::vector<std::pair<int, double>> entries;
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      entries.clear();
-      visit(row, [&](int at, double value) {
-        const std::size_t k = static_cast<std::size_t>(place[at]);
-        if (k < entries.size() && entries[k].first == at)
-        {
-          entries[k].second += value;
-          return;
-        }
-        place[at] = static_cast<int>(entries.size());
-        entries.emplace_back(at, value);
-      });
-      std::sort(entries.begin(), entries.end(),
-        [](const auto& a, const auto& b) { return a.first < b.first; });
-      int inside = system.interior.outerIndexPtr()[row];
-      int outside = system.coupling.outerIndexPtr()[row];
-      for (const auto& [at, value] : entries)
+      std::vector<int> place(
+        rows + columns, -1); // of a column in `entries`, where that names the column
+      std::vector<std::pair<int, double>> entries;
+      for (Index row = first; row < last; ++row)
       {
-        if (at < rows)
+        entries.clear();
+        visit(row,
+          [&](int at, double value)
+          {
+            const std::size_t k = static_cast<std::size_t>(place[at]);
+            if (k < entries.size() && entries[k].first == at)
+            {
+              entries[k].second += value;
+              return;
+            }
+            place[at] = static_cast<int>(entries.size());
+            entries.emplace_back(at, value);
+          });
+        std::sort(entries.begin(), entries.end(),
+          [](const auto& a, const auto& b) { return a.first < b.first; });
+        int inside = system.interior.outerIndexPtr()[row];
+        int outside = system.coupling.outerIndexPtr()[row];
+        for (const auto& [at, value] : entries)
         {
-          system.interior.innerIndexPtr()[inside] = at;
-          system.interior.valuePtr()[inside++] = value;
-        }
-        else
-        {
-          system.coupling.innerIndexPtr()[outside] = static_cast<int>(at - rows);
-          system.coupling.valuePtr()[outside++] = value;
+          if (at < rows)
+          {
+            system.interior.innerIndexPtr()[inside] = at;
+            system.interior.valuePtr()[inside++] = value;
+          }
+          else
+          {
+            system.coupling.innerIndexPtr()[outside] = static_cast<int>(at - rows);
+            system.coupling.valuePtr()[outside++] = value;
+          }
         }
       }
-    }
-  });
+    });
   return system;
 }
 }
@@ -286,26 +298,31 @@ EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor
   // Affine motions solve the equations; what remains of the others is all the iteration has to find.
   const AffineFit fit(this->restPoints(), this->partition().prescribed, prescribed);
   Points rhs(free.rows(), 3), x(free.rows(), 3);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(free.rows(), Grain,
+    [&](Index first, Index last)
     {
-      x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+      for (Index i = first; i < last; ++i)
       {
-        sum -= entry.value() * prescribed.row(entry.col());
+        x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry;
+             ++entry)
+        {
+          sum -= entry.value() * prescribed.row(entry.col());
+        }
+        rhs.row(i) = sum;
       }
-      rhs.row(i) = sum;
-    }
-  });
+    });
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(free.rows(), Grain,
+    [&](Index first, Index last)
     {
-      free.row(this->freeIndex(i)) = x.row(i);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        free.row(this->freeIndex(i)) = x.row(i);
+      }
+    });
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
@@ -329,7 +346,7 @@ std::size_t FemWarp::memory() const
 {
   const NodePartition& partition = this->partition();
   return this->solver_.memory() + 12 * static_cast<std::size_t>(this->coupling_.nonZeros()) +
-    4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
-    8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
+         4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
+         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
 }
 }

@@ -90,8 +90,9 @@ private:
       this->value = this->ownValue.data();
     }
   };
-  using Matrix = Rows<float>;       ///< what a cycle reads
-  using ExactMatrix = Rows<double>; ///< what the next level is made from: next to slivers float would cancel to nothing
+  using Matrix = Rows<float>; ///< what a cycle reads
+  using ExactMatrix = Rows<
+    double>; ///< what the next level is made from: next to slivers float would cancel to nothing
 
   struct Level
   {

@@ -63,8 +63,8 @@ struct SparseSolver::Implementation
 
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
-  SolveReport iterate(const Points& b, Workspace& work, double tolerance, int maxIterations,
-    Monitor& monitor) const;
+  SolveReport iterate(
+    const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
 };
 
 SparseSolver::SparseSolver() = default;
@@ -72,20 +72,21 @@ SparseSolver::~SparseSolver() = default;
 SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
 SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
 
-void SparseSolver::prepare(
-  SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
   fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
   fresh->A.makeCompressed();
   const Index rows = fresh->A.rows();
   Eigen::VectorXd diagonal(rows);
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
+      }
+    });
   std::vector<Index> notPositive;
   for (Index i = 0; i < rows; ++i)
   {
@@ -106,15 +107,17 @@ void SparseSolver::prepare(
 Row SparseSolver::Implementation::trueResidual(
   const Points& b, Workspace& work, Monitor& monitor) const
 {
-  return blockSum(this->A.rows(), monitor, Row(Row::Zero()), [&](Index i) {
-    work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
-    work.direction[i] = Row::Zero();
-    return Row(work.residual[i].cwiseAbs2());
-  });
+  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index i)
+    {
+      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      work.direction[i] = Row::Zero();
+      return Row(work.residual[i].cwiseAbs2());
+    });
 }
 
-SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& work,
-  double tolerance, int maxIterations, Monitor& monitor) const
+SolveReport SparseSolver::Implementation::iterate(
+  const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   Rows &solution = work.solution, &residual = work.residual, &direction = work.direction,
@@ -155,12 +158,14 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
         scale[c] = 1 / unscale[c];
       }
     }
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
       {
-        work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+        }
+      });
 
     Row rz = zero;
     for (bool first = true;; first = false)
@@ -194,28 +199,35 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
 
       this->preconditioner.apply(work.residual32, work.step32, work.multigrid, monitor);
       const Row rzBefore = rz;
-      rz = blockSum(n, monitor, zero, [&](Index i) {
-        return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
-      }).cwiseProduct(unscale);
+      rz = blockSum(n, monitor, zero,
+        [&](Index i) {
+          return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
+        }).cwiseProduct(unscale);
       const Row beta = first ? zero : ratio(rz, rzBefore, running);
-      monitor.parallelFor(n, Grain, [&](Index from, Index to) {
-        for (Index i = from; i < to; ++i)
+      monitor.parallelFor(n, Grain,
+        [&](Index from, Index to)
         {
-          direction[i] =
-            work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
-        }
-      });
-      const Row curvature = blockSum(n, monitor, zero, [&](Index i) {
-        image[i] = rowTimes(this->A, i, direction);
-        return Row(image[i].cwiseProduct(direction[i]));
-      });
+          for (Index i = from; i < to; ++i)
+          {
+            direction[i] =
+              work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
+          }
+        });
+      const Row curvature = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          image[i] = rowTimes(this->A, i, direction);
+          return Row(image[i].cwiseProduct(direction[i]));
+        });
       const Row alpha = ratio(rz, curvature, running);
-      norm2 = blockSum(n, monitor, zero, [&](Index i) {
-        solution[i] += alpha.cwiseProduct(direction[i]);
-        residual[i] -= alpha.cwiseProduct(image[i]);
-        work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
-        return Row(residual[i].cwiseAbs2());
-      });
+      norm2 = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          solution[i] += alpha.cwiseProduct(direction[i]);
+          residual[i] -= alpha.cwiseProduct(image[i]);
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+          return Row(residual[i].cwiseAbs2());
+        });
       ++report.iterations;
       const double left = largestRatio(norm2, goal2);
       if (left > 1 && atStart > 1)
@@ -236,7 +248,7 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
   const double pass =
     12. * this->A.nonZeros() + (11. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
-    report.iterations * this->preconditioner.bytesMoved();
+                      report.iterations * this->preconditioner.bytesMoved();
   return report;
 }
 
@@ -267,7 +279,6 @@ std::size_t SparseSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
-    my.preconditioner.memory() +
-    my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+         my.preconditioner.memory() + my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
 }
 }

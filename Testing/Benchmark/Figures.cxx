@@ -205,7 +205,8 @@ void Run::series(const std::vector<Problem>& problems)
     {
       morph::Points moved;
       this->settleDown();
-      const auto femWarp = timeMethod<morph::FemWarp>(problems[p], Tolerance, *monitor, times[p], moved);
+      const auto femWarp =
+        timeMethod<morph::FemWarp>(problems[p], Tolerance, *monitor, times[p], moved);
       residual[p] =
         relativeResidual(linearSystem(*femWarp, problems[p]), freeDisplacement(problems[p], moved));
     }

@@ -79,16 +79,16 @@ TEST(ElementStiffness, UnitCubeHasTheTrilinearEntries)
     { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
   double K[36];
   ASSERT_EQ(elementStiffness(Shape::Hex, cube, K), 1);
-  EXPECT_NEAR(K[triangleIndex(8, 0, 0)], 1. / 3, 1e-15);  // itself
-  EXPECT_NEAR(K[triangleIndex(8, 0, 1)], 0, 1e-15);       // along an edge
+  EXPECT_NEAR(K[triangleIndex(8, 0, 0)], 1. / 3, 1e-15);   // itself
+  EXPECT_NEAR(K[triangleIndex(8, 0, 1)], 0, 1e-15);        // along an edge
   EXPECT_NEAR(K[triangleIndex(8, 0, 2)], -1. / 12, 1e-15); // across a face
   EXPECT_NEAR(K[triangleIndex(8, 0, 6)], -1. / 12, 1e-15); // through the cell
 }
 
 TEST(ElementStiffness, BadCellsGiveAPositiveMatrixAndSaySo)
 {
-  double flat[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 1, 0, 0 },
-    { 1, 1, 0 }, { 0, 1, 0 } };
+  double flat[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 0 },
+    { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
   for (Shape shape : { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid })
   {
     const int n = numberOfCorners(shape);
@@ -127,7 +127,7 @@ TEST(FemWarp, AffineIsExactThroughTheEquationsToo)
     FemWarp method;
     method.prepare(mesh, partition, monitor);
     const Points residual = method.solver().matrix() * meshes::rows(mesh.points, partition.free) +
-      method.coupling() * meshes::rows(mesh.points, partition.prescribed);
+                            method.coupling() * meshes::rows(mesh.points, partition.prescribed);
     EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-13) << name;
   }
 }
@@ -152,7 +152,8 @@ TEST(FemWarp, AgreesWithADenseSolve)
     EXPECT_LT((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-14) << name;
     const Points displacement = target - meshes::rows(mesh.points, partition.prescribed);
     const Points expected = A.ldlt().solve(Eigen::MatrixXd(-(method.coupling() * displacement)));
-    const Points found = meshes::rows(result, partition.free) - meshes::rows(mesh.points, partition.free);
+    const Points found =
+      meshes::rows(result, partition.free) - meshes::rows(mesh.points, partition.free);
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11) << name;
     for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
     {
@@ -186,9 +187,11 @@ TEST(FemWarp, ThreadsAndHistoryDoNotShow)
 TEST(FemWarp, StretchedAndRandomlyNumberedMeshesConvergeFast)
 {
   Mesh mesh = meshes::hexes(20, 20, 20);
-  meshes::transform(mesh, [](const Eigen::RowVector3d& x) {
-    return Eigen::RowVector3d(x[0], x[1], std::pow(1.6, x[2] - 20) * 20); // edges of 0.001 to 7.5
-  });
+  meshes::transform(mesh,
+    [](const Eigen::RowVector3d& x)
+    {
+      return Eigen::RowVector3d(x[0], x[1], std::pow(1.6, x[2] - 20) * 20); // edges of 0.001 to 7.5
+    });
   std::vector<Index> order(mesh.numberOfNodes());
   std::iota(order.begin(), order.end(), Index(0));
   std::shuffle(order.begin(), order.end(), std::mt19937(meshes::seed()));
@@ -219,7 +222,8 @@ TEST(FemWarp, RandomNumbersChangeTheRowsNotTheResult)
   method.setTolerance(1e-12);
   method.prepare(shuffled, renamed, monitor);
   EXPECT_NE(method.rows(), renamed.free);
-  EXPECT_TRUE(std::is_permutation(method.rows().begin(), method.rows().end(), renamed.free.begin()));
+  EXPECT_TRUE(
+    std::is_permutation(method.rows().begin(), method.rows().end(), renamed.free.begin()));
   Points result;
   method.evaluate(targets(shuffled, renamed, move), result, monitor);
   EXPECT_LT((meshes::rows(result, order) - reference).cwiseAbs().maxCoeff(),
@@ -294,8 +298,8 @@ TEST(FemWarp, ABodyWithoutPrescribedNodesIsNamed)
   Monitor monitor;
   FemWarp method;
   std::string message;
-  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); },
-              message),
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); }, message),
     Error::Kind::Singular);
   EXPECT_NE(message.find("Body 1 (8 cells, the first is cell 8"), std::string::npos) << message;
 }
@@ -309,8 +313,8 @@ TEST(FemWarp, NodesBetweenCollapsedCellsAreNamed)
   Monitor monitor;
   FemWarp method;
   std::string message;
-  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partition, monitor); }, message),
-    Error::Kind::Singular);
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partition, monitor); }, message), Error::Kind::Singular);
   EXPECT_NE(message.find("node ids 13"), std::string::npos) << message;
 }
 
