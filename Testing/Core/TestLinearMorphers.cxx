@@ -251,6 +251,21 @@ TEST_P(LinearMorphers, UnusedNodesAndLowerCellsStay)
   EXPECT_EQ(result.bottomRows(2), mesh.points.bottomRows(2));
 }
 
+// No place in the parametric cell answers to such a node, yet it has to follow.
+TEST_P(LinearMorphers, MidNodesFarOutsideTheirCellFollowAffineMotions)
+{
+  Mesh mesh = meshes::quadraticHexes(2, 2, 2, false);
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_FALSE(partition.followers.empty());
+  for (Index node : partition.followers)
+  {
+    mesh.points.row(node) += motions::Row(1.7, -2.3, 1.1);
+  }
+  Points expected = motions::mapped(mesh.points, affine);
+  EXPECT_LT(difference(morphed(mesh, partition, targets(mesh, partition, affine)), expected),
+    1e-10 * meshes::size(mesh.points));
+}
+
 TEST_P(LinearMorphers, CurvedEdgesKeepTheirPlaceInTheCell)
 {
   // A mid-side node off the chord of its edge moves with the linear cell around it, not with the chord's ends alone.
