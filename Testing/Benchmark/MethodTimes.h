@@ -22,17 +22,17 @@ struct MethodTimes
   double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
 };
 
-/// One repetition: a fresh Method (a Morpher with setTolerance), prepared and evaluated twice. Appends to `times`;
+/// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated twice. Appends to `times`;
 /// `moved` becomes the moved mesh. Returns the morpher. Throws std::runtime_error if the two evaluations differ in
 /// a bit.
-template <typename Method>
-std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
+template <typename Method, typename Configure>
+std::unique_ptr<Method> timeConfigured(const Problem& problem, const Configure& configure,
   morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
 {
   moved.resize(0, 3); // the first evaluate pays for its result
   const Stopwatch cold;
   auto method = std::make_unique<Method>();
-  method->setTolerance(tolerance);
+  configure(*method);
   method->prepare(problem.mesh, problem.partition, monitor);
   times.prepare.push_back(cold.seconds());
   method->evaluate(problem.target, moved, monitor);
@@ -49,5 +49,14 @@ std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
     throw std::runtime_error("Two evaluations of the same boundary gave different meshes.");
   }
   return method;
+}
+
+/// The same for a Method with a tolerance.
+template <typename Method>
+std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
+  morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
+{
+  return timeConfigured<Method>(
+    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times, moved);
 }
 }
