@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FemWarp.h"
 
-#include "AffineFit.h"
 #include "CellShape.h"
 #include "ElementStiffness.h"
 #include "Error.h"
 #include "RowOrder.h"
+#include "RowSystem.h"
 #include "SimplicialDecomposition.h"
 #include "Topology.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace morph
@@ -246,12 +245,7 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
 
 void FemWarp::setTolerance(double tolerance)
 {
-  if (!(tolerance > 0 && tolerance < 1))
-  {
-    std::ostringstream text;
-    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
-    throw Error(text.str());
-  }
+  requireTolerance(tolerance);
   this->tolerance_ = tolerance;
 }
 
@@ -265,11 +259,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  Points coordinates(static_cast<Index>(this->rows_.size()), 3);
-  for (Index i = 0; i < coordinates.rows(); ++i)
-  {
-    coordinates.row(i) = rest.points.row(this->rows_[i]);
-  }
+  const Points coordinates = rowPositions(rest.points, this->rows_);
   this->coupling_.swap(system.coupling);
   try
   {
@@ -288,41 +278,14 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   }
 }
 
-Index FemWarp::freeIndex(Index row) const
-{
-  return placeInFree(this->rows_, this->partition().free, row);
-}
-
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  // Affine motions solve the equations; what remains of the others is all the iteration has to find.
-  const AffineFit fit(this->restPoints(), this->partition().prescribed, prescribed);
-  Points rhs(free.rows(), 3), x(free.rows(), 3);
-  monitor.parallelFor(free.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry;
-             ++entry)
-        {
-          sum -= entry.value() * prescribed.row(entry.col());
-        }
-        rhs.row(i) = sum;
-      }
-    });
+  Points rhs, x;
+  startSystem(this->restPoints(), this->rows_, this->partition(), this->coupling_, prescribed, rhs,
+    x, monitor);
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
-  monitor.parallelFor(free.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        free.row(this->freeIndex(i)) = x.row(i);
-      }
-    });
+  fromRows(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
@@ -330,11 +293,8 @@ EvaluateReport FemWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = -A_I^-1 A_B and A_I is symmetric, so M^T g = -A_B^T A_I^-1 g.
-  Points rhs(free.rows(), 3), solution = Points::Zero(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    rhs.row(i) = free.row(this->freeIndex(i));
-  }
+  const Points rhs = toRows(free, this->rows_, this->partition());
+  Points solution = Points::Zero(free.rows(), 3);
   const SolveReport report =
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);

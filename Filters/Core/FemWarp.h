@@ -42,9 +42,6 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  /// Place of a matrix row's node in NodePartition::free.
-  Index freeIndex(Index row) const;
-
   double tolerance_ = 1e-10;
   std::vector<Index> rows_;
   SparseSolver solver_;

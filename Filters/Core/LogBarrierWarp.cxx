@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LogBarrierWarp.h"
 
-#include "AffineFit.h"
 #include "Error.h"
 #include "LogBarrierSystem.h"
 #include "RowOrder.h"
+#include "RowSystem.h"
 #include "Topology.h"
 
 #include <sstream>
@@ -13,7 +13,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr int MaxIterations = 2000;
 
 /// Throws for nodes that have no weights.
@@ -41,12 +40,7 @@ void requireWeights(const LogBarrierSystem& system, bool relax)
 
 void LogBarrierWarp::setTolerance(double tolerance)
 {
-  if (!(tolerance > 0 && tolerance < 1))
-  {
-    std::ostringstream text;
-    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
-    throw Error(text.str());
-  }
+  requireTolerance(tolerance);
   this->tolerance_ = tolerance;
 }
 
@@ -75,18 +69,9 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  Points coordinates(static_cast<Index>(this->rows_.size()), 3);
-  for (Index i = 0; i < coordinates.rows(); ++i)
-  {
-    coordinates.row(i) = rest.points.row(this->rows_[i]);
-  }
+  const Points coordinates = rowPositions(rest.points, this->rows_);
   this->coupling_.swap(system.coupling);
   this->solver_.prepare(system.interior, coordinates, monitor);
-}
-
-Index LogBarrierWarp::freeIndex(Index row) const
-{
-  return placeInFree(this->rows_, this->partition().free, row);
 }
 
 EvaluateReport LogBarrierWarp::report(
@@ -105,34 +90,12 @@ EvaluateReport LogBarrierWarp::report(
 EvaluateReport LogBarrierWarp::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  // Affine motions solve the equations; what remains of the others is all the iteration has to find.
-  const AffineFit fit(this->restPoints(), this->partition().prescribed, prescribed);
-  Points rhs(free.rows(), 3), x(free.rows(), 3);
-  monitor.parallelFor(free.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry;
-             ++entry)
-        {
-          sum -= entry.value() * prescribed.row(entry.col());
-        }
-        rhs.row(i) = sum;
-      }
-    });
+  Points rhs, x;
+  startSystem(this->restPoints(), this->rows_, this->partition(), this->coupling_, prescribed, rhs,
+    x, monitor);
   const NonsymmetricSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  monitor.parallelFor(free.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        free.row(this->freeIndex(i)) = x.row(i);
-      }
-    });
+  fromRows(x, this->rows_, this->partition(), free, monitor);
   return this->report(solved, monitor);
 }
 
@@ -140,11 +103,8 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = (I - W_I)^-1 W_B, so M^T g = W_B^T (I - W_I)^-T g.
-  Points rhs(free.rows(), 3), solution = Points::Zero(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    rhs.row(i) = free.row(this->freeIndex(i));
-  }
+  const Points rhs = toRows(free, this->rows_, this->partition());
+  Points solution = Points::Zero(free.rows(), 3);
   const NonsymmetricSolver::Report solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;

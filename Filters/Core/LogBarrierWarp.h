@@ -63,7 +63,6 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  Index freeIndex(Index row) const;
   EvaluateReport report(const NonsymmetricSolver::Report& solved, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
