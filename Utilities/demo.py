@@ -1,44 +1,61 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Morphs the bore, as hexahedra and as tetrahedra, from its initial to its final shape with Morph
-FEMWARP, the way a script in an optimisation loop would: one filter, a new boundary each step, the
+"""Morphs the bore, as hexahedra and as tetrahedra, from its initial to its final shape with each
+method, the way a script in an optimisation loop would: one filter, a new boundary each step, the
 rest mesh prepared once.
 
 Run by Utilities/demo.sh, which builds the plugin first, or by hand (a picture needs a display):
 
     pvpython --force-offscreen-rendering Utilities/demo.py --output demo-output
 
-Writes into the output directory, for each mesh, <name>_before.vtu, <name>_after.vtu and <name>.pvd,
-the series over pseudo-time t = 0 ... 1 for ParaView's time controls; and bore-femwarp.png. Prints a
-table of quality and times."""
+Writes into the output directory, for each mesh, <name>_before.vtu and FEMWARP's <name>_after.vtu and
+<name>.pvd, the series over pseudo-time t = 0 ... 1 for ParaView's time controls; and
+bore-femwarp.png. With --picture-each also bore-<method>.png for the other methods. Prints a table of
+quality and times."""
 
 import argparse
 import os
 import sys
-import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, producer, save_picture  # noqa: E402  (needs the path above)
-from Models import bore, bore_mesh  # noqa: E402
-from Models.model_mesh import write_grid  # noqa: E402
+import Models  # noqa: E402
+from Models.model_mesh import vtk_points  # noqa: E402
+from Models.vtk_files import write_grid, write_pvd  # noqa: E402
+
+
+@dataclass
+class Method:
+    """How a method is called in tables, in file names and in pvpython."""
+
+    name: str
+    file_name: str
+    filter_name: str
+
+
+FEMWARP = Method("FEMWARP", "femwarp", "MorphFEMWARP")
+METHODS = (
+    FEMWARP,
+    Method("LBWARP", "lbwarp", "MorphLBWARP"),
+    Method("Weighted residual", "weighted-residual", "MorphWeightedResidual"),
+    Method("Simplex-linear", "simplex-linear", "MorphSimplexLinear"),
+    Method("Simplex-natural neighbor", "simplex-natural-neighbor", "MorphSimplexNaturalNeighbor"),
+)
 
 
 @dataclass
 class Series:
-    """One mesh's way: the filter's output at t = 0 and t = 1, and seconds to prepare and (median)
-    to evaluate."""
+    """One method's way through one mesh: the filter's output at t = 0 ... 1, and seconds to prepare
+    and (median) to evaluate."""
 
-    cell_name: str
-    before: vtkUnstructuredGrid
-    after: vtkUnstructuredGrid
+    method: Method
+    grids: list
     prepare_seconds: float
     evaluate_seconds: float
 
@@ -51,87 +68,93 @@ def number(grid, name):
 def with_positions(surface, positions):
     """A copy of the polydata `surface` with other points, and its arrays (MorphPointId,
     RestPosition) along."""
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=1))
     moved = surface.NewInstance()
     moved.ShallowCopy(surface)
-    moved.SetPoints(points)
+    moved.SetPoints(vtk_points(positions))
     return moved
 
 
-def write_pvd(path, files, times):
-    """A ParaView data file: these files, named relative to it, as one series in time."""
-    root = xml.Element("VTKFile", type="Collection", version="1.0")
-    collection = xml.SubElement(root, "Collection")
-    for file, time in zip(files, times):
-        name = str(file.relative_to(path.parent))
-        xml.SubElement(collection, "DataSet", timestep=repr(time), file=name)
-    xml.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+class Bore:
+    """The bore at rest as one mesh, and its displaced boundary, which `move_to` moves."""
+
+    def __init__(self, name, cell_name, mesh):
+        self.name, self.cell_name, self.mesh = name, cell_name, mesh
+        self.rest = producer(self.mesh.to_vtk())
+        boundary = simple.ExtractMorphBoundary(Input=self.rest)
+        boundary.UpdatePipeline()
+        self.surface = boundary.GetClientSideObject().GetOutputDataObject(0)
+        ids = vtk_to_numpy(self.surface.GetPointData().GetArray("MorphPointId"))
+        if not np.array_equal(ids, mesh.nodes):
+            raise RuntimeError(f"{name}: Extract Morph Boundary found other nodes than the model")
+        self.moved = producer(self.surface)
+
+    def move_to(self, t):
+        moved = with_positions(self.surface, self.mesh.boundary_positions(t))
+        self.moved.GetClientSideObject().SetOutput(moved)
+        self.moved.MarkModified(self.moved)
 
 
-def morph_series(name, cell_name, model, steps, output):
-    """Morphs `model` (mesh, boundary nodes, places) to S_t for t = 0, 1/steps, ..., 1 and writes
-    every grid."""
-    mesh, nodes, places = model
-    rest = producer(mesh.to_vtk())
-    boundary = simple.ExtractMorphBoundary(Input=rest)
-    boundary.UpdatePipeline()
-    surface = boundary.GetClientSideObject().GetOutputDataObject(0)
-    ids = vtk_to_numpy(surface.GetPointData().GetArray("MorphPointId"))
-    row = np.searchsorted(nodes, ids)
-    if len(ids) != len(nodes) or not np.array_equal(nodes[row], ids):
-        raise RuntimeError(f"{name}: Extract Morph Boundary found other nodes than the model")
-
-    moved = producer(surface)
-    morph = simple.MorphFEMWARP(Input=rest, Boundary=moved)
-    folder = output / f"{name}_series"
-    folder.mkdir(exist_ok=True)
-    times = [step / steps for step in range(steps + 1)]
-    grids, files = [], []
-    for step, t in enumerate(times):
-        positions = places.positions(bore.S_0.toward(bore.S_F, t))[row]
-        moved.GetClientSideObject().SetOutput(with_positions(surface, positions))
-        moved.MarkModified(moved)
+def morph_series(model, method, times):
+    """Morphs the bore to S_t for each t of `times`."""
+    model.move_to(times[0])
+    morph = getattr(simple, method.filter_name)(Input=model.rest, Boundary=model.moved)
+    grids = []
+    for t in times:
+        model.move_to(t)
         morph.UpdatePipeline()
         output_grid = morph.GetClientSideObject().GetOutputDataObject(0)
-        if output_grid.GetNumberOfCells() != len(mesh.cells):
-            raise RuntimeError(f"{name}: Morph FEMWARP gave no mesh at t = {t}")
+        if output_grid.GetNumberOfCells() != len(model.mesh.cells):
+            raise RuntimeError(f"{model.name}: {method.name} gave no mesh at t = {t}")
         grids.append(output_grid.NewInstance())
         grids[-1].ShallowCopy(output_grid)
-        files.append(folder / f"{name}_{step:02d}.vtu")
-        write_grid(grids[-1], files[-1])
-
-    write_pvd(output / f"{name}.pvd", files, times)
-    write_grid(grids[0], output / f"{name}_before.vtu")
-    write_grid(grids[-1], output / f"{name}_after.vtu")
     seconds = np.median([number(grid, "EvaluateSeconds") for grid in grids[1:]])
-    return Series(cell_name, grids[0], grids[-1], number(grids[0], "PrepareSeconds"), seconds)
+    simple.Delete(morph)  # its weights may be large
+    return Series(method, grids, number(grids[0], "PrepareSeconds"), seconds)
 
 
-def print_table(all_series):
-    """Quality at t = 0 and t = 1; seconds and solver iterations of one step."""
-    columns = "{:12}{:>9}{:>10}  {:8}{:>8}{:>10}{:>10}{:>11}{:>12}{:>12}"
+def write_series(name, series, times, output):
+    """<name>.pvd with a grid for each time, and the first and the last of them by themselves."""
+    folder = output / f"{name}_series"
+    folder.mkdir(exist_ok=True)
+    files = [folder / f"{name}_{step:02d}.vtu" for step in range(len(times))]
+    for grid, file in zip(series.grids, files):
+        write_grid(grid, file)
+    write_pvd(output / f"{name}.pvd", files, times)
+    write_grid(series.grids[0], output / f"{name}_before.vtu")
+    write_grid(series.grids[-1], output / f"{name}_after.vtu")
+
+
+COLUMNS = "{:12}{:>8}{:>9}  {:26}{:>8}{:>10}{:>10}{:>11}{:>10}"
+
+
+def print_head():
     print()
     for head in (
-        ("", "", "", "", "scaled", "Jacobian", "inverted", "prepare", "evaluate", ""),
-        ("mesh", "nodes", "cells", "shape", "min", "mean", "cells", "s", "s", "iterations"),
+        ("", "", "", "", "scaled", "Jacobian", "inverted", "prepare", "evaluate"),
+        ("mesh", "nodes", "cells", "", "min", "mean", "cells", "s", "s"),
     ):
-        print(columns.format(*head))
+        print(COLUMNS.format(*head))
+
+
+def print_rows(model, all_series):
+    """Quality at rest, and at t = 1 with the seconds of one step, for each method."""
+
+    def row(title, grid, *seconds):
+        first = grid is all_series[0].grids[0]
+        print(COLUMNS.format(
+            model.cell_name if first else "",
+            f"{grid.GetNumberOfPoints():,}" if first else "",
+            f"{grid.GetNumberOfCells():,}" if first else "",
+            title,
+            f"{number(grid, 'MinScaledJacobian'):.4f}",
+            f"{number(grid, 'MeanScaledJacobian'):.4f}",
+            int(number(grid, "InvertedCells")),
+            *(f"{value:.4f}" for value in seconds),
+            *([""] * (2 - len(seconds)))))
+
+    row("initial shape", all_series[0].grids[0])
     for series in all_series:
-        for shape, grid in (("initial", series.before), ("final", series.after)):
-            first = grid is series.before
-            print(columns.format(
-                series.cell_name if first else "",
-                f"{grid.GetNumberOfPoints():,}" if first else "",
-                f"{grid.GetNumberOfCells():,}" if first else "",
-                shape,
-                f"{number(grid, 'MinScaledJacobian'):.4f}",
-                f"{number(grid, 'MeanScaledJacobian'):.4f}",
-                int(number(grid, "InvertedCells")),
-                "" if first else f"{series.prepare_seconds:.3f}",
-                "" if first else f"{series.evaluate_seconds:.3f}",
-                "" if first else int(number(grid, "SolverIterations"))))
-    print()
+        row(series.method.name, series.grids[-1], series.prepare_seconds, series.evaluate_seconds)
 
 
 def rear_half(mesh):
@@ -139,11 +162,11 @@ def rear_half(mesh):
     return np.flatnonzero(mesh.points[mesh.cells].mean(axis=1)[:, 1] > 0)
 
 
-def panels(series, mesh):
-    cells = rear_half(mesh)
-    for state, grid in (("before", series.before), ("after", series.after)):
+def panels(model, series):
+    cells = rear_half(model.mesh)
+    for state, grid in (("before", series.grids[0]), ("after", series.grids[-1])):
         yield Panel(
-            f"{series.cell_name}, {state}",
+            f"{model.cell_name}, {state}",
             f"{grid.GetNumberOfCells():,} cells, {int(number(grid, 'InvertedCells'))} inverted\n"
             f"min {number(grid, 'MinScaledJacobian'):.3f}, "
             f"mean {number(grid, 'MeanScaledJacobian'):.3f}",
@@ -168,6 +191,8 @@ def parse_arguments():
     parser.add_argument("--steps", type=int, default=20,
                         help="steps from the initial to the final shape (default: %(default)s)")
     parser.add_argument("--no-picture", action="store_true", help="do not render")
+    parser.add_argument("--picture-each", action="store_true",
+                        help="a picture for each method, not for FEMWARP alone")
     arguments = parser.parse_args()
     if arguments.steps < 1:
         parser.error("--steps must be 1 or more")
@@ -182,27 +207,34 @@ def main():
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
 
-    all_series, all_panels = [], []
+    times = [step / arguments.steps for step in range(arguments.steps + 1)]
+    all_panels = {method.file_name: [] for method in METHODS}
+    print_head()
+    bore = Models.get("bore")
     for name, cell_name, make in (
-        ("bore_hex", "Hexahedra", bore_mesh.hex_mesh),
-        ("bore_tet", "Tetrahedra", bore_mesh.tet_mesh),
+        ("bore_hex", "Hexahedra", bore.hex_mesh),
+        ("bore_tet", "Tetrahedra", bore.tet_mesh),
     ):
-        model = make()
-        series = morph_series(name, cell_name, model, arguments.steps, output)
-        all_series.append(series)
-        all_panels.extend(panels(series, model[0]))
-    print_table(all_series)
+        model = Bore(name, cell_name, make())
+        all_series = [morph_series(model, method, times) for method in METHODS]
+        write_series(name, all_series[0], times, output)
+        print_rows(model, all_series)
+        for series in all_series:
+            all_panels[series.method.file_name].extend(panels(model, series))
+    print()
 
-    if not arguments.no_picture:
+    pictured = [] if arguments.no_picture else METHODS if arguments.picture_each else [FEMWARP]
+    for method in pictured:
         save_picture(
-            output / "bore-femwarp.png",
-            "FEMWARP morphs the bore from its initial to its final shape (front half cut away)",
-            all_panels)
+            output / f"bore-{method.file_name}.png",
+            f"{method.name} morphs the bore from its initial to its final shape "
+            "(front half cut away)",
+            all_panels[method.file_name])
     print(f"Written to {output}:")
-    print("  bore_hex.pvd, bore_tet.pvd          series in time: open in ParaView and press play")
-    print("  bore_*_before.vtu, bore_*_after.vtu the first and the last mesh")
-    if not arguments.no_picture:
-        print("  bore-femwarp.png                    the picture")
+    print("  bore_hex.pvd, bore_tet.pvd          FEMWARP in time: open in ParaView and press play")
+    print("  bore_*_before.vtu, bore_*_after.vtu its first and its last mesh")
+    for method in pictured:
+        print(f"  {f'bore-{method.file_name}.png':36}the picture")
 
 
 if __name__ == "__main__":

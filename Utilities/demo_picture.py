@@ -52,18 +52,19 @@ def save_picture(path, heading, panels):
     left = GAP
     for panel, source, bound in zip(panels, sources, bounds):
         _show(view, source, left - bound[0])
-        _text(view, panel.title, (left / total, 0.86), 18, bold=True)
-        _text(view, panel.note, (left / total, 0.80), 14)
+        text(view, panel.title, (left / total, 0.86), 18, bold=True)
+        text(view, panel.note, (left / total, 0.80), 14)
         left += bound[1] - bound[0] + GAP
-    _text(view, heading, (GAP / total, 0.925), 24, bold=True)
+    text(view, heading, (GAP / total, 0.925), 24, bold=True)
     _color_bar(view)
     _look(view, total, bounds)
 
     simple.SaveScreenshot(str(path), view, ImageResolution=[OVERSAMPLING * side for side in SIZE])
-    _average_pixels(path)
+    average_pixels(path)
 
 
-def _average_pixels(path):
+def average_pixels(path):
+    """Replaces the PNG by one of 1 / OVERSAMPLING of its size."""
     reader = vtkPNGReader()
     reader.SetFileName(str(path))
     shrink = vtkImageShrink3D()
@@ -102,9 +103,10 @@ def _show(view, source, shift):
     shown.InterpolateScalarsBeforeMapping = 0
 
 
-def _text(view, words, lower_left, size, bold=False):
-    text = simple.Text(Text=words)
-    shown = simple.Show(text, view, "TextSourceRepresentation")
+def text(view, words, lower_left, size, bold=False):
+    """Words in the view; `lower_left`: their place as fractions of its width and height."""
+    source = simple.Text(Text=words)
+    shown = simple.Show(source, view, "TextSourceRepresentation")
     shown.WindowLocation = "Any Location"
     shown.Position = list(lower_left)
     shown.Justification = "Left"

@@ -15,7 +15,7 @@ END
 # What paraview-dev's CMake files ask for is more than the package itself depends on.
 packages=(
   cmake g++ ninja-build ccache git
-  paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev
+  paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
   qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
   libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev
   libutfcpp-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libtheora-dev libogg-dev

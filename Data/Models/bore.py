@@ -24,18 +24,27 @@ by formula.
            |      |         |
          0 |------'---------'---- r
                  FOOT   OUTER_FOOT
+
+Table 1 of the paper prints the hexahedral mesh as 11,904 nodes and 15,190 cells. Those two are
+swapped: a structured mesh of this solid has more nodes than cells, and the numbers the other way
+round have exactly one solution, 62 cells around, 4 through the wall and 48 along. Then all cells
+are close to cubes of side 0.25. Which mesher made the paper's tetrahedral mesh, 21,859 nodes and
+109,535 cells, is not known.
 """
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
 
+from .model import Counts, Curve, Model
+from .shape import Shape
+from .structured import revolved
+
 
 @dataclass(frozen=True)
-class BoreParameters:
-    """Lengths in the model's unit. Raises ValueError for numbers that make no bore: needs 0 < r1 <
-    r2 < r3, 0 < theta < 180 and a countersink that ends above the foot."""
+class BoreShape(Shape):
+    """Needs 0 < r1 < r2 < r3, 0 < theta < 180 and a countersink that ends above the foot."""
 
     height: float  #: h
     bore_radius: float  #: r1
@@ -55,15 +64,10 @@ class BoreParameters:
         slope = np.tan(np.radians(self.cone_angle) / 2)
         return (self.mouth_radius - self.bore_radius) / slope
 
-    def toward(self, final, t):
-        """S_t = S_0 + t (S_F - S_0), each parameter by itself. `t` may leave [0, 1] while the shape
-        stays a bore."""
-        return BoreParameters(*(a + t * (b - a) for a, b in zip(astuple(self), astuple(final))))
-
 
 #: The initial and the final shape as the paper prints them.
-S_0 = BoreParameters(12.0, 2.0, 2.5, 3.0, 60.0)
-S_F = BoreParameters(12.0, 2.5, 3.5, 6.0, 30.0)
+S_0 = BoreShape(12.0, 2.0, 2.5, 3.0, 60.0)
+S_F = BoreShape(12.0, 2.5, 3.5, 6.0, 30.0)
 
 
 class Circle(IntEnum):
@@ -95,73 +99,125 @@ SURFACE_CIRCLES = np.array([
     (Circle.FOOT, Circle.OUTER_FOOT),
 ])
 
+#: (#circles, 2) the surfaces that meet in a circle
+CIRCLE_SURFACES = tuple(
+    tuple(surface for surface in Surface if circle in SURFACE_CIRCLES[surface])
+    for circle in Circle)
 
-def circle_profile(parameters):
+
+def circle_profile(shape):
     """(#circles, 2): radius and height z of each circle."""
-    p = parameters
     return np.array([
-        (p.mouth_radius, p.height),
-        (p.bore_radius, p.height - p.cone_depth),
-        (p.bore_radius, 0.0),
-        (p.outer_radius, p.height),
-        (p.outer_radius, 0.0),
+        (shape.mouth_radius, shape.height),
+        (shape.bore_radius, shape.height - shape.cone_depth),
+        (shape.bore_radius, 0.0),
+        (shape.outer_radius, shape.height),
+        (shape.outer_radius, 0.0),
     ])
 
 
-@dataclass
-class BoundaryPlaces:
-    """Where boundary nodes sit on the model, independent of its parameters; all arrays have one
-    entry per node.
+class Bore(Model):
+    """A place is (surface, along, angle): a Surface the node is on, in [0, 1] how far along its
+    profile line from its first circle to its second, radians about z."""
 
-    dimension: 0 on a vertex, 1 on a curve, 2 inside a surface. A circle has one vertex, at angle 0.
-    entity: the Circle of a vertex or curve, the Surface otherwise.
-    surface: a Surface the node lies on (for nodes on a circle, one of the two).
-    along: in [0, 1], place on the surface's profile line from its first circle to its second.
-    angle: radians about z.
-    """
+    name = "bore"
+    initial, final = S_0, S_F
+    last = 1.55  # at 1.59 the countersink reaches the foot
+    Surface = Surface
+    curves = tuple(Curve(surfaces) for surfaces in CIRCLE_SURFACES)
+    paper = {"hex": Counts(15190, 11904), "tet": Counts(21859, 109535)}
 
-    dimension: np.ndarray
-    entity: np.ndarray
-    surface: np.ndarray
-    along: np.ndarray
-    angle: np.ndarray
+    def locate(self, points, tolerance=1e-9):
+        """Tolerance: as a fraction of the height."""
+        length = tolerance * self.initial.height
+        radius = np.hypot(points[:, 0], points[:, 1])
+        flat = np.column_stack([radius, points[:, 2]])
+        profile = circle_profile(self.initial)
 
-    def positions(self, parameters):
-        """(#nodes, 3): the exact positions on the bore of these parameters."""
-        profile = circle_profile(parameters)
-        first, second = profile[SURFACE_CIRCLES[self.surface].T]
-        along = self.along[:, None]
+        start, end = profile[SURFACE_CIRCLES[:, 0]], profile[SURFACE_CIRCLES[:, 1]]
+        line = end - start
+        along = np.einsum("nsk,sk->ns", flat[:, None] - start, line) / np.sum(line**2, axis=1)
+        along = np.clip(along, 0.0, 1.0)
+        distance = np.linalg.norm(start + along[..., None] * line - flat[:, None], axis=2)
+        surface = np.argmin(distance, axis=1)
+        nodes = np.arange(len(points))
+        lost = ~(distance[nodes, surface] <= length)
+        if np.any(lost):
+            raise ValueError(f"points {np.flatnonzero(lost)[:10]} are not on the surface:"
+                             f" {self.initial}")
+
+        along = along[nodes, surface]
+        on_circle = np.linalg.norm(flat[:, None] - profile, axis=2).min(axis=1) <= length
+        along[on_circle] = np.round(along[on_circle])
+        angle = np.arctan2(points[:, 1], points[:, 0])
+        angle[on_circle & (radius * np.abs(angle) <= length)] = 0
+        return np.column_stack([surface, along, angle])
+
+    def positions(self, places, shape):
+        surface, along, angle = places[:, 0].astype(int), places[:, 1, None], places[:, 2]
+        first, second = circle_profile(shape)[SURFACE_CIRCLES[surface].T]
         radius, z = ((1 - along) * first + along * second).T
-        return np.column_stack([radius * np.cos(self.angle), radius * np.sin(self.angle), z])
+        return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
 
+    def on_surfaces(self, places):
+        surface, along = places[:, 0].astype(int), places[:, 1]
+        on = surface[:, None] == np.arange(len(Surface))
+        for end in (0, 1):
+            nodes = np.flatnonzero(along == end)
+            circles = SURFACE_CIRCLES[surface[nodes], end]
+            for surfaces in np.array(CIRCLE_SURFACES)[circles].T:
+                on[nodes, surfaces] = True
+        return on
 
-def locate(parameters, points, tolerance=1e-9):
-    """The places of boundary `points` (n, 3) on the bore of `parameters`: the inverse of
-    BoundaryPlaces.positions. Raises ValueError for a point further than `tolerance` times the
-    height from every surface."""
-    length = tolerance * parameters.height
-    radius = np.hypot(points[:, 0], points[:, 1])
-    flat = np.column_stack([radius, points[:, 2]])
-    profile = circle_profile(parameters)
+    def angles(self, places):
+        return places[:, 2]
 
-    start, end = profile[SURFACE_CIRCLES[:, 0]], profile[SURFACE_CIRCLES[:, 1]]
-    line = end - start
-    along = np.einsum("nsk,sk->ns", flat[:, None] - start, line) / np.sum(line**2, axis=1)
-    along = np.clip(along, 0.0, 1.0)
-    distance = np.linalg.norm(start + along[..., None] * line - flat[:, None], axis=2)
-    surface = np.argmin(distance, axis=1)
-    nodes = np.arange(len(points))
-    lost = distance[nodes, surface] > length
-    if np.any(lost):
-        raise ValueError(f"points {np.flatnonzero(lost)[:10]} are not on the surface: {parameters}")
+    def normals(self, surfaces, points, shape):
+        half = np.radians(shape.cone_angle) / 2
+        radial, upward = np.array([
+            (-np.cos(half), np.sin(half)), (-1, 0), (1, 0), (0, 1), (0, -1)])[surfaces].T
+        angle = np.arctan2(points[:, 1], points[:, 0])
+        return np.column_stack([radial * np.cos(angle), radial * np.sin(angle), upward])
 
-    to_circle = np.linalg.norm(flat[:, None] - profile, axis=2)
-    circle = np.argmin(to_circle, axis=1)
-    on_circle = to_circle[nodes, circle] <= length
-    angle = np.arctan2(points[:, 1], points[:, 0])
-    on_vertex = on_circle & (radius * np.abs(angle) <= length)
+    def volume(self, shape):
+        inner, mouth, depth = shape.bore_radius, shape.mouth_radius, shape.cone_depth
+        cut = inner**2 * (shape.height - depth) + depth * (mouth**2 + mouth * inner + inner**2) / 3
+        return np.pi * (shape.outer_radius**2 * shape.height - cut)
 
-    along = along[nodes, surface]
-    along[on_circle] = np.round(along[on_circle])
-    dimension = np.where(on_vertex, 0, np.where(on_circle, 1, 2))
-    return BoundaryPlaces(dimension, np.where(on_circle, circle, surface), surface, along, angle)
+    def hex_mesh(self, small=False):
+        """Structured: 62 cells around, 4 through the wall and 48 along; small: 32, 2 and 24."""
+        return self.classified(self.hexahedra(self.initial, small))
+
+    def hexahedra(self, shape, small=False):
+        """The structured ModelMesh of any shape, for comparison with a morphed one. Nodes are
+        equally spaced on each inner profile line and on the whole outer one; straight lines join
+        inner to outer."""
+        around, through, along_cone, along_bore = (32, 2, 2, 22) if small else (62, 4, 3, 45)
+        profile = circle_profile(shape)
+
+        def line(surface, v):
+            first, second = profile[SURFACE_CIRCLES[surface]]
+            return first + v[:, None] * (second - first)
+
+        along = along_cone + along_bore
+        inner = np.concatenate([
+            line(Surface.CONE, np.arange(along_cone) / along_cone),
+            line(Surface.BORE, np.arange(along_bore + 1) / along_bore),
+        ])
+        outer = line(Surface.OUTER, np.arange(along + 1) / along)
+        v = (np.arange(through + 1) / through)[:, None]
+        flat = (1 - v) * inner[:, None] + v * outer[:, None]  # layer, ring, (r, z)
+        return revolved(flat, around)
+
+    def tet_mesh(self, small=False):
+        from .gmsh_mesh import tetrahedra
+
+        return self.classified(tetrahedra(self._build, 0.42 if small else 0.203))
+
+    def _build(self, occ):
+        corners = [occ.addPoint(r, 0, z) for r, z in circle_profile(self.initial)]
+        lines = [occ.addLine(corners[a], corners[b]) for a, b in SURFACE_CIRCLES]
+        loop = [Surface.CONE, Surface.BORE, Surface.FOOT_END, Surface.OUTER, Surface.TOP_END]
+        section = occ.addPlaneSurface([occ.addCurveLoop([lines[side] for side in loop])])
+        occ.revolve([(2, section)], 0, 0, 0, 0, 0, 1, 2 * np.pi)
+        occ.remove([(2, section)], recursive=True)

@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON,
@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 # Faces by the cell's corner numbers, in VTK's order.
 _FACES = {
@@ -32,16 +32,17 @@ class ModelMesh:
     cells: np.ndarray
     cell_type: int
 
-    def boundary_nodes(self):
-        """Sorted ids of the nodes on faces that belong to one cell alone. Cost: one sort of all
-        faces."""
+    def boundary_faces(self):
+        """(#faces, 3 or 4) node ids of the faces that belong to one cell alone, seen from outside
+        counterclockwise. Cost: one sort of all faces."""
         faces = np.concatenate([self.cells[:, face] for face in _FACES[self.cell_type]])
         keys = np.sort(faces, axis=1)
         _, first, count = np.unique(keys, axis=0, return_index=True, return_counts=True)
-        return np.unique(faces[first[count == 1]])
+        return faces[np.sort(first[count == 1])]
 
-    def to_vtk(self):
-        """A vtkUnstructuredGrid with its own copy of the arrays and double points."""
+    def to_vtk(self, points=None):
+        """A vtkUnstructuredGrid with its own copy of the arrays and double points: the mesh's own,
+        or those given."""
         count, corners = self.cells.shape
         connectivity = np.ascontiguousarray(self.cells, dtype=np.int64).ravel()
         cells = vtkCellArray()
@@ -49,22 +50,40 @@ class ModelMesh:
             numpy_to_vtkIdTypeArray(np.arange(count + 1, dtype=np.int64) * corners, deep=1),
             numpy_to_vtkIdTypeArray(connectivity, deep=1),
         )
-        points = vtkPoints()
-        points.SetData(numpy_to_vtk(np.ascontiguousarray(self.points, dtype=np.float64), deep=1))
         grid = vtkUnstructuredGrid()
-        grid.SetPoints(points)
+        grid.SetPoints(vtk_points(self.points if points is None else points))
         grid.SetCells(self.cell_type, cells)
         return grid
 
 
-def write_grid(grid, path):
-    """Writes a vtkUnstructuredGrid as compressed .vtu. Raises OSError where the file cannot be
-    written."""
-    writer = vtkXMLUnstructuredGridWriter()
-    # Appended data, VTK's default, cannot be read back by VTK 9.2 with an expat that defers
-    # parsing, as Debian 12's does (https://gitlab.kitware.com/vtk/vtk/-/issues/19258).
-    writer.SetDataModeToBinary()
-    writer.SetFileName(str(path))
-    writer.SetInputData(grid)
-    if writer.Write() != 1 or writer.GetErrorCode() != 0:
-        raise OSError(f"cannot write {path}: VTK error code {writer.GetErrorCode()}")
+def vtk_points(points):
+    """vtkPoints in double precision with its own copy of `points`, (n, 3)."""
+    result = vtkPoints()
+    result.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=np.float64), deep=1))
+    return result
+
+
+def add_array(attributes, name, values):
+    """Adds a named copy of `values` to point, cell or field data."""
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=1)
+    array.SetName(name)
+    attributes.AddArray(array)
+
+
+def read_mesh(path):
+    """The ModelMesh in a .vtu of one cell type, hexahedra or tetrahedra. Raises FileNotFoundError,
+    or ValueError for a file of another kind."""
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no mesh {path}")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    types = np.unique(vtk_to_numpy(grid.GetCellTypesArray())) if grid.GetNumberOfCells() else []
+    if len(types) != 1 or types[0] not in _FACES:
+        raise ValueError(f"{path} holds cells of types {list(types)}: one of hexahedra (12) or"
+                         " tetrahedra (10) alone is needed")
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).astype(np.int64)
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(np.float64)
+    corners = max(max(face) for face in _FACES[types[0]]) + 1
+    return ModelMesh(points, cells.reshape(-1, corners), int(types[0]))

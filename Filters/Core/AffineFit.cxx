@@ -5,26 +5,42 @@
 
 namespace morph
 {
-AffineFit::AffineFit(
-  const Points& rest, const std::vector<Index>& ids, const Points& displacement)
-  : centre_(Eigen::RowVector3d::Zero())
-  , mean_(Eigen::RowVector3d::Zero())
+namespace
 {
-  const Index n = static_cast<Index>(ids.size());
-  for (Index i = 0; i < n; ++i)
+Points rowsOf(const Points& all, const std::vector<Index>& ids)
+{
+  Points some(static_cast<Index>(ids.size()), 3);
+  for (Index i = 0; i < some.rows(); ++i)
   {
-    this->centre_ += rest.row(ids[i]);
-    this->mean_ += displacement.row(i);
+    some.row(i) = all.row(ids[i]);
   }
-  this->centre_ /= static_cast<double>(n);
-  this->mean_ /= static_cast<double>(n);
+  return some;
+}
 
-  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero(), P = Q;
-  for (Index i = 0; i < n; ++i)
+Eigen::RowVector3d sumOfRows(const Points& points)
+{
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (Index i = 0; i < points.rows(); ++i)
   {
-    const Eigen::RowVector3d d = rest.row(ids[i]) - this->centre_;
-    Q.noalias() += d.transpose() * d;
-    P.noalias() += d.transpose() * (displacement.row(i) - this->mean_);
+    sum += points.row(i);
+  }
+  return sum;
+}
+}
+
+AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement)
+  : AffineFit(AffineLeastSquares(rowsOf(rest, ids)).fit(displacement))
+{
+}
+
+AffineLeastSquares::AffineLeastSquares(const Points& rest)
+{
+  this->centre_ = sumOfRows(rest) / static_cast<double>(rest.rows());
+  this->arms_ = rest.rowwise() - this->centre_;
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  for (Index i = 0; i < rest.rows(); ++i)
+  {
+    Q.noalias() += this->arms_.row(i).transpose() * this->arms_.row(i);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(Q);
   Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
@@ -34,9 +50,40 @@ AffineFit::AffineFit(
     if (axes.eigenvalues()[j] > 1e-10 * axes.eigenvalues()[2])
     {
       inverse[j] = 1 / axes.eigenvalues()[j];
+      ++this->rank_;
     }
   }
-  this->gradient_ =
-    axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose() * P;
+  this->inverse_ = axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+AffineFit AffineLeastSquares::fit(const Points& displacement) const
+{
+  AffineFit fit;
+  fit.centre_ = this->centre_;
+  fit.mean_ = sumOfRows(displacement) / static_cast<double>(displacement.rows());
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (Index i = 0; i < displacement.rows(); ++i)
+  {
+    P.noalias() += this->arms_.row(i).transpose() * (displacement.row(i) - fit.mean_);
+  }
+  fit.gradient_ = this->inverse_ * P;
+  return fit;
+}
+
+void AffineLeastSquares::fitTranspose(
+  const Points& x, const Points& gradient, Points& displacement) const
+{
+  const Eigen::RowVector3d ofMean = sumOfRows(gradient) / static_cast<double>(displacement.rows());
+  Eigen::Matrix3d ofGradient = Eigen::Matrix3d::Zero();
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    ofGradient.noalias() += (x.row(i) - this->centre_).transpose() * gradient.row(i);
+  }
+  // The arms sum to zero, so that the mean within P needs no term of its own.
+  const Eigen::Matrix3d ofP = this->inverse_ * ofGradient;
+  for (Index i = 0; i < displacement.rows(); ++i)
+  {
+    displacement.row(i) += ofMean + this->arms_.row(i) * ofP;
+  }
 }
 }

@@ -16,18 +16,20 @@ Value blockSum(Index n, Monitor& monitor, const Value& zero, const Body& body)
   constexpr Index Block = 4096;
   const Index blocks = (n + Block - 1) / Block;
   std::vector<Value> part(blocks, zero);
-  monitor.parallelFor(blocks, 1, [&](Index firstBlock, Index lastBlock) {
-    for (Index b = firstBlock; b < lastBlock; ++b)
+  monitor.parallelFor(blocks, 1,
+    [&](Index firstBlock, Index lastBlock)
     {
-      Value sum = zero;
-      const Index last = std::min(n, (b + 1) * Block);
-      for (Index i = b * Block; i < last; ++i)
+      for (Index b = firstBlock; b < lastBlock; ++b)
       {
-        sum += body(i);
+        Value sum = zero;
+        const Index last = std::min(n, (b + 1) * Block);
+        for (Index i = b * Block; i < last; ++i)
+        {
+          sum += body(i);
+        }
+        part[b] = sum;
       }
-      part[b] = sum;
-    }
-  });
+    });
   Value total = zero;
   for (const Value& p : part)
   {

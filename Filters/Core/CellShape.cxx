@@ -58,7 +58,8 @@ constexpr CellShape pyramid(const char* name, int nodes)
 
 const CellShape* cellShape(std::uint8_t type)
 {
-  static const auto table = [] {
+  static const auto table = []
+  {
     std::array<CellShape, 40> t{};
     t[EmptyCell] = flat("empty cell", Shape::Other, 0, 0, 0);
     t[Vertex] = flat("vertex", Shape::Other, 0, 1, 1);

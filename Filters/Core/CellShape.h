@@ -62,12 +62,12 @@ struct FaceShape
 /// The facts about one cell type. Corners come first in the node list of every type here.
 struct CellShape
 {
-  const char* name;   ///< as in VTK: "hexahedron"
+  const char* name; ///< as in VTK: "hexahedron"
   Shape shape;
-  int dimension;      ///< 0 to 3
-  int numberOfNodes;  ///< -1 where the type leaves it open (poly-line, polygon)
+  int dimension;     ///< 0 to 3
+  int numberOfNodes; ///< -1 where the type leaves it open (poly-line, polygon)
   int numberOfCorners;
-  int numberOfFaces;  ///< of volume cells; 0 otherwise
+  int numberOfFaces; ///< of volume cells; 0 otherwise
   const FaceShape* faces;
   /// Where corner i of the shape (VTK's hexahedron order) stands in the cell's node list: the identity
   /// for all but voxels, whose third and fourth corners are exchanged.

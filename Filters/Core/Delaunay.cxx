@@ -22,13 +22,14 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 1024;
-constexpr double FlatVolume = 1e-4; // 6 V over the cube of the longest edge: below, centres take exact arithmetic
+constexpr double FlatVolume =
+  1e-4; // 6 V over the cube of the longest edge: below, centres take exact arithmetic
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
-using CellBase =
-  CGAL::Triangulation_cell_base_with_info_3<int, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<int, Kernel,
+  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
 
@@ -94,17 +95,19 @@ void Delaunay::build(const Points& sites, Monitor& monitor)
   const Triangulation triangulation(points.begin(), points.end());
   if (triangulation.dimension() < 3)
   {
-    throw Error(Error::Kind::Singular,
-      "The " + std::to_string(sites.rows()) +
-        " distinct places of prescribed nodes lie in one plane, or on one line: they span no volume to interpolate in. "
-        "Prescribe nodes on all sides of the mesh, or choose FEMWARP.");
+    throw Error(
+      Error::Kind::Singular, "The " + std::to_string(sites.rows()) +
+                               " distinct places of prescribed nodes lie in one plane, or on one "
+                               "line: they span no volume to interpolate in. "
+                               "Prescribe nodes on all sides of the mesh, or choose FEMWARP.");
   }
   monitor.check();
 
   const int count = numberCells(triangulation);
   std::vector<Tetrahedron> tetrahedra(count);
   std::vector<int> atSite(sites.rows(), Outside);
-  for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end(); ++cell)
+  for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end();
+       ++cell)
   {
     Tetrahedron& tetrahedron = tetrahedra[cell->info()];
     for (int k = 0; k < 4; ++k)
@@ -135,7 +138,8 @@ int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
     for (int k = 0; k < 4 && next == here; ++k)
     {
       const int neighbor = tetrahedron.neighbors[k];
-      if (neighbor != Outside && neighbor != before && isBeyond(d[Faces[k][0]], d[Faces[k][1]], d[Faces[k][2]]))
+      if (neighbor != Outside && neighbor != before &&
+          isBeyond(d[Faces[k][0]], d[Faces[k][1]], d[Faces[k][2]]))
       {
         next = neighbor;
       }
@@ -153,7 +157,8 @@ int Delaunay::startNear(const Eigen::RowVector3d& x) const
 {
   // The sample that balances its own cost with that of the walk.
   const Index n = this->sites_.rows();
-  const Index step = std::max<Index>(1, n / (4 * static_cast<Index>(std::cbrt(static_cast<double>(n))) + 1));
+  const Index step =
+    std::max<Index>(1, n / (4 * static_cast<Index>(std::cbrt(static_cast<double>(n))) + 1));
   double best = std::numeric_limits<double>::infinity();
   int start = 0;
   for (Index i = 0; i < n; i += step)
@@ -171,27 +176,30 @@ int Delaunay::startNear(const Eigen::RowVector3d& x) const
 Points Delaunay::circumcentres(Monitor& monitor) const
 {
   Points centres(static_cast<Index>(this->tetrahedra_.size()), 3);
-  monitor.parallelFor(centres.rows(), Grain, [&](Index first, Index last) {
-    for (Index t = first; t < last; ++t)
+  monitor.parallelFor(centres.rows(), Grain,
+    [&](Index first, Index last)
     {
-      const auto& s = this->tetrahedra_[t].sites;
-      const Eigen::RowVector3d origin = this->sites_.row(s[0]);
-      const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
-      const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
-      const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
-      const double volume = a.dot(b.cross(c));
-      const double longest = std::max({ a.norm(), b.norm(), c.norm() });
-      if (volume > FlatVolume * longest * longest * longest)
+      for (Index t = first; t < last; ++t)
       {
-        centres.row(t) = origin +
-          (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b)) / (2 * volume);
+        const auto& s = this->tetrahedra_[t].sites;
+        const Eigen::RowVector3d origin = this->sites_.row(s[0]);
+        const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
+        const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
+        const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
+        const double volume = a.dot(b.cross(c));
+        const double longest = std::max({ a.norm(), b.norm(), c.norm() });
+        if (volume > FlatVolume * longest * longest * longest)
+        {
+          centres.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
+                                      c.squaredNorm() * a.cross(b)) /
+                                      (2 * volume);
+        }
+        else
+        {
+          centres.row(t) = exactCircumcentre(this->sites_, s);
+        }
       }
-      else
-      {
-        centres.row(t) = exactCircumcentre(this->sites_, s);
-      }
-    }
-  });
+    });
   return centres;
 }
 

@@ -40,8 +40,7 @@ int signOf(double determinant, double lengths)
 
 /// grad N_a = normal_a / (6 volume): the inward area vectors, doubled; returns 6 x volume, and in `sign` that of a volume
 /// that does not vanish.
-double tetNormals(
-  const double (*corners)[3], const int c[4], Eigen::Vector3d normal[4], int& sign)
+double tetNormals(const double (*corners)[3], const int c[4], Eigen::Vector3d normal[4], int& sign)
 {
   const Vector origin(corners[c[0]]);
   const Eigen::Vector3d e1 = Vector(corners[c[1]]) - origin, e2 = Vector(corners[c[2]]) - origin,
@@ -96,8 +95,7 @@ int simplicialStiffness(Shape shape, const double (*corners)[3], double* K)
     {
       for (int j = i; j < 4; ++j)
       {
-        K[triangleIndex(n, c[i], c[j])] +=
-          factor * normals[t][i].dot(normals[t][j]);
+        K[triangleIndex(n, c[i], c[j])] += factor * normals[t][i].dot(normals[t][j]);
       }
     }
   }
@@ -110,12 +108,13 @@ int hexStiffness(const double (*x)[3], double* K)
 {
   constexpr double P = 0.78867513459481288225; // (1 + 1/sqrt(3)) / 2
   constexpr double M = 0.21132486540518711775;
-  constexpr double Share[2] = { P, M };        // weight of the near and far corner, or of far and near
+  constexpr double Share[2] = { P, M }; // weight of the near and far corner, or of far and near
   // The four edges along each direction, by their ends, at (0,0), (1,0), (0,1), (1,1) of the other two.
   constexpr int Edge[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
     { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
   // Parametric gradients of the shape functions at the Gauss points q = u + 2 v + 4 w.
-  static const auto gradients = [] {
+  static const auto gradients = []
+  {
     std::array<std::array<std::array<double, 3>, 8>, 8> table;
     for (int q = 0; q < 8; ++q)
     {

@@ -15,7 +15,7 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 256;
-constexpr double FlatVolume = 1e-13;    // 6 V over the cube of the longest edge
+constexpr double FlatVolume = 1e-13; // 6 V over the cube of the longest edge
 constexpr double InsideTolerance = EnclosingTetrahedra::InsideTolerance;
 constexpr double LinearPrecision = 1e-10; // of the sites' size
 constexpr std::size_t MostCandidates = 200;
@@ -94,7 +94,7 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
     {
       const Eigen::RowVector4d b = frame.coordinates(x);
       if (b.allFinite() &&
-        (best.tetrahedron == Delaunay::Outside || b.minCoeff() > best.barycentric.minCoeff()))
+          (best.tetrahedron == Delaunay::Outside || b.minCoeff() > best.barycentric.minCoeff()))
       {
         best = { candidates[i], b };
       }
@@ -103,7 +103,7 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
     for (int next : delaunay.tetrahedra()[candidates[i]].neighbors)
     {
       if (next != Delaunay::Outside && ring <= 2 &&
-        std::find(candidates.begin(), candidates.end(), next) == candidates.end())
+          std::find(candidates.begin(), candidates.end(), next) == candidates.end())
       {
         candidates.push_back(next);
         rings.push_back(ring);
@@ -147,34 +147,37 @@ EnclosingTetrahedra enclosingTetrahedra(
   result.tetrahedron.resize(n);
   result.barycentric.resize(n, 4);
   std::vector<char> state(n, 0); // 1: outside, 2: not found
-  monitor.parallelFor((n + BlockLength - 1) / BlockLength, 1, [&](Index firstBlock, Index lastBlock) {
-    for (Index block = firstBlock; block < lastBlock; ++block)
+  monitor.parallelFor((n + BlockLength - 1) / BlockLength, 1,
+    [&](Index firstBlock, Index lastBlock)
     {
-      const Index first = block * BlockLength;
-      int here = delaunay.startNear(points.row(order[first]));
-      Frame frame(delaunay, here);
-      for (Index i = first; i < std::min(n, first + BlockLength); ++i)
+      for (Index block = firstBlock; block < lastBlock; ++block)
       {
-        const Row x = points.row(order[i]);
-        const Index row = rowOf[order[i]];
-        const int found = delaunay.locate(x, here);
-        if (found != here) // several nodes lie in one tetrahedron
+        const Index first = block * BlockLength;
+        int here = delaunay.startNear(points.row(order[first]));
+        Frame frame(delaunay, here);
+        for (Index i = first; i < std::min(n, first + BlockLength); ++i)
         {
-          here = found;
-          frame = Frame(delaunay, here);
+          const Row x = points.row(order[i]);
+          const Index row = rowOf[order[i]];
+          const int found = delaunay.locate(x, here);
+          if (found != here) // several nodes lie in one tetrahedron
+          {
+            here = found;
+            frame = Frame(delaunay, here);
+          }
+          const Place at = place(delaunay, x, here, frame);
+          if (at.tetrahedron == Delaunay::Outside ||
+              residual(delaunay, at, x) > LinearPrecision * size)
+          {
+            state[row] = 2;
+            continue;
+          }
+          state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
+          result.tetrahedron[row] = at.tetrahedron;
+          result.barycentric.row(row) = at.barycentric;
         }
-        const Place at = place(delaunay, x, here, frame);
-        if (at.tetrahedron == Delaunay::Outside || residual(delaunay, at, x) > LinearPrecision * size)
-        {
-          state[row] = 2;
-          continue;
-        }
-        state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
-        result.tetrahedron[row] = at.tetrahedron;
-        result.barycentric.row(row) = at.barycentric;
       }
-    }
-  });
+    });
   monitor.check();
 
   std::vector<Index> lost;
@@ -191,9 +194,10 @@ EnclosingTetrahedra enclosingTetrahedra(
   }
   if (!lost.empty())
   {
-    throw Error(Error::Kind::Singular,
-      "All tetrahedra between prescribed nodes near node ids " + listIds(lost) +
-        " are flat, so they cannot say where the node goes. Prescribe nodes on all sides of it, or choose FEMWARP.");
+    throw Error(Error::Kind::Singular, "All tetrahedra between prescribed nodes near node ids " +
+                                         listIds(lost) +
+                                         " are flat, so they cannot say where the node goes. "
+                                         "Prescribe nodes on all sides of it, or choose FEMWARP.");
   }
   return result;
 }

@@ -23,9 +23,9 @@ struct EnclosingTetrahedra
   static constexpr double InsideTolerance = 1e-9; ///< of a barycentric coordinate
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-  std::vector<int> tetrahedron;     ///< #ids
-  Coordinates barycentric;          ///< #ids x 4, in the order of the tetrahedron's sites; rows sum to 1
-  std::vector<Index> extrapolated;  ///< ids of nodes outside the hull, ascending
+  std::vector<int> tetrahedron; ///< #ids
+  Coordinates barycentric; ///< #ids x 4, in the order of the tetrahedron's sites; rows sum to 1
+  std::vector<Index> extrapolated; ///< ids of nodes outside the hull, ascending
 };
 
 /// `points`: all nodes; `ids`: those to find. Throws Error naming nodes that no tetrahedron near them can carry to 1e-10 of the

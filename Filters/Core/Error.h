@@ -15,10 +15,10 @@ class Error : public std::runtime_error
 public:
   enum class Kind
   {
-    InvalidInput,   ///< the caller's data cannot be used
-    Singular,       ///< the data leave the system without a unique solution
-    NoConvergence,  ///< the iteration stopped above the tolerance
-    Cancelled       ///< Monitor::cancelled() returned true
+    InvalidInput,  ///< the caller's data cannot be used
+    Singular,      ///< the data leave the system without a unique solution
+    NoConvergence, ///< the iteration stopped above the tolerance
+    Cancelled      ///< Monitor::cancelled() returned true
   };
 
   Error(Kind kind, const std::string& message)

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FemWarp.h"
 
-#include "AffineFit.h"
 #include "CellShape.h"
 #include "ElementStiffness.h"
 #include "Error.h"
+#include "RowOrder.h"
+#include "RowSystem.h"
 #include "SimplicialDecomposition.h"
-#include "SpatialOrder.h"
 #include "Topology.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
-#include <sstream>
 #include <utility>
 
 namespace morph
@@ -26,12 +23,12 @@ constexpr int MaxIterations = 2000;
 struct CellMatrices
 {
   std::vector<Index> start; ///< #cells + 1
-  Eigen::ArrayXd K;         ///< not initialised by resize: each thread is the first to touch its part
+  Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
 };
 
 /// Warns of cells whose Jacobian is not that of a valid cell. `sign`: #cells, from elementStiffness.
-void reportBadCells(const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign,
-  Monitor& monitor)
+void reportBadCells(
+  const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign, Monitor& monitor)
 {
   if (std::all_of(sign.begin(), sign.end(), [](std::int8_t s) { return s == 1; }))
   {
@@ -75,51 +72,29 @@ CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monit
   result.K.resize(result.start.back());
 
   std::vector<std::int8_t> sign(cells, 1);
-  monitor.parallelFor(cells, Grain, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
     {
-      const CellShape& shape = *cellShape(mesh.types[c]);
-      const int n = numberOfCorners(shape.shape);
-      if (n == 0)
+      for (Index c = first; c < last; ++c)
       {
-        continue;
+        const CellShape& shape = *cellShape(mesh.types[c]);
+        const int n = numberOfCorners(shape.shape);
+        if (n == 0)
+        {
+          continue;
+        }
+        double corners[8][3];
+        for (int a = 0; a < n; ++a)
+        {
+          const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
+          std::copy(point.data(), point.data() + 3, corners[a]);
+        }
+        sign[c] = static_cast<std::int8_t>(
+          elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
       }
-      double corners[8][3];
-      for (int a = 0; a < n; ++a)
-      {
-        const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
-        std::copy(point.data(), point.data() + 3, corners[a]);
-      }
-      sign[c] = static_cast<std::int8_t>(
-        elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
-    }
-  });
+    });
   reportBadCells(mesh, bodies, sign, monitor);
   return result;
-}
-
-/// The free nodes in the order of the matrix rows: by id where that keeps neighbors near in memory (structured
-/// meshes, swept ones), along a space-filling curve where it does not (Delaunay generators number at random: 2.5 times
-/// slower on 130,000 nodes).
-std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
-{
-  constexpr Index Small = 10000;       // fits a cache in any order
-  constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
-  const Index cells = mesh.numberOfCells();
-  double spans = 0;
-  Index count = 0;
-  for (Index c = 0; c < cells; ++c)
-  {
-    const int n = numberOfCorners(cellShape(mesh.types[c])->shape);
-    if (n > 0)
-    {
-      const auto range = std::minmax_element(mesh.cell(c), mesh.cell(c) + n);
-      spans += static_cast<double>(*range.second - *range.first);
-      ++count;
-    }
-  }
-  const bool far = spans > FarShare * static_cast<double>(count) * mesh.numberOfNodes();
-  return static_cast<Index>(free.size()) > Small && far ? spatialOrder(mesh.points, free) : free;
 }
 
 /// triangleIndex(n, a, b) of every n up to 8, looked up: the assembly's inner loop.
@@ -172,7 +147,8 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
 
   // Visits every corner of every cell around the free node of a row, and its share of the row.
   const TriangleTable triangle;
-  const auto visit = [&](Index row, const auto& onEntry) {
+  const auto visit = [&](Index row, const auto& onEntry)
+  {
     const Index node = free[row];
     for (const Index* cell = around.begin(node); cell != around.end(node); ++cell)
     {
@@ -196,102 +172,80 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   };
 
   std::vector<int> interiorSize(rows + 1, 0), couplingSize(rows + 1, 0);
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    std::vector<int> seen(rows + columns, -1);
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      int inside = 0, outside = 0;
-      visit(row, [&](int at, double) {
-        if (seen[at] != row)
-        {
-          seen[at] = static_cast<int>(row);
-          ++(at < rows ? inside : outside);
-        }
-      });
-      interiorSize[row + 1] = inside;
-      couplingSize[row + 1] = outside;
-    }
-  });
+      std::vector<int> seen(rows + columns, -1);
+      for (Index row = first; row < last; ++row)
+      {
+        int inside = 0, outside = 0;
+        visit(row,
+          [&](int at, double)
+          {
+            if (seen[at] != row)
+            {
+              seen[at] = static_cast<int>(row);
+              ++(at < rows ? inside : outside);
+            }
+          });
+        interiorSize[row + 1] = inside;
+        couplingSize[row + 1] = outside;
+      }
+    });
   monitor.check();
   monitor.progress(0.4);
 
-  const auto open = [rows](SparseMatrix& matrix, Index width, const std::vector<int>& sizes) {
-    const Index entries = std::accumulate(sizes.begin(), sizes.end(), Index(0));
-    if (entries > std::numeric_limits<int>::max())
-    {
-      throw Error("The mesh is too large: its matrix has " + std::to_string(entries) +
-        " entries, more than the solver can number (2^31 - 1).");
-    }
-    matrix.resize(static_cast<int>(rows), static_cast<int>(width));
-    std::partial_sum(sizes.begin(), sizes.end(), matrix.outerIndexPtr());
-    matrix.resizeNonZeros(static_cast<int>(entries));
-  };
   System system;
-  open(system.interior, rows, interiorSize);
-  open(system.coupling, columns, couplingSize);
+  openRows(system.interior, rows, interiorSize);
+  openRows(system.coupling, columns, couplingSize);
 
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    std::vector<int> place(rows + columns, -1); // of a column in `entries`, where that names the column
-    std::vector<std::pair<int, double>> entries;
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      entries.clear();
-      visit(row, [&](int at, double value) {
-        const std::size_t k = static_cast<std::size_t>(place[at]);
-        if (k < entries.size() && entries[k].first == at)
-        {
-          entries[k].second += value;
-          return;
-        }
-        place[at] = static_cast<int>(entries.size());
-        entries.emplace_back(at, value);
-      });
-      std::sort(entries.begin(), entries.end(),
-        [](const auto& a, const auto& b) { return a.first < b.first; });
-      int inside = system.interior.outerIndexPtr()[row];
-      int outside = system.coupling.outerIndexPtr()[row];
-      for (const auto& [at, value] : entries)
+      std::vector<int> place(
+        rows + columns, -1); // of a column in `entries`, where that names the column
+      std::vector<std::pair<int, double>> entries;
+      for (Index row = first; row < last; ++row)
       {
-        if (at < rows)
+        entries.clear();
+        visit(row,
+          [&](int at, double value)
+          {
+            const std::size_t k = static_cast<std::size_t>(place[at]);
+            if (k < entries.size() && entries[k].first == at)
+            {
+              entries[k].second += value;
+              return;
+            }
+            place[at] = static_cast<int>(entries.size());
+            entries.emplace_back(at, value);
+          });
+        std::sort(entries.begin(), entries.end(),
+          [](const auto& a, const auto& b) { return a.first < b.first; });
+        int inside = system.interior.outerIndexPtr()[row];
+        int outside = system.coupling.outerIndexPtr()[row];
+        for (const auto& [at, value] : entries)
         {
-          system.interior.innerIndexPtr()[inside] = at;
-          system.interior.valuePtr()[inside++] = value;
-        }
-        else
-        {
-          system.coupling.innerIndexPtr()[outside] = static_cast<int>(at - rows);
-          system.coupling.valuePtr()[outside++] = value;
+          if (at < rows)
+          {
+            system.interior.innerIndexPtr()[inside] = at;
+            system.interior.valuePtr()[inside++] = value;
+          }
+          else
+          {
+            system.coupling.innerIndexPtr()[outside] = static_cast<int>(at - rows);
+            system.coupling.valuePtr()[outside++] = value;
+          }
         }
       }
-    }
-  });
+    });
   return system;
-}
-}
-
-namespace
-{
-void reportRounding(const SolveReport& report, double tolerance, Monitor& monitor)
-{
-  // Within a factor of ten, and below 1e-13, nobody would see it.
-  if (report.relativeResidual > std::max(10 * tolerance, 1e-13))
-  {
-    std::ostringstream text;
-    text << "Rounding kept the relative residual at " << report.relativeResidual << " where "
-         << tolerance << " is asked for: the rest mesh has cells that are nearly flat.";
-    monitor.warn(text.str());
-  }
 }
 }
 
 void FemWarp::setTolerance(double tolerance)
 {
-  if (!(tolerance > 0 && tolerance < 1))
-  {
-    std::ostringstream text;
-    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
-    throw Error(text.str());
-  }
+  requireTolerance(tolerance);
   this->tolerance_ = tolerance;
 }
 
@@ -305,11 +259,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  Points coordinates(static_cast<Index>(this->rows_.size()), 3);
-  for (Index i = 0; i < coordinates.rows(); ++i)
-  {
-    coordinates.row(i) = rest.points.row(this->rows_[i]);
-  }
+  const Points coordinates = rowPositions(rest.points, this->rows_);
   this->coupling_.swap(system.coupling);
   try
   {
@@ -328,41 +278,14 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   }
 }
 
-Index FemWarp::freeIndex(Index row) const
-{
-  const std::vector<Index>& free = this->partition().free;
-  if (this->rows_[row] == free[row])
-  {
-    return row;
-  }
-  return std::lower_bound(free.begin(), free.end(), this->rows_[row]) - free.begin();
-}
-
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  // Affine motions solve the equations; what remains of the others is all the iteration has to find.
-  const AffineFit fit(this->restPoints(), this->partition().prescribed, prescribed);
-  Points rhs(free.rows(), 3), x(free.rows(), 3);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
-    {
-      x.row(i) = fit.displacement(this->restPoints().row(this->rows_[i]));
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (SparseMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
-      {
-        sum -= entry.value() * prescribed.row(entry.col());
-      }
-      rhs.row(i) = sum;
-    }
-  });
+  Points rhs, x;
+  startSystem(this->restPoints(), this->rows_, this->partition(), this->coupling_, prescribed, rhs,
+    x, monitor);
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
-  monitor.parallelFor(free.rows(), Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
-    {
-      free.row(this->freeIndex(i)) = x.row(i);
-    }
-  });
+  fromRows(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
@@ -370,11 +293,8 @@ EvaluateReport FemWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = -A_I^-1 A_B and A_I is symmetric, so M^T g = -A_B^T A_I^-1 g.
-  Points rhs(free.rows(), 3), solution = Points::Zero(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    rhs.row(i) = free.row(this->freeIndex(i));
-  }
+  const Points rhs = toRows(free, this->rows_, this->partition());
+  Points solution = Points::Zero(free.rows(), 3);
   const SolveReport report =
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
@@ -386,7 +306,7 @@ std::size_t FemWarp::memory() const
 {
   const NodePartition& partition = this->partition();
   return this->solver_.memory() + 12 * static_cast<std::size_t>(this->coupling_.nonZeros()) +
-    4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
-    8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
+         4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
+         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
 }
 }

@@ -37,15 +37,11 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  /// Place of a matrix row's node in NodePartition::free.
-  Index freeIndex(Index row) const;
-
   double tolerance_ = 1e-10;
   std::vector<Index> rows_;
   SparseSolver solver_;

@@ -11,7 +11,22 @@ namespace morph
 {
 namespace
 {
-/// Shape function values of the linear cell at `target`; those at `nominal` where the cell cannot be inverted.
+/// The least change of the weights N of the corners X after which they reproduce `target`; none where the corners lie in a plane.
+void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target, Eigen::Ref<Eigen::VectorXd> N)
+{
+  Eigen::Matrix<double, Eigen::Dynamic, 4> A(X.rows(), 4);
+  A << Eigen::VectorXd::Ones(X.rows()), X;
+  Eigen::Vector4d missing;
+  missing << 0, target - X.transpose() * N;
+  const Eigen::FullPivLU<Eigen::Matrix4d> normal(A.transpose() * A);
+  if (normal.rank() == 4)
+  {
+    N += A * normal.solve(missing);
+  }
+}
+
+/// Shape function values of the linear cell at `target`. Where the cell cannot be inverted there, those at `nominal`, changed so
+/// that they reproduce the target all the same: affine motions stay exact.
 void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen::Vector3d& target,
   const double nominal[3], double* N)
 {
@@ -43,6 +58,7 @@ void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen:
   if (!(missing.norm() <= 1e-11 * extent))
   {
     shapeFunctions(shape.shape, nominal, N, nullptr);
+    makeLinear(X / extent, target / extent, Eigen::Map<Eigen::VectorXd>(N, n));
   }
 }
 }

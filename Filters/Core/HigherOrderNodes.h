@@ -8,11 +8,11 @@
 
 namespace morph
 {
-/// The mid-side, face and body nodes of quadratic cells that nobody prescribes. They keep their place in the
-/// parametric cell: the linear cell through the corners is inverted at the node's rest position, and its
-/// shape functions there carry the corners' displacements over. So an affine motion carries curved
-/// edges along exactly. A node shared by several cells takes their mean. Where the cell cannot be
-/// inverted (zero volume, or the node far outside) the nominal place in the cell is used.
+/// The mid-side, face and body nodes of quadratic cells that nobody prescribes. They keep their place in the parametric cell:
+/// the linear cell through the corners is inverted at the node's rest position, and its shape functions there carry the
+/// corners' displacements over, so an affine motion carries curved edges along exactly. A node shared by several cells takes
+/// their mean. Where the cell cannot be inverted (the node far outside, no volume) the weights are those at the nominal place,
+/// with the least change after which affine motions stay exact (none in a cell of no volume).
 class HigherOrderNodes
 {
 public:

@@ -13,7 +13,7 @@ void validate(const Mesh& mesh)
   const Index cells = mesh.numberOfCells();
   const Index nodes = mesh.numberOfNodes();
   if (static_cast<Index>(mesh.offsets.size()) != cells + 1 || mesh.offsets.front() != 0 ||
-    mesh.offsets.back() != static_cast<Index>(mesh.connectivity.size()))
+      mesh.offsets.back() != static_cast<Index>(mesh.connectivity.size()))
   {
     throw Error("The mesh's cell offsets do not match its types and connectivity.");
   }
@@ -22,7 +22,7 @@ void validate(const Mesh& mesh)
   if (falls != mesh.offsets.end())
   {
     throw Error("The mesh's cell offsets decrease at cell " +
-      std::to_string(falls - mesh.offsets.begin() - 1) + ".");
+                std::to_string(falls - mesh.offsets.begin() - 1) + ".");
   }
 
   std::vector<Index> unknown, wrongSize, wrongNodes;
@@ -52,14 +52,16 @@ void validate(const Mesh& mesh)
   {
     const int type = mesh.types[unknown.front()];
     throw Error("Cells of VTK type " + std::to_string(type) +
-      (type == 42 ? " (polyhedron)" : type >= 60 ? " (higher order)" : "") +
-      " cannot be morphed: cell ids " + listIds(unknown) +
-      ". Use tetrahedra, hexahedra, voxels, wedges, pyramids or their quadratic forms.");
+                (type == 42    ? " (polyhedron)"
+                  : type >= 60 ? " (higher order)"
+                               : "") +
+                " cannot be morphed: cell ids " + listIds(unknown) +
+                ". Use tetrahedra, hexahedra, voxels, wedges, pyramids or their quadratic forms.");
   }
   if (!wrongSize.empty())
   {
-    throw Error("Cells with the wrong number of nodes for their type: cell ids " +
-      listIds(wrongSize) + ".");
+    throw Error(
+      "Cells with the wrong number of nodes for their type: cell ids " + listIds(wrongSize) + ".");
   }
   if (!wrongNodes.empty() && nodes == 0)
   {
@@ -67,8 +69,8 @@ void validate(const Mesh& mesh)
   }
   if (!wrongNodes.empty())
   {
-    throw Error("Cells that name nodes outside 0 to " + std::to_string(nodes - 1) +
-      ": cell ids " + listIds(wrongNodes) + ".");
+    throw Error("Cells that name nodes outside 0 to " + std::to_string(nodes - 1) + ": cell ids " +
+                listIds(wrongNodes) + ".");
   }
 
   std::vector<Index> notFinite;
@@ -81,8 +83,8 @@ void validate(const Mesh& mesh)
   }
   if (!notFinite.empty())
   {
-    throw Error("Coordinates that are not finite (NaN or infinite) at node ids " +
-      listIds(notFinite) + ".");
+    throw Error(
+      "Coordinates that are not finite (NaN or infinite) at node ids " + listIds(notFinite) + ".");
   }
 }
 }

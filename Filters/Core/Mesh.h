@@ -19,10 +19,10 @@ using ConstPoints = Eigen::Ref<const Points>;
 /// A mesh in VTK's numbering: cell types are VTK's, and so is the order of the nodes in a cell.
 struct Mesh
 {
-  Points points;                       ///< #nodes x 3
-  std::vector<std::uint8_t> types;     ///< #cells, VTK cell types (see CellShape.h)
-  std::vector<Index> offsets;          ///< #cells + 1, where each cell starts in `connectivity`
-  std::vector<Index> connectivity;     ///< node ids of all cells, one cell after another
+  Points points;                   ///< #nodes x 3
+  std::vector<std::uint8_t> types; ///< #cells, VTK cell types (see CellShape.h)
+  std::vector<Index> offsets;      ///< #cells + 1, where each cell starts in `connectivity`
+  std::vector<Index> connectivity; ///< node ids of all cells, one cell after another
 
   Index numberOfNodes() const { return static_cast<Index>(this->points.rows()); }
   Index numberOfCells() const { return static_cast<Index>(this->types.size()); }

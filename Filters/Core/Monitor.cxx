@@ -7,17 +7,20 @@ namespace morph
 {
 Monitor::~Monitor() = default;
 
-void Monitor::progress(double) {}
+void Monitor::progress(double)
+{
+}
 
 bool Monitor::cancelled()
 {
   return false;
 }
 
-void Monitor::warn(const std::string&) {}
+void Monitor::warn(const std::string&)
+{
+}
 
-void Monitor::parallelFor(
-  Index n, Index, const std::function<void(Index first, Index last)>& body)
+void Monitor::parallelFor(Index n, Index, const std::function<void(Index first, Index last)>& body)
 {
   if (n > 0)
   {

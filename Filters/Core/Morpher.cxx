@@ -14,7 +14,7 @@ void requireRows(const char* what, Index rows, Index expected)
   if (rows != expected)
   {
     throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
-      std::to_string(expected) + " are expected.");
+                std::to_string(expected) + " are expected.");
   }
 }
 
@@ -48,13 +48,14 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   validate(rest);
   if (partition.prescribed.empty())
   {
-    throw Error(Error::Kind::Singular,
-      "No node is prescribed, so nothing says where the mesh goes. Prescribe the boundary's nodes.");
+    throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
+                                       "goes. Prescribe the boundary's nodes.");
   }
   if (partition.free.empty())
   {
     throw Error("No node is free: every node of every volume cell is prescribed, so there is "
-                "nothing to morph. Merge coincident points (Clean to Grid) if cells do not share theirs, refine "
+                "nothing to morph. Merge coincident points (Clean to Grid) if cells do not share "
+                "theirs, refine "
                 "the mesh, or prescribe fewer nodes.");
   }
   this->prepared_ = false; // until everything below belongs together
@@ -71,7 +72,8 @@ void Morpher::requirePrepared() const
 {
   if (!this->prepared_)
   {
-    throw Error("The method is not prepared: call prepare() first, and again after one that failed.");
+    throw Error(
+      "The method is not prepared: call prepare() first, and again after one that failed.");
   }
 }
 
@@ -80,7 +82,8 @@ EvaluateReport Morpher::evaluate(
 {
   this->requirePrepared();
   const std::vector<Index>& ids = this->partition_.prescribed;
-  requireRows("The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
+  requireRows(
+    "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
 
   Points displacement(static_cast<Index>(ids.size()), 3);
   std::vector<Index> notFinite;
@@ -96,7 +99,7 @@ EvaluateReport Morpher::evaluate(
   if (!notFinite.empty())
   {
     throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
-      listIds(notFinite) + ".");
+                listIds(notFinite) + ".");
   }
 
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
@@ -105,12 +108,14 @@ EvaluateReport Morpher::evaluate(
   Points result = this->rest_;
   if (this->followers_.empty())
   {
-    monitor.parallelFor(freeDisplacement.rows(), Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(freeDisplacement.rows(), Grain,
+      [&](Index first, Index last)
       {
-        moveBy(result.row(this->partition_.free[i]), freeDisplacement.row(i));
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          moveBy(result.row(this->partition_.free[i]), freeDisplacement.row(i));
+        }
+      });
   }
   else
   {

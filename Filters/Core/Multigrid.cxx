@@ -17,8 +17,8 @@ namespace
 constexpr int CoarsestSize = 200; // rows a dense factorisation may have
 constexpr int MostLevels = 20;
 constexpr int SmootherDegree = 2;
-constexpr float SmootherRange = 4;   // smooths eigenvalues in [largest / range, largest]
-constexpr double NearShare = 0.1;    // near: within sqrt(10) times the nearest neighbor's distance
+constexpr float SmootherRange = 4; // smooths eigenvalues in [largest / range, largest]
+constexpr double NearShare = 0.1;  // near: within sqrt(10) times the nearest neighbor's distance
 constexpr Index Grain = 4096;
 constexpr int LanczosSteps = 5;
 
@@ -50,18 +50,20 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   std::vector<std::uint8_t> positive(exact.rows);
   Level level;
   level.inverseDiagonal.resize(exact.rows);
-  monitor.parallelFor(exact.rows, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(exact.rows, Grain,
+    [&](Index first, Index last)
     {
-      const int* row = exact.column + exact.start[i];
-      const int* found = std::find(row, exact.column + exact.start[i + 1], static_cast<int>(i));
-      const bool has = found != exact.column + exact.start[i + 1];
-      const float diagonal =
-        has ? static_cast<float>(exact.value[found - exact.column] / unit) : 0.f;
-      positive[i] = diagonal > 0 && std::isfinite(1 / diagonal);
-      level.inverseDiagonal[i] = 1 / diagonal;
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        const int* row = exact.column + exact.start[i];
+        const int* found = std::find(row, exact.column + exact.start[i + 1], static_cast<int>(i));
+        const bool has = found != exact.column + exact.start[i + 1];
+        const float diagonal =
+          has ? static_cast<float>(exact.value[found - exact.column] / unit) : 0.f;
+        positive[i] = diagonal > 0 && std::isfinite(1 / diagonal);
+        level.inverseDiagonal[i] = 1 / diagonal;
+      }
+    });
   if (std::find(positive.begin(), positive.end(), 0) != positive.end())
   {
     return false;
@@ -73,12 +75,14 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   A.ownColumn.swap(exact.ownColumn);
   A.ownValue.resize(static_cast<Index>(exact.entries()));
   const double scale = 1 / unit;
-  monitor.parallelFor(A.ownValue.size(), 16 * Grain, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  monitor.parallelFor(A.ownValue.size(), 16 * Grain,
+    [&](Index first, Index last)
     {
-      A.ownValue[k] = static_cast<float>(exact.value[k] * scale);
-    }
-  });
+      for (Index k = first; k < last; ++k)
+      {
+        A.ownValue[k] = static_cast<float>(exact.value[k] * scale);
+      }
+    });
   A.start = exact.start;
   A.column = exact.column;
   A.value = A.ownValue.data();
@@ -86,12 +90,13 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   return true;
 }
 
-void Multigrid::prepare(const SparseMatrix& matrix, double unit, const ConstPoints& coordinates,
-  Monitor& monitor)
+void Multigrid::prepare(const SparseMatrix& matrix, Symmetry symmetry, double unit,
+  const ConstPoints& coordinates, Monitor& monitor)
 {
   this->levels_.clear();
   this->levels_.reserve(MostLevels); // a level points into itself
-  this->coarsest_.reset();
+  this->symmetricCoarsest_.reset();
+  this->generalCoarsest_.reset();
   ExactMatrix exact;
   exact.rows = static_cast<int>(matrix.rows());
   exact.start = matrix.outerIndexPtr();
@@ -146,11 +151,43 @@ void Multigrid::prepare(const SparseMatrix& matrix, double unit, const ConstPoin
   Level& last = this->levels_.back();
   last.P = last.R = {};
   last.eigenvalue = largestEigenvalue(last, monitor);
-  this->factorizeCoarsest(exact, unit);
+  this->factorizeCoarsest(exact, symmetry, unit);
 }
 
-void Multigrid::factorizeCoarsest(const ExactMatrix& exact, double unit)
+void Multigrid::prepareTransposed(const Multigrid& other)
 {
+  this->levels_.clear();
+  this->levels_.reserve(MostLevels);
+  this->symmetricCoarsest_ = other.symmetricCoarsest_;
+  this->generalCoarsest_.reset();
+  if (other.generalCoarsest_)
+  {
+    this->generalCoarsest_.emplace(other.generalCoarsest_->reconstructedMatrix().transpose());
+  }
+  const auto refer = [](const Matrix& from, Matrix& to)
+  {
+    to.rows = from.rows;
+    to.start = from.start;
+    to.column = from.column;
+    to.value = from.value;
+  };
+  // The cycle's two smoothing steps are the same polynomial in D^-1 A, so transposing the matrices transposes the cycle.
+  for (const Level& from : other.levels_)
+  {
+    this->levels_.emplace_back();
+    Level& level = this->levels_.back();
+    level.A = transpose(from.A, from.A.rows);
+    level.A.adopt();
+    refer(from.P, level.P);
+    refer(from.R, level.R);
+    level.inverseDiagonal = from.inverseDiagonal;
+    level.eigenvalue = from.eigenvalue;
+  }
+}
+
+void Multigrid::factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit)
+{
+  constexpr double LeastReciprocalCondition = 1e-13;
   if (exact.rows > 4 * CoarsestSize)
   {
     return;
@@ -163,11 +200,40 @@ void Multigrid::factorizeCoarsest(const ExactMatrix& exact, double unit)
       dense(i, exact.column[k]) += exact.value[k] / unit;
     }
   }
-  this->coarsest_.emplace(dense);
-  if (this->coarsest_->info() != Eigen::Success)
+  if (symmetry == Symmetry::General)
   {
-    this->coarsest_.reset();
+    this->generalCoarsest_.emplace(dense);
+    if (!(this->generalCoarsest_->rcond() > LeastReciprocalCondition))
+    {
+      this->generalCoarsest_.reset();
+    }
+    return;
   }
+  this->symmetricCoarsest_.emplace(dense);
+  if (this->symmetricCoarsest_->info() != Eigen::Success)
+  {
+    this->symmetricCoarsest_.reset();
+  }
+}
+
+bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
+{
+  using Lanes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+  const int n = this->levels_.back().A.rows;
+  const Solution right = Eigen::Map<const Lanes>(rhs[0].data(), n, 4).cast<double>();
+  Eigen::Map<Lanes> left(x[0].data(), n, 4);
+  if (this->symmetricCoarsest_)
+  {
+    left = Solution(this->symmetricCoarsest_->solve(right)).cast<float>();
+    return true;
+  }
+  if (this->generalCoarsest_)
+  {
+    left = Solution(this->generalCoarsest_->solve(right)).cast<float>();
+    return true;
+  }
+  return false;
 }
 
 float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
@@ -193,26 +259,32 @@ float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
   {
     const float scale = static_cast<float>(1 / norm);
     const float back = made > 0 ? static_cast<float>(norm) : 0.f;
-    monitor.parallelFor(A.rows, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(A.rows, Grain,
+      [&](Index first, Index last)
       {
-        now[i] *= scale;
-        scaled[i] = root[i] * now[i];
-      }
-    });
-    const double along = blockSum(A.rows, monitor, 0., [&](Index i) {
-      float sum = 0;
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        for (Index i = first; i < last; ++i)
+        {
+          now[i] *= scale;
+          scaled[i] = root[i] * now[i];
+        }
+      });
+    const double along = blockSum(A.rows, monitor, 0.,
+      [&](Index i)
       {
-        sum += A.value[k] * scaled[A.column[k]];
-      }
-      next[i] = root[i] * sum - back * before[i];
-      return static_cast<double>(next[i]) * now[i];
-    });
-    norm = std::sqrt(blockSum(A.rows, monitor, 0., [&](Index i) {
-      next[i] -= static_cast<float>(along) * now[i];
-      return static_cast<double>(next[i]) * next[i];
-    }));
+        float sum = 0;
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          sum += A.value[k] * scaled[A.column[k]];
+        }
+        next[i] = root[i] * sum - back * before[i];
+        return static_cast<double>(next[i]) * now[i];
+      });
+    norm = std::sqrt(blockSum(A.rows, monitor, 0.,
+      [&](Index i)
+      {
+        next[i] -= static_cast<float>(along) * now[i];
+        return static_cast<double>(next[i]) * next[i];
+      }));
     diagonal[made] = along;
     off[made] = norm;
     ++made;
@@ -240,23 +312,25 @@ std::vector<std::uint8_t> Multigrid::nearNeighbors(
   const Matrix& A, const Points& coordinates, Monitor& monitor)
 {
   std::vector<std::uint8_t> near(A.entries());
-  monitor.parallelFor(A.rows, Grain, [&](Index first, Index last) {
-    std::vector<double> distances;
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(A.rows, Grain,
+    [&](Index first, Index last)
     {
-      distances.clear();
-      double nearest = HUGE_VAL;
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      std::vector<double> distances;
+      for (Index i = first; i < last; ++i)
       {
-        distances.push_back(A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]));
-        nearest = std::min(nearest, distances.back());
+        distances.clear();
+        double nearest = HUGE_VAL;
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          distances.push_back(A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]));
+          nearest = std::min(nearest, distances.back());
+        }
+        for (std::size_t k = 0; k < distances.size(); ++k)
+        {
+          near[A.start[i] + k] = distances[k] < HUGE_VAL && distances[k] * NearShare <= nearest;
+        }
       }
-      for (std::size_t k = 0; k < distances.size(); ++k)
-      {
-        near[A.start[i] + k] = distances[k] < HUGE_VAL && distances[k] * NearShare <= nearest;
-      }
-    }
-  });
+    });
   return near;
 }
 
@@ -348,37 +422,41 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
   };
   const Index chunks = (rows + Grain - 1) / Grain;
   std::vector<Chunk> parts(chunks);
-  monitor.parallelFor(chunks, 1, [&](Index firstChunk, Index lastChunk) {
-    // Where a column's entry stands, counted over all chunks of this call; too small a number is an earlier row's.
-    std::vector<Index> place(columns, -1);
-    Index before = 0;
-    Chunk scratch; // keeps its capacity from chunk to chunk
-    for (Index c = firstChunk; c < lastChunk; ++c)
+  monitor.parallelFor(chunks, 1,
+    [&](Index firstChunk, Index lastChunk)
     {
-      scratch.size.clear();
-      scratch.column.clear();
-      scratch.value.clear();
-      const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
-      for (int i = static_cast<int>(c * Grain); i < last; ++i)
+      // Where a column's entry stands, counted over all chunks of this call; too small a number is an earlier row's.
+      std::vector<Index> place(columns, -1);
+      Index before = 0;
+      Chunk scratch; // keeps its capacity from chunk to chunk
+      for (Index c = firstChunk; c < lastChunk; ++c)
       {
-        const Index start = before + static_cast<Index>(scratch.column.size());
-        makeRow(i, [&](int column, Scalar value) {
-          if (place[column] >= start)
-          {
-            scratch.value[place[column] - before] += value;
-            return;
-          }
-          place[column] = before + static_cast<Index>(scratch.column.size());
-          scratch.column.push_back(column);
-          scratch.value.push_back(value);
-        });
-        scratch.size.push_back(
-          static_cast<int>(before + static_cast<Index>(scratch.column.size()) - start));
+        scratch.size.clear();
+        scratch.column.clear();
+        scratch.value.clear();
+        const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
+        for (int i = static_cast<int>(c * Grain); i < last; ++i)
+        {
+          const Index start = before + static_cast<Index>(scratch.column.size());
+          makeRow(i,
+            [&](int column, Scalar value)
+            {
+              if (place[column] >= start)
+              {
+                scratch.value[place[column] - before] += value;
+                return;
+              }
+              place[column] = before + static_cast<Index>(scratch.column.size());
+              scratch.column.push_back(column);
+              scratch.value.push_back(value);
+            });
+          scratch.size.push_back(
+            static_cast<int>(before + static_cast<Index>(scratch.column.size()) - start));
+        }
+        before += static_cast<Index>(scratch.column.size());
+        parts[c] = scratch;
       }
-      before += static_cast<Index>(scratch.column.size());
-      parts[c] = scratch;
-    }
-  });
+    });
 
   M result;
   result.rows = rows;
@@ -395,46 +473,50 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
   }
   result.ownColumn.resize(at[chunks]);
   result.ownValue.resize(at[chunks]);
-  monitor.parallelFor(chunks, 1, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(chunks, 1,
+    [&](Index first, Index last)
     {
-      std::copy(parts[c].column.begin(), parts[c].column.end(), result.ownColumn.data() + at[c]);
-      std::copy(parts[c].value.begin(), parts[c].value.end(), result.ownValue.data() + at[c]);
-      parts[c] = {};
-    }
-  });
+      for (Index c = first; c < last; ++c)
+      {
+        std::copy(parts[c].column.begin(), parts[c].column.end(), result.ownColumn.data() + at[c]);
+        std::copy(parts[c].value.begin(), parts[c].value.end(), result.ownValue.data() + at[c]);
+        parts[c] = {};
+      }
+    });
   result.adopt();
   return result;
 }
 }
 
-Multigrid::Matrix Multigrid::prolongation(const Level& level,
-  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups, Monitor& monitor)
+Multigrid::Matrix Multigrid::prolongation(const Level& level, const std::vector<std::uint8_t>& near,
+  const std::vector<int>& group, int groups, Monitor& monitor)
 {
   // P = (I - omega D^-1 A_F) T, T constant on the groups. A_F keeps the near neighbors and adds the entries of
   // the others to its diagonal.
   const Matrix& A = level.A;
   const float omega = 4.f / 3.f / level.eigenvalue;
-  return assembleRows<Matrix>(A.rows, groups, monitor, [&](int i, const auto& add) {
-    float diagonal = 0;
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+  return assembleRows<Matrix>(A.rows, groups, monitor,
+    [&](int i, const auto& add)
     {
-      diagonal += near[k] ? 0 : A.value[k];
-    }
-    if (!(diagonal > 0)) // the far neighbors outweigh it: leave the row as it is
-    {
-      add(group[i], 1);
-      return;
-    }
-    add(group[i], 1 - omega);
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-    {
-      if (near[k])
+      float diagonal = 0;
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
-        add(group[A.column[k]], -omega / diagonal * A.value[k]);
+        diagonal += near[k] ? 0 : A.value[k];
       }
-    }
-  });
+      if (!(diagonal > 0)) // the far neighbors outweigh it: leave the row as it is
+      {
+        add(group[i], 1);
+        return;
+      }
+      add(group[i], 1 - omega);
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      {
+        if (near[k])
+        {
+          add(group[A.column[k]], -omega / diagonal * A.value[k]);
+        }
+      }
+    });
 }
 
 Multigrid::Matrix Multigrid::transpose(const Matrix& A, int columns)
@@ -468,16 +550,18 @@ template <typename ScalarA, typename ScalarB>
 Multigrid::ExactMatrix Multigrid::product(
   const Rows<ScalarA>& A, const Rows<ScalarB>& B, int columns, Monitor& monitor)
 {
-  return assembleRows<ExactMatrix>(A.rows, columns, monitor, [&](int i, const auto& add) {
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+  return assembleRows<ExactMatrix>(A.rows, columns, monitor,
+    [&](int i, const auto& add)
     {
-      const int j = A.column[k];
-      for (int m = B.start[j]; m < B.start[j + 1]; ++m)
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
-        add(B.column[m], static_cast<double>(A.value[k]) * B.value[m]);
+        const int j = A.column[k];
+        for (int m = B.start[j]; m < B.start[j + 1]; ++m)
+        {
+          add(B.column[m], static_cast<double>(A.value[k]) * B.value[m]);
+        }
       }
-    }
-  });
+    });
 }
 
 Multigrid::Workspace::Workspace(const Multigrid& multigrid)
@@ -498,8 +582,7 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
   }
 }
 
-void Multigrid::apply(
-  const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const
+void Multigrid::apply(const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const
 {
   this->cycle(0, rhs, x, workspace, monitor);
 }
@@ -523,31 +606,35 @@ void Multigrid::smooth(const Level& level, const Vector& rhs, bool fromZero, Vec
     }
     if (step == 0 && fromZero)
     {
-      monitor.parallelFor(level.A.rows, Grain, [&](Index first, Index last) {
-        for (Index i = first; i < last; ++i)
+      monitor.parallelFor(level.A.rows, Grain,
+        [&](Index first, Index last)
         {
-          x[i] = take * level.inverseDiagonal[i] * rhs[i];
-          if (SmootherDegree > 1)
+          for (Index i = first; i < last; ++i)
           {
-            work.direction[i] = x[i];
+            x[i] = take * level.inverseDiagonal[i] * rhs[i];
+            if (SmootherDegree > 1)
+            {
+              work.direction[i] = x[i];
+            }
           }
-        }
-      });
+        });
       continue;
     }
-    monitor.parallelFor(level.A.rows, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(level.A.rows, Grain,
+      [&](Index first, Index last)
       {
-        Eigen::Vector4f move = take * level.inverseDiagonal[i] *
-          (rhs[i] - rowTimes(level.A, static_cast<int>(i), x));
-        if (SmootherDegree > 1)
+        for (Index i = first; i < last; ++i)
         {
-          move += keep * work.direction[i];
-          work.direction[i] = move;
+          Eigen::Vector4f move =
+            take * level.inverseDiagonal[i] * (rhs[i] - rowTimes(level.A, static_cast<int>(i), x));
+          if (SmootherDegree > 1)
+          {
+            move += keep * work.direction[i];
+            work.direction[i] = move;
+          }
+          work.spare[i] = x[i] + move;
         }
-        work.spare[i] = x[i] + move;
-      }
-    });
+      });
     x.swap(work.spare);
   }
 }
@@ -559,16 +646,7 @@ void Multigrid::cycle(
   Workspace::Level& work = workspace.levels_[k];
   if (k + 1 == this->levels_.size())
   {
-    const int n = level.A.rows;
-    if (this->coarsest_)
-    {
-      using Lanes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
-      Eigen::Matrix<double, Eigen::Dynamic, 4> solution =
-        Eigen::Map<const Lanes>(rhs[0].data(), n, 4).cast<double>();
-      this->coarsest_->solveInPlace(solution);
-      Eigen::Map<Lanes>(x[0].data(), n, 4) = solution.cast<float>();
-    }
-    else
+    if (!this->solveCoarsest(rhs, x))
     {
       this->smooth(level, rhs, true, x, work, monitor);
       this->smooth(level, rhs, false, x, work, monitor);
@@ -578,31 +656,38 @@ void Multigrid::cycle(
 
   Workspace::Level& below = workspace.levels_[k + 1];
   this->smooth(level, rhs, true, x, work, monitor);
-  monitor.parallelFor(level.A.rows, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(level.A.rows, Grain,
+    [&](Index first, Index last)
     {
-      work.spare[i] = rhs[i] - rowTimes(level.A, static_cast<int>(i), x);
-    }
-  });
-  monitor.parallelFor(level.R.rows, Grain / 8, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+      for (Index i = first; i < last; ++i)
+      {
+        work.spare[i] = rhs[i] - rowTimes(level.A, static_cast<int>(i), x);
+      }
+    });
+  monitor.parallelFor(level.R.rows, Grain / 8,
+    [&](Index first, Index last)
     {
-      below.rhs[i] = rowTimes(level.R, static_cast<int>(i), work.spare);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        below.rhs[i] = rowTimes(level.R, static_cast<int>(i), work.spare);
+      }
+    });
   this->cycle(k + 1, below.rhs, below.x, workspace, monitor);
-  monitor.parallelFor(level.A.rows, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(level.A.rows, Grain,
+    [&](Index first, Index last)
     {
-      x[i] += rowTimes(level.P, static_cast<int>(i), below.x);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        x[i] += rowTimes(level.P, static_cast<int>(i), below.x);
+      }
+    });
   this->smooth(level, rhs, false, x, work, monitor);
 }
 
 std::size_t Multigrid::coarsestBytes() const
 {
-  return this->coarsest_ ? this->coarsest_->rows() * this->coarsest_->cols() * sizeof(double) : 0;
+  const std::size_t n = this->levels_.empty() ? 0 : this->levels_.back().A.rows;
+  return this->symmetricCoarsest_ || this->generalCoarsest_ ? n * n * sizeof(double) : 0;
 }
 
 std::size_t Multigrid::memory() const
@@ -613,7 +698,7 @@ std::size_t Multigrid::memory() const
     for (const Matrix* m : { &level.A, &level.P, &level.R })
     {
       bytes += m->ownValue.size() * sizeof(float) +
-        (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
+               (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
     bytes += level.inverseDiagonal.size() * sizeof(float);
     bytes += level.A.rows * (SmootherDegree > 1 ? 2 : 1) * sizeof(Eigen::Vector4f);
@@ -629,7 +714,8 @@ double Multigrid::bytesMoved() const
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {
     const Level& level = this->levels_[k];
-    bytes += 2 * SmootherDegree * entry * level.A.entries(); // smoothing twice, one pass saved, one residual
+    bytes += 2 * SmootherDegree * entry *
+             level.A.entries(); // smoothing twice, one pass saved, one residual
     bytes += entry * (level.P.entries() + level.R.entries());
     bytes += (4 * (2 * SmootherDegree) + 6) * node * level.A.rows;
   }

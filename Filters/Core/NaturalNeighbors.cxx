@@ -11,11 +11,11 @@ namespace morph
 {
 namespace
 {
-constexpr double PowerTolerance = 1e-14;  // of the terms that cancel in a power distance
-constexpr double HullTolerance = 1e-10;   // of the distance to a corner of the face
-constexpr double WorstResidual = 1e-8;    // of the distance to the neighbors
+constexpr double PowerTolerance = 1e-14; // of the terms that cancel in a power distance
+constexpr double HullTolerance = 1e-10;  // of the distance to a corner of the face
+constexpr double WorstResidual = 1e-8;   // of the distance to the neighbors
 constexpr double LeastWeight = -1e-8;
-constexpr double NoWeight = 1e-15;        // sites that touch the cell at most in an edge
+constexpr double NoWeight = 1e-15; // sites that touch the cell at most in an edge
 
 using Vector = Eigen::RowVector3d;
 
@@ -56,7 +56,9 @@ NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int
 {
   const std::int64_t key = static_cast<std::int64_t>(std::min(from, to)) << 32 | std::max(from, to);
   const std::size_t mask = this->edges_.size() - 1;
-  std::size_t at = static_cast<std::size_t>((static_cast<std::uint64_t>(key) * 0x9e3779b97f4a7c15ull) >> 32) & mask;
+  std::size_t at =
+    static_cast<std::size_t>((static_cast<std::uint64_t>(key) * 0x9e3779b97f4a7c15ull) >> 32) &
+    mask;
   while (this->edges_[at].query == this->query_ && this->edges_[at].key != key)
   {
     at = (at + 1) & mask;
@@ -136,7 +138,8 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
       {
         continue; // once a face
       }
-      const int a = number[OuterFaces[k][0]], b = number[OuterFaces[k][1]], c = number[OuterFaces[k][2]];
+      const int a = number[OuterFaces[k][0]], b = number[OuterFaces[k][1]],
+                c = number[OuterFaces[k][2]];
       const Vector &A = work.place_[a], &B = work.place_[b], &C = work.place_[c];
       Vector end; // of the dual edge, as far as it lies in the new cell
       if (next == Delaunay::Outside)
@@ -251,7 +254,8 @@ bool NaturalNeighbors::finish(Workspace& work)
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   for (int i : work.order_)
   {
-    const Eigen::Vector4d row(1, work.place_[i][0] / length, work.place_[i][1] / length, work.place_[i][2] / length);
+    const Eigen::Vector4d row(
+      1, work.place_[i][0] / length, work.place_[i][1] / length, work.place_[i][2] / length);
     normal += work.share_[i] * row * row.transpose();
   }
   Eigen::Vector4d wanted(1 - sum, -mean[0] / length, -mean[1] / length, -mean[2] / length);
@@ -261,7 +265,8 @@ bool NaturalNeighbors::finish(Workspace& work)
     return false;
   }
 
-  std::sort(work.order_.begin(), work.order_.end(), [&work](int a, int b) { return work.local_[a] < work.local_[b]; });
+  std::sort(work.order_.begin(), work.order_.end(),
+    [&work](int a, int b) { return work.local_[a] < work.local_[b]; });
   work.sites.clear();
   work.weights.clear();
   for (int i : work.order_)

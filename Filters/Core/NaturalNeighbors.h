@@ -64,8 +64,8 @@ public:
     std::vector<int> zone_;
     std::vector<Face> border_;
     std::vector<HalfEdge> edges_; ///< hashed, open addressing, 2^n
-    std::vector<int> local_;    ///< site of each local number
-    std::vector<Vector> place_; ///< site minus point
+    std::vector<int> local_;      ///< site of each local number
+    std::vector<Vector> place_;   ///< site minus point
     std::vector<double> share_;
     std::vector<int> order_;
   };
@@ -93,7 +93,8 @@ private:
   static bool finish(Workspace& workspace);
 
   const Delaunay* delaunay_ = nullptr;
-  Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero(); ///< of all coordinates in here: the middle of the sites
+  Eigen::RowVector3d origin_ =
+    Eigen::RowVector3d::Zero(); ///< of all coordinates in here: the middle of the sites
   Points sites_;
   std::vector<Cell> cells_;
 };

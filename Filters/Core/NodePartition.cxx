@@ -28,7 +28,7 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
   if (!wrong.empty())
   {
     throw Error("Prescribed node ids outside 0 to " + std::to_string(nodes - 1) + ": " +
-      listIds(wrong) + ".");
+                listIds(wrong) + ".");
   }
   if (!twice.empty())
   {
@@ -77,8 +77,7 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
   return partition;
 }
 
-void requirePrescribedBodies(
-  const Mesh& mesh, const Bodies& parts, const NodePartition& partition)
+void requirePrescribedBodies(const Mesh& mesh, const Bodies& parts, const NodePartition& partition)
 {
   std::vector<std::uint8_t> held(parts.count, 0);
   for (Index id : partition.prescribed)

@@ -14,7 +14,8 @@ struct NodePartition
 {
   std::vector<Index> prescribed; ///< sorted, unique: the caller gives their new positions
   std::vector<Index> free;       ///< sorted: corners of volume cells that the method solves for
-  std::vector<Index> followers;  ///< sorted: mid-side, face and body nodes of quadratic cells, not prescribed
+  std::vector<Index>
+    followers; ///< sorted: mid-side, face and body nodes of quadratic cells, not prescribed
 };
 
 /// Sorts and checks `prescribed` (Error naming ids that do not exist or come twice) and derives the rest.
@@ -22,6 +23,5 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed);
 
 /// For methods that work through the mesh's connectivity: throws Error of kind Singular naming the first body
 /// none of whose corner nodes is prescribed.
-void requirePrescribedBodies(
-  const Mesh& mesh, const Bodies& parts, const NodePartition& partition);
+void requirePrescribedBodies(const Mesh& mesh, const Bodies& parts, const NodePartition& partition);
 }

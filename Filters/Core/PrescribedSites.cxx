@@ -171,7 +171,8 @@ PrescribedSites::PrescribedSites(const Points& points, const std::vector<Index>&
       return ids[a] < ids[b];
     });
 
-  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far smaller than any mesh's edges.
+  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far smaller than any
+  // mesh's edges.
   const double cell = extent > 0 ? 1024 * this->tolerance_ : 1;
   HashedGrid grid(places.colwise().minCoeff(), cell, n);
   Groups groups(n);

@@ -9,11 +9,12 @@
 namespace morph
 {
 /// The distinct places of the prescribed nodes, which is what the meshless methods interpolate between. Nodes within
-/// 1e-12 of the diagonal of the prescribed nodes' bounding box of each other, directly or through others, are one site.
+/// 1e-12 of the diagonal of the prescribed nodes' bounding box of each other, directly or through others, are one
+/// site.
 ///
-/// Sites are numbered by x, then y, then z of their coordinates, so neither the numbers nor the coordinates depend on how
-/// the nodes are numbered; no two sites have equal coordinates, so the order has no ties. A site lies at its node of
-/// smallest x, then y, then z.
+/// Sites are numbered by x, then y, then z of their coordinates, so neither the numbers nor the coordinates depend
+/// on how the nodes are numbered; no two sites have equal coordinates, so the order has no ties. A site lies at its
+/// node of smallest x, then y, then z.
 class PrescribedSites
 {
 public:
@@ -32,8 +33,8 @@ public:
   /// Length below which two places are one.
   double tolerance() const { return this->tolerance_; }
 
-  /// `prescribed`: #ids x 3 values, for instance displacements. Returns #sites x 3, the mean over each site's nodes; bit for
-  /// bit the node's own value where it is alone.
+  /// `prescribed`: #ids x 3 values, for instance displacements. Returns #sites x 3, the mean over each site's
+  /// nodes; bit for bit the node's own value where it is alone.
   Points average(const Points& prescribed) const;
   /// The adjoint of average(): adds the transposed mean of `sites` (#sites x 3) to `prescribed` (#ids x 3).
   void scatterTranspose(const Points& sites, Points& prescribed) const;

@@ -28,9 +28,9 @@ struct Quality
   double minimum = 0;                 ///< NaN if no cell was measured
   double mean = 0;                    ///< NaN if no cell was measured
   Index measured = 0;
-  Index inverted = 0;                 ///< scaled Jacobian < 0 (or exactly 0 with positive edges)
-  Index degenerate = 0;               ///< a corner whose edges have no length; not counted as inverted
-  Index worstCell = -1;               ///< the lowest id among the cells at the minimum
+  Index inverted = 0;   ///< scaled Jacobian < 0 (or exactly 0 with positive edges)
+  Index degenerate = 0; ///< a corner whose edges have no length; not counted as inverted
+  Index worstCell = -1; ///< the lowest id among the cells at the minimum
 };
 
 /// Measures the cells of the highest dimension in the mesh (3 or 2); the others, and cells whose `skip` entry is

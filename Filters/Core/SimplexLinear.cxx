@@ -20,19 +20,21 @@ std::vector<int> distinct(std::vector<int> values)
   return values;
 }
 
-void fillWeights(const Delaunay& delaunay, const EnclosingTetrahedra& enclosing, WeightMatrix& weights,
-  Monitor& monitor)
+void fillWeights(const Delaunay& delaunay, const EnclosingTetrahedra& enclosing,
+  WeightMatrix& weights, Monitor& monitor)
 {
   const Index rows = static_cast<Index>(enclosing.tetrahedron.size());
   weights.open(rows, delaunay.sites().rows(), 4);
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      const auto& sites = delaunay.tetrahedra()[enclosing.tetrahedron[row]].sites;
-      std::copy(sites.begin(), sites.end(), weights.column(row));
-      std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
-    }
-  });
+      for (Index row = first; row < last; ++row)
+      {
+        const auto& sites = delaunay.tetrahedra()[enclosing.tetrahedron[row]].sites;
+        std::copy(sites.begin(), sites.end(), weights.column(row));
+        std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
+      }
+    });
 }
 }
 
@@ -48,23 +50,28 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
   fillWeights(this->delaunay_, enclosing, this->weights_, monitor);
   this->used_ = distinct(enclosing.tetrahedron);
   this->extrapolated_ = static_cast<Index>(enclosing.extrapolated.size());
-  this->bridging_ = static_cast<Index>(
-    bridgingTetrahedra(rest, this->partition().prescribed, this->sites_, this->delaunay_, this->used_, monitor).size());
+  this->bridging_ = static_cast<Index>(bridgingTetrahedra(
+    rest, this->partition().prescribed, this->sites_, this->delaunay_, this->used_, monitor)
+                                         .size());
 }
 
-EvaluateReport SimplexLinear::displace(const Points& prescribed, Points& free, Monitor& monitor) const
+EvaluateReport SimplexLinear::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const Points displacement = this->sites_.average(prescribed);
   this->weights_.multiply(displacement, free, monitor);
+  monitor.check();
 
   const Points moved = this->sites_.coordinates() + displacement;
-  const Index folded =
-    blockSum(static_cast<Index>(this->used_.size()), monitor, Index(0), [&](Index i) {
+  const Index folded = blockSum(static_cast<Index>(this->used_.size()), monitor, Index(0),
+    [&](Index i)
+    {
       const Delaunay::Tetrahedron& tetrahedron = this->delaunay_.tetrahedra()[this->used_[i]];
       return Index(!(Delaunay::sixVolumes(tetrahedron, moved) > 0));
     });
   EvaluateReport report;
-  report.bytesMoved = static_cast<double>(this->weights_.memory()) + 48. * static_cast<double>(free.rows());
+  report.bytesMoved =
+    static_cast<double>(this->weights_.memory()) + 48. * static_cast<double>(free.rows());
   report.counts = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
     { "ExtrapolatedNodes", this->extrapolated_ } };
   return report;
@@ -82,6 +89,7 @@ EvaluateReport SimplexLinear::displaceTranspose(
 std::size_t SimplexLinear::memory() const
 {
   return this->sites_.memory() + this->weights_.memory() +
-    sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() + sizeof(int) * this->used_.size();
+         sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
+         sizeof(int) * this->used_.size();
 }
 }

@@ -38,8 +38,7 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 

@@ -13,6 +13,7 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 128;
+constexpr Index Stretch = 64; // blocks between two chances to cancel
 constexpr Index Samples = 64;
 constexpr Index Sums = 32; // of the transposed product: fixed, so that threads do not show
 
@@ -39,7 +40,8 @@ bool SimplexNaturalNeighbor::weightsOf(Index place, NaturalNeighbors::Workspace&
   const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
   const int inside = this->enclosing_.tetrahedron[place];
   const auto barycentric = this->enclosing_.barycentric.row(place);
-  if (barycentric.minCoeff() >= -EnclosingTetrahedra::InsideTolerance && this->neighbors_.compute(x, inside, this->coordinates_, work))
+  if (barycentric.minCoeff() >= -EnclosingTetrahedra::InsideTolerance &&
+      this->neighbors_.compute(x, inside, this->coordinates_, work))
   {
     return true;
   }
@@ -126,27 +128,28 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
   {
     std::ostringstream text;
     text.precision(3);
-    text << "The natural-neighbor weights would take about " << estimate / 1e9 << " GB, more than the memory limit of "
-         << static_cast<double>(this->memoryLimit_) / 1e9
-         << " GB: they are computed anew for each motion, which is slow. Raise the limit if the memory is there.";
+    text << "The natural-neighbor weights would take about " << estimate / 1e9
+         << " GB, more than the memory limit of " << static_cast<double>(this->memoryLimit_) / 1e9
+         << " GB: they are computed anew for each motion, which is slow. Raise the limit if the "
+            "memory is there.";
     monitor.warn(text.str());
   }
 
-  // In stretches, for progress and cancelling.
   std::vector<WeightMatrix> stored(store ? this->blocks() : 0);
   std::atomic<Index> barycentric{ 0 };
-  constexpr Index Stretch = 64;
   for (Index begin = 0; store && begin < this->blocks(); begin += Stretch)
   {
     const Index end = std::min(begin + Stretch, this->blocks());
     monitor.check();
-    monitor.parallelFor(end - begin, 1, [&](Index first, Index last) {
-      NaturalNeighbors::Workspace work(this->neighbors_);
-      for (Index block = begin + first; block < begin + last; ++block)
+    monitor.parallelFor(end - begin, 1,
+      [&](Index first, Index last)
       {
-        barycentric += this->computeBlock(block, work, stored[block]);
-      }
-    });
+        NaturalNeighbors::Workspace work(this->neighbors_);
+        for (Index block = begin + first; block < begin + last; ++block)
+        {
+          barycentric += this->computeBlock(block, work, stored[block]);
+        }
+      });
     monitor.progress(0.05 + 0.95 * static_cast<double>(end) / static_cast<double>(this->blocks()));
   }
   this->barycentric_ = barycentric;
@@ -158,17 +161,26 @@ EvaluateReport SimplexNaturalNeighbor::displace(
 {
   const Points displacement = this->sites_.average(prescribed);
   std::atomic<Index> barycentric{ this->barycentric_ };
-  monitor.parallelFor(this->blocks(), 1, [&](Index first, Index last) {
-    Monitor serial;
-    Points moved;
-    barycentric += this->forEachBlock(first, last, [&](Index block, const WeightMatrix& weights) {
-      weights.multiply(displacement, moved, serial);
-      for (Index i = 0; i < moved.rows(); ++i)
+  for (Index begin = 0; begin < this->blocks(); begin += Stretch)
+  {
+    const Index end = std::min(begin + Stretch, this->blocks());
+    monitor.check();
+    monitor.parallelFor(end - begin, 1,
+      [&](Index first, Index last)
       {
-        free.row(this->order_[block * BlockLength + i]) = moved.row(i);
-      }
-    });
-  });
+        Monitor serial;
+        Points moved;
+        barycentric += this->forEachBlock(begin + first, begin + last,
+          [&](Index block, const WeightMatrix& weights)
+          {
+            weights.multiply(displacement, moved, serial);
+            for (Index i = 0; i < moved.rows(); ++i)
+            {
+              free.row(this->order_[block * BlockLength + i]) = moved.row(i);
+            }
+          });
+      });
+  }
   EvaluateReport report;
   report.bytesMoved = 72. * static_cast<double>(free.rows());
   for (const WeightMatrix& weights : this->stored_)
@@ -187,24 +199,28 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
   const Index blocks = this->blocks();
   const Index length = (blocks + Sums - 1) / Sums;
   std::vector<Points> part(Sums);
-  monitor.parallelFor(Sums, 1, [&](Index firstSum, Index lastSum) {
-    Monitor serial;
-    for (Index k = firstSum; k < lastSum; ++k)
+  monitor.parallelFor(Sums, 1,
+    [&](Index firstSum, Index lastSum)
     {
-      part[k].setZero(this->sites_.size(), 3);
-      Points gradient, sites;
-      this->forEachBlock(std::min(blocks, k * length), std::min(blocks, (k + 1) * length),
-        [&](Index block, const WeightMatrix& weights) {
-          gradient.resize(weights.rows(), 3);
-          for (Index i = 0; i < gradient.rows(); ++i)
+      Monitor serial;
+      for (Index k = firstSum; k < lastSum; ++k)
+      {
+        part[k].setZero(this->sites_.size(), 3);
+        Points gradient, sites;
+        this->forEachBlock(std::min(blocks, k * length), std::min(blocks, (k + 1) * length),
+          [&](Index block, const WeightMatrix& weights)
           {
-            gradient.row(i) = free.row(this->order_[block * BlockLength + i]);
-          }
-          weights.multiplyTranspose(gradient, sites, serial);
-          part[k] += sites;
-        });
-    }
-  });
+            gradient.resize(weights.rows(), 3);
+            for (Index i = 0; i < gradient.rows(); ++i)
+            {
+              gradient.row(i) = free.row(this->order_[block * BlockLength + i]);
+            }
+            weights.multiplyTranspose(gradient, sites, serial);
+            part[k] += sites;
+          });
+      }
+    });
+  monitor.check();
   for (Index k = 1; k < Sums; ++k)
   {
     part[0] += part[k];
@@ -214,7 +230,8 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
 }
 
 void SimplexNaturalNeighbor::forEachNode(
-  const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>& use) const
+  const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
+    use) const
 {
   NaturalNeighbors::Workspace work(this->neighbors_);
   for (Index place : this->order_)
@@ -227,8 +244,8 @@ void SimplexNaturalNeighbor::forEachNode(
 std::size_t SimplexNaturalNeighbor::memory() const
 {
   std::size_t bytes = this->sites_.memory() + this->neighbors_.memory() +
-    sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
-    this->order_.size() * (sizeof(Index) + sizeof(int) + 4 * sizeof(double));
+                      sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
+                      this->order_.size() * (sizeof(Index) + sizeof(int) + 4 * sizeof(double));
   for (const WeightMatrix& weights : this->stored_)
   {
     bytes += weights.memory();

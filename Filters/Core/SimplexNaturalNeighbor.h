@@ -39,14 +39,15 @@ public:
   /// The sites that the numbers in weightsOf() stand for.
   const PrescribedSites& sites() const { return this->sites_; }
   /// Calls `use` with the place in NodePartition::free, the sites and the weights of one node after another, for checks.
-  void forEachNode(const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>& use) const;
+  void forEachNode(
+    const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
+      use) const;
   /// Bytes that prepare() keeps.
   std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
@@ -54,8 +55,10 @@ private:
   Index blocks() const;
   double estimateMemory() const;
   bool weightsOf(Index position, NaturalNeighbors::Workspace& workspace) const;
-  Index computeBlock(Index block, NaturalNeighbors::Workspace& workspace, WeightMatrix& weights) const;
-  Index forEachBlock(Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const;
+  Index computeBlock(
+    Index block, NaturalNeighbors::Workspace& workspace, WeightMatrix& weights) const;
+  Index forEachBlock(
+    Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const;
 
   Coordinates coordinates_ = Coordinates::Sibson;
   std::size_t memoryLimit_ = 4000000000;
@@ -63,8 +66,9 @@ private:
   Delaunay delaunay_;
   NaturalNeighbors neighbors_;
   EnclosingTetrahedra enclosing_;
-  std::vector<Index> order_;          ///< places in NodePartition::free, along a space-filling curve
-  std::vector<WeightMatrix> stored_;  ///< one a block of nodes in that order; empty where they are computed anew
+  std::vector<Index> order_; ///< places in NodePartition::free, along a space-filling curve
+  std::vector<WeightMatrix>
+    stored_; ///< one a block of nodes in that order; empty where they are computed anew
   Index barycentric_ = 0;
 };
 }

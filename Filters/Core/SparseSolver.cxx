@@ -4,6 +4,7 @@
 #include "BlockSum.h"
 #include "Error.h"
 #include "Multigrid.h"
+#include "ThreeColumns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,28 +17,8 @@ namespace
 {
 constexpr Index Grain = 4096;
 
-using Row = Eigen::Vector4d; // three right-hand sides and a zero
-using Rows = std::vector<Row>;
-
-template <typename Values>
-Row lift(const Values& row)
-{
-  return Row(row[0], row[1], row[2], 0);
-}
-
-/// a / b per column, 0 for the columns that have stopped.
-Row ratio(const Row& a, const Row& b, const Eigen::Array4i& running)
-{
-  Row result = Row::Zero();
-  for (int c = 0; c < 3; ++c)
-  {
-    if (running[c])
-    {
-      result[c] = a[c] / b[c];
-    }
-  }
-  return result;
-}
+using Row = ThreeColumns;
+using Rows = ThreeColumnRows;
 
 /// The vectors of one solve.
 struct Workspace
@@ -57,12 +38,6 @@ struct Workspace
   Multigrid::Vector residual32, step32;
   Multigrid::Workspace multigrid;
 };
-
-/// Largest sqrt(a / b) over the three columns.
-double largestRatio(const Row& a, const Row& b)
-{
-  return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
-}
 }
 
 struct SparseSolver::Implementation
@@ -86,21 +61,10 @@ struct SparseSolver::Implementation
     this->spare = std::move(workspace);
   }
 
-  Row rowTimes(Index i, const Rows& x) const
-  {
-    Row sum = Row::Zero();
-    const int last = this->A.outerIndexPtr()[i + 1];
-    for (int k = this->A.outerIndexPtr()[i]; k < last; ++k)
-    {
-      sum += this->A.valuePtr()[k] * x[this->A.innerIndexPtr()[k]];
-    }
-    return sum;
-  }
-
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
-  SolveReport iterate(const Points& b, Workspace& work, double tolerance, int maxIterations,
-    Monitor& monitor) const;
+  SolveReport iterate(
+    const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
 };
 
 SparseSolver::SparseSolver() = default;
@@ -108,20 +72,21 @@ SparseSolver::~SparseSolver() = default;
 SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
 SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
 
-void SparseSolver::prepare(
-  SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
   fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
   fresh->A.makeCompressed();
   const Index rows = fresh->A.rows();
   Eigen::VectorXd diagonal(rows);
-  monitor.parallelFor(rows, Grain, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
+      }
+    });
   std::vector<Index> notPositive;
   for (Index i = 0; i < rows; ++i)
   {
@@ -134,22 +99,25 @@ void SparseSolver::prepare(
   {
     throw SingularRows(notPositive);
   }
-  fresh->preconditioner.prepare(fresh->A, diagonal.maxCoeff(), coordinates, monitor);
+  fresh->preconditioner.prepare(
+    fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
 Row SparseSolver::Implementation::trueResidual(
   const Points& b, Workspace& work, Monitor& monitor) const
 {
-  return blockSum(this->A.rows(), monitor, Row(Row::Zero()), [&](Index i) {
-    work.residual[i] = lift(b.row(i)) - this->rowTimes(i, work.solution);
-    work.direction[i] = Row::Zero();
-    return Row(work.residual[i].cwiseAbs2());
-  });
+  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index i)
+    {
+      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      work.direction[i] = Row::Zero();
+      return Row(work.residual[i].cwiseAbs2());
+    });
 }
 
-SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& work,
-  double tolerance, int maxIterations, Monitor& monitor) const
+SolveReport SparseSolver::Implementation::iterate(
+  const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   Rows &solution = work.solution, &residual = work.residual, &direction = work.direction,
@@ -190,12 +158,14 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
         scale[c] = 1 / unscale[c];
       }
     }
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      for (Index i = first; i < last; ++i)
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
       {
-        work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
-      }
-    });
+        for (Index i = first; i < last; ++i)
+        {
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+        }
+      });
 
     Row rz = zero;
     for (bool first = true;; first = false)
@@ -229,28 +199,35 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
 
       this->preconditioner.apply(work.residual32, work.step32, work.multigrid, monitor);
       const Row rzBefore = rz;
-      rz = blockSum(n, monitor, zero, [&](Index i) {
-        return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
-      }).cwiseProduct(unscale);
+      rz = blockSum(n, monitor, zero,
+        [&](Index i) {
+          return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
+        }).cwiseProduct(unscale);
       const Row beta = first ? zero : ratio(rz, rzBefore, running);
-      monitor.parallelFor(n, Grain, [&](Index from, Index to) {
-        for (Index i = from; i < to; ++i)
+      monitor.parallelFor(n, Grain,
+        [&](Index from, Index to)
         {
-          direction[i] =
-            work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
-        }
-      });
-      const Row curvature = blockSum(n, monitor, zero, [&](Index i) {
-        image[i] = this->rowTimes(i, direction);
-        return Row(image[i].cwiseProduct(direction[i]));
-      });
+          for (Index i = from; i < to; ++i)
+          {
+            direction[i] =
+              work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
+          }
+        });
+      const Row curvature = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          image[i] = rowTimes(this->A, i, direction);
+          return Row(image[i].cwiseProduct(direction[i]));
+        });
       const Row alpha = ratio(rz, curvature, running);
-      norm2 = blockSum(n, monitor, zero, [&](Index i) {
-        solution[i] += alpha.cwiseProduct(direction[i]);
-        residual[i] -= alpha.cwiseProduct(image[i]);
-        work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
-        return Row(residual[i].cwiseAbs2());
-      });
+      norm2 = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          solution[i] += alpha.cwiseProduct(direction[i]);
+          residual[i] -= alpha.cwiseProduct(image[i]);
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+          return Row(residual[i].cwiseAbs2());
+        });
       ++report.iterations;
       const double left = largestRatio(norm2, goal2);
       if (left > 1 && atStart > 1)
@@ -271,7 +248,7 @@ SolveReport SparseSolver::Implementation::iterate(const Points& b, Workspace& wo
   const double pass =
     12. * this->A.nonZeros() + (11. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
-    report.iterations * this->preconditioner.bytesMoved();
+                      report.iterations * this->preconditioner.bytesMoved();
   return report;
 }
 
@@ -302,7 +279,6 @@ std::size_t SparseSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
-    my.preconditioner.memory() +
-    my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+         my.preconditioner.memory() + my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
 }
 }

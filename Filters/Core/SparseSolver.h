@@ -3,23 +3,13 @@
 
 #include "Mesh.h"
 #include "Monitor.h"
-
-#include <Eigen/SparseCore>
+#include "SolveReport.h"
+#include "SparseRows.h"
 
 #include <memory>
 
 namespace morph
 {
-/// Compressed rows, 12 bytes an entry.
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-
-struct SolveReport
-{
-  int iterations = 0;          ///< matrix passes of the conjugate gradients, all right-hand sides together
-  double relativeResidual = 0; ///< largest over the right-hand sides, |b - A x| / |b|, computed from x
-  double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
-};
-
 /// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once: preconditioned
 /// conjugate gradients in which one pass over the matrix serves the three columns, with a smoothed-aggregation
 /// multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).

@@ -49,8 +49,17 @@ std::vector<Index> spatialOrder(const Points& points, const std::vector<Index>& 
     }
     keys.emplace_back(key, id);
   }
+  // Places that share a step go by their coordinates: by anything else the numbering would show.
   std::stable_sort(keys.begin(), keys.end(),
-    [](const auto& a, const auto& b) { return a.first < b.first; });
+    [&points](const auto& a, const auto& b)
+    {
+      if (a.first != b.first)
+      {
+        return a.first < b.first;
+      }
+      const double *p = points.data() + 3 * a.second, *q = points.data() + 3 * b.second;
+      return std::lexicographical_compare(p, p + 3, q, q + 3);
+    });
   std::vector<Index> order;
   order.reserve(ids.size());
   for (const auto& key : keys)

@@ -59,13 +59,15 @@ Adjacency nodeToCells(const Mesh& mesh)
 {
   Adjacency result;
   result.offsets.assign(mesh.numberOfNodes() + 1, 0);
-  const auto eachCorner = [&mesh](auto&& visit) {
+  const auto eachCorner = [&mesh](auto&& visit)
+  {
     std::vector<Index> last(mesh.numberOfNodes(), -1); // a collapsed cell repeats nodes
     for (Index c = 0; c < mesh.numberOfCells(); ++c)
     {
       if (const CellShape* shape = volumeShape(mesh, c))
       {
-        for (const Index* node = mesh.cell(c); node != mesh.cell(c) + shape->numberOfCorners; ++node)
+        for (const Index* node = mesh.cell(c); node != mesh.cell(c) + shape->numberOfCorners;
+             ++node)
         {
           if (last[*node] != c)
           {
@@ -90,7 +92,8 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   const Index nodes = mesh.numberOfNodes();
   const Index cells = mesh.numberOfCells();
   std::vector<Index> offsets(nodes + 1, 0);
-  const auto eachFace = [&mesh, cells](auto&& visit) {
+  const auto eachFace = [&mesh, cells](auto&& visit)
+  {
     for (Index c = 0; c < cells; ++c)
     {
       if (const CellShape* shape = volumeShape(mesh, c))
@@ -100,8 +103,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
           Index lowest = mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[0]]];
           for (int k = 1; k < shape->faces[f].size; ++k)
           {
-            lowest =
-              std::min(lowest, mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
+            lowest = std::min(lowest, mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
           }
           visit(c, f, lowest);
         }
@@ -118,43 +120,47 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   monitor.check();
 
   // Within a bucket, a face whose key comes once is on the boundary; the others are marked -1.
-  monitor.parallelFor(nodes, 4096, [&](Index first, Index last) {
-    std::vector<std::pair<std::array<Index, 4>, Index*>> keys;
-    for (Index n = first; n < last; ++n)
+  monitor.parallelFor(nodes, 4096,
+    [&](Index first, Index last)
     {
-      keys.clear();
-      for (Index* face = faces.data() + offsets[n]; face != faces.data() + offsets[n + 1]; ++face)
+      std::vector<std::pair<std::array<Index, 4>, Index*>> keys;
+      for (Index n = first; n < last; ++n)
       {
-        const Index cell = *face / MostFaces;
-        keys.emplace_back(
-          faceKey(mesh, cell, *volumeShape(mesh, cell), static_cast<int>(*face % MostFaces)), face);
-      }
-      std::sort(keys.begin(), keys.end());
-      for (std::size_t i = 0; i < keys.size();)
-      {
-        std::size_t end = i + 1;
-        while (end < keys.size() && keys[end].first == keys[i].first)
+        keys.clear();
+        for (Index* face = faces.data() + offsets[n]; face != faces.data() + offsets[n + 1]; ++face)
         {
-          ++end;
+          const Index cell = *face / MostFaces;
+          keys.emplace_back(
+            faceKey(mesh, cell, *volumeShape(mesh, cell), static_cast<int>(*face % MostFaces)),
+            face);
         }
-        const bool alone = end == i + 1 && keys[i].first[0] != NoNode;
-        for (; i < end; ++i)
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t i = 0; i < keys.size();)
         {
-          if (!alone)
+          std::size_t end = i + 1;
+          while (end < keys.size() && keys[end].first == keys[i].first)
           {
-            *keys[i].second = -1;
+            ++end;
+          }
+          const bool alone = end == i + 1 && keys[i].first[0] != NoNode;
+          for (; i < end; ++i)
+          {
+            if (!alone)
+            {
+              *keys[i].second = -1;
+            }
           }
         }
       }
-    }
-  });
+    });
 
   faces.erase(std::remove(faces.begin(), faces.end(), -1), faces.end());
   std::sort(faces.begin(), faces.end());
 
   BoundaryFaces result;
-  std::vector<std::uint8_t> onBoundary(nodes, 0); // 1: as a corner, 2: in the middle of an edge or face
-  std::vector<std::array<Index, 5>> middles;      // such nodes and their corners
+  std::vector<std::uint8_t> onBoundary(
+    nodes, 0);                               // 1: as a corner, 2: in the middle of an edge or face
+  std::vector<std::array<Index, 5>> middles; // such nodes and their corners
   result.offsets.reserve(faces.size() + 1);
   result.cells.reserve(faces.size());
   result.offsets.push_back(0);
@@ -232,7 +238,8 @@ Bodies bodies(const Mesh& mesh)
   const Index nodes = mesh.numberOfNodes();
   std::vector<Index> parent(nodes);
   std::iota(parent.begin(), parent.end(), Index(0));
-  const auto root = [&parent](Index n) {
+  const auto root = [&parent](Index n)
+  {
     while (parent[n] != n)
     {
       parent[n] = parent[parent[n]];
@@ -292,9 +299,8 @@ std::vector<std::int8_t> orientation(const Mesh& mesh, const Bodies& bodies)
     Index cells = 0;
   };
   std::vector<Sum> sums(bodies.count * Shapes);
-  const auto slot = [&](Index c, Shape shape) -> Sum& {
-    return sums[bodies.ofCell[c] * Shapes + static_cast<int>(shape)];
-  };
+  const auto slot = [&](Index c, Shape shape) -> Sum&
+  { return sums[bodies.ofCell[c] * Shapes + static_cast<int>(shape)]; };
   for (Index c = 0; c < cells; ++c)
   {
     if (const CellShape* shape = volumeShape(mesh, c))

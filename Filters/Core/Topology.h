@@ -22,12 +22,14 @@ struct Adjacency
 /// The faces of volume cells that belong to one cell alone, by their corners.
 struct BoundaryFaces
 {
-  std::vector<Index> offsets;      ///< #faces + 1, into `connectivity`
-  std::vector<Index> connectivity; ///< node ids, outward by the right-hand rule for cells in VTK's order
-  std::vector<Index> cells;        ///< #faces, the volume cell that owns the face
+  std::vector<Index> offsets; ///< #faces + 1, into `connectivity`
+  std::vector<Index>
+    connectivity;           ///< node ids, outward by the right-hand rule for cells in VTK's order
+  std::vector<Index> cells; ///< #faces, the volume cell that owns the face
   std::vector<std::uint8_t> sides; ///< #faces, its number among the cell's faces (CellShape::faces)
-  std::vector<Index> nodes;        ///< sorted: every node on those faces, mid-side and face nodes included
-  Adjacency between;               ///< #nodes: the corners of the edge or face whose middle the node is; none for a corner
+  std::vector<Index> nodes; ///< sorted: every node on those faces, mid-side and face nodes included
+  Adjacency
+    between; ///< #nodes: the corners of the edge or face whose middle the node is; none for a corner
 };
 
 /// For each node the volume cells it is a corner of, ascending, each once. Cost: two passes over the connectivity.
@@ -43,7 +45,8 @@ struct Bodies
 {
   Index count = 0;
   std::vector<Index> ofCell; ///< #cells, body number, or -1 for a cell that is not a volume cell
-  std::vector<Index> ofNode; ///< #nodes, body number, or -1 for a node that is no corner of a volume cell
+  std::vector<Index>
+    ofNode; ///< #nodes, body number, or -1 for a node that is no corner of a volume cell
 };
 Bodies bodies(const Mesh& mesh);
 

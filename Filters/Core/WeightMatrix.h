@@ -33,10 +33,11 @@ public:
   const double* weight(Index row) const { return this->weight_.data() + this->offsets_[row]; }
   ///@}
 
-  /// `free` becomes W sites; `sites`: #columns x 3, `free`: #rows x 3. Independent of the threads. Cost: one pass over the entries.
+  /// `free` becomes W sites; `sites`: #columns x 3, `free`: #rows x 3. Independent of the threads. Cost: one pass
+  /// over the entries.
   void multiply(const Points& sites, Points& free, Monitor& monitor) const;
-  /// `sites` becomes W^T free. Independent of the threads: rows are cut into at most 32 fixed blocks whose sums are added
-  /// block by block. Cost: one pass over the entries, and 24 bytes a column and block meanwhile.
+  /// `sites` becomes W^T free. Independent of the threads: rows are cut into at most 32 fixed blocks whose sums are
+  /// added block by block. Cost: one pass over the entries, and 24 bytes a column and block meanwhile.
   void multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const;
   /// Bytes kept.
   std::size_t memory() const;

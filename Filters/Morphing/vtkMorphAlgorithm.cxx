@@ -30,13 +30,6 @@ double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// ParaView's choice of an array offers "None".
-std::string arrayName(const char* name)
-{
-  const std::string text = name ? name : "";
-  return text == "None" ? std::string() : text;
-}
 }
 
 /// What an execution leaves for the next one.
@@ -186,8 +179,8 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   kept.SetGrid(grid, monitor);
 
   vtkMorphBoundaryMatch::Options options;
-  options.BoundaryIdArray = arrayName(this->BoundaryIdArray);
-  options.DisplacementArray = arrayName(this->DisplacementArray);
+  options.BoundaryIdArray = vtkMorphInput::ArrayName(this->BoundaryIdArray);
+  options.DisplacementArray = vtkMorphInput::ArrayName(this->DisplacementArray);
   options.ScaleFactor = this->ScaleFactor;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;

@@ -7,6 +7,7 @@
 
 #include <vtkCompositeDataSet.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -52,6 +53,15 @@ vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
   refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
 }
 
+vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
+  {
+    return surface;
+  }
+  refuse(input, port, "polygonal data (Extract Surface makes it)");
+}
+
 int RequireOneRankWithCells(vtkUnstructuredGrid* grid)
 {
   const int ranks = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0);
@@ -79,5 +89,11 @@ void RequireVolumeCells(const morph::Mesh& mesh)
                        morph::cellShape(mesh.types.front())->name +
                        "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
   }
+}
+
+std::string ArrayName(const char* name)
+{
+  const std::string text = name ? name : "";
+  return text == "None" ? std::string() : text;
 }
 }

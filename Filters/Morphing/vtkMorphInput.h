@@ -4,8 +4,11 @@
 
 #include "Mesh.h"
 
+#include <string>
+
 class vtkDataObject;
 class vtkPointSet;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 /// The checks that every filter of this module makes of its inputs. Filters accept vtkDataObject on
@@ -17,6 +20,7 @@ namespace vtkMorphInput
 /// message: "The input".
 vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
+vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
 /// To be called on every process, before anything can fail there: with the grid, or null where its
 /// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how
@@ -26,6 +30,10 @@ int RequireOneRankWithCells(vtkUnstructuredGrid* grid);
 /// Throws morph::Error unless there is a cell of dimension 3. All types have to be known to the
 /// core.
 void RequireVolumeCells(const morph::Mesh& mesh);
+
+/// The name of an array as a property holds it. Empty for none: a null pointer, or "None", which
+/// ParaView's choice of an array offers.
+std::string ArrayName(const char* name);
 }
 
 #endif

@@ -56,10 +56,7 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
   int precision, vtkUnstructuredGrid* output)
 {
   output->ShallowCopy(input);
-  const bool isFloat = precision == vtkAlgorithm::SINGLE_PRECISION ||
-                       (precision == vtkAlgorithm::DEFAULT_PRECISION &&
-                         input->GetPoints()->GetDataType() == VTK_FLOAT);
-  if (isFloat)
+  if (IsFloat(input, precision))
   {
     writePoints<vtkFloatArray, float>(rest, moved, output);
   }
@@ -67,6 +64,13 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
   {
     writePoints<vtkDoubleArray, double>(rest, moved, output);
   }
+}
+
+bool IsFloat(vtkUnstructuredGrid* grid, int precision)
+{
+  return precision == vtkAlgorithm::SINGLE_PRECISION ||
+         (precision == vtkAlgorithm::DEFAULT_PRECISION &&
+           grid->GetPoints()->GetDataType() == VTK_FLOAT);
 }
 
 void AddField(vtkDataObject* output, const char* name, double value)

@@ -18,6 +18,9 @@ namespace vtkMorphOutput
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
   int precision, vtkUnstructuredGrid* output);
 
+/// Whether points for `grid` are written as float at this precision.
+bool IsFloat(vtkUnstructuredGrid* grid, int precision);
+
 /// Field data of one number; replaces an array of that name.
 void AddField(vtkDataObject* output, const char* name, double value);
 void AddField(vtkDataObject* output, const char* name, int value);

@@ -18,7 +18,8 @@ struct DirectResult
 /// std::runtime_error if the factorisation fails.
 DirectResult solveByCholmod(const LinearSystem& system);
 
-/// KLU with its default options, as in the FEMWARP measurements of Staten et al. Throws std::runtime_error if it fails.
+/// KLU with its default options, as in the measurements of Staten et al.; the matrix need not be symmetric. Throws
+/// std::runtime_error if it fails.
 DirectResult solveByKlu(const LinearSystem& system);
 
 struct IterativeResult
@@ -31,6 +32,10 @@ struct IterativeResult
 /// Plain conjugate gradients, diagonal preconditioner, column after column on one thread. Throws
 /// std::runtime_error if a column does not reach the relative residual `tolerance`.
 IterativeResult solveByJacobiCg(const LinearSystem& system, double tolerance);
+
+/// Log-barrier weights of one node by Newton's method in three unknowns, whitened, written with Eigen's matrices.
+/// `offsets`: from the node to its neighbors, k x 3.
+Eigen::VectorXd weightsByEigen(const morph::Points& offsets);
 
 /// "OpenBLAS 0.3.21 ..., 2 threads": the library that CHOLMOD's dense kernels run on.
 std::string blasDescription();

@@ -3,10 +3,12 @@
 
 #include "Bandwidth.h"
 #include "Baselines.h"
-#include "FemWarpTimes.h"
+#include "FigureRun.h"
 #include "Machine.h"
 #include "Threads.h"
 #include "Timing.h"
+
+#include "FemWarp.h"
 
 #include <unistd.h>
 
@@ -18,92 +20,29 @@ namespace benchmark
 {
 namespace
 {
-constexpr double LargestDifference = 1e-6;        // from a direct solution, of the mesh's size
+constexpr double Tolerance = 1e-8;                // of every iterative solution here
 constexpr double LargestResidual = 2 * Tolerance; // recomputed, which adds rounding of its own
 constexpr int AxisX = 0;
 constexpr int AxisZ = 2;
-
-void say(const std::string& text)
-{
-  std::fprintf(stderr, "%s\n", text.c_str());
-}
-
-std::string withThreads(int n)
-{
-  return ", " + std::to_string(n) + (n == 1 ? " thread" : " threads");
-}
 
 double perNode(double bytes, const Problem& problem)
 {
   return bytes / static_cast<double>(problem.mesh.numberOfNodes());
 }
 
-class Run
+class Run : public FigureRun
 {
 public:
-  explicit Run(const Options& options)
-    : options_(options)
-    , cores_(numberOfCores())
-  {
-  }
+  using FigureRun::FigureRun;
 
   void peakMemory(const Problem& problem);
   void cube(const Problem& problem);
   void longBrick(const Problem& problem);
   void series(const std::vector<Problem>& problems);
 
-  Report report;
-  bool correct = true;
-
 private:
-  void add(const Problem& problem, const std::string& figure, double measured,
-    const std::string& unit, Target target = Target::none());
-  /// Adds a figure that decides whether the run is correct, on small meshes too.
-  void check(const Problem& problem, const std::string& figure, double measured, double atMost);
-  void checkAgainst(const Problem& problem, const std::string& figure,
-    const morph::Points& reference, const morph::Points& x);
-  void addTimes(const Problem& problem, int threads, const FemWarpTimes& times);
-  void bandwidth(const Problem& problem, const FemWarpTimes& times, double workingSet);
-
-  void settleDown() const
-  {
-    if (!settle(this->options_.waitIdle))
-    {
-      say("other processes are busy: measuring all the same");
-    }
-  }
-
-  Options options_;
-  int cores_;
+  void bandwidth(const Problem& problem, const MethodTimes& times, double workingSet);
 };
-
-void Run::add(const Problem& problem, const std::string& figure, double measured,
-  const std::string& unit, Target target)
-{
-  this->report.add(
-    problem.name + ": " + figure, measured, unit, this->options_.quick ? Target::none() : target);
-}
-
-void Run::check(const Problem& problem, const std::string& figure, double measured, double atMost)
-{
-  this->report.add(problem.name + ": " + figure, measured, "", Target::atMost(atMost));
-  this->correct = this->correct && measured <= atMost; // false for NaN
-}
-
-void Run::checkAgainst(const Problem& problem, const std::string& figure,
-  const morph::Points& reference, const morph::Points& x)
-{
-  const double difference = (x - reference).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  this->check(problem, figure + ", of the size", difference / problem.size, LargestDifference);
-}
-
-void Run::addTimes(const Problem& problem, int threads, const FemWarpTimes& times)
-{
-  const std::string tail = withThreads(threads);
-  this->add(problem, "prepare" + tail, median(times.prepare), "s");
-  this->add(problem, "cold" + tail, median(times.cold), "s");
-  this->add(problem, "warm" + tail, median(times.warm), "s");
-}
 
 void Run::peakMemory(const Problem& problem)
 {
@@ -126,7 +65,7 @@ void Run::peakMemory(const Problem& problem)
     Target::atMost(1000));
 }
 
-void Run::bandwidth(const Problem& problem, const FemWarpTimes& times, double workingSet)
+void Run::bandwidth(const Problem& problem, const MethodTimes& times, double workingSet)
 {
   say("memory bandwidth");
   const auto monitor = makeMonitor(this->cores_);
@@ -153,8 +92,8 @@ void Run::bandwidth(const Problem& problem, const FemWarpTimes& times, double wo
 
 void Run::cube(const Problem& problem)
 {
-  FemWarpTimes all;
-  FemWarpTimes one;
+  MethodTimes all;
+  MethodTimes one;
   std::vector<double> cholmodCold;
   std::vector<double> cholmodSolve;
   std::vector<double> jacobiSeconds;
@@ -170,9 +109,9 @@ void Run::cube(const Problem& problem)
     say(problem.name + ", repetition " + std::to_string(i + 1));
     femWarp.reset();
     this->settleDown();
-    timeFemWarp(problem, *serial, one, movedByOne);
+    timeMethod<morph::FemWarp>(problem, Tolerance, *serial, one, movedByOne);
     this->settleDown();
-    femWarp = timeFemWarp(problem, *monitor, all, moved);
+    femWarp = timeMethod<morph::FemWarp>(problem, Tolerance, *monitor, all, moved);
     const LinearSystem system = linearSystem(*femWarp, problem);
     this->settleDown();
     cholmod = solveByCholmod(system);
@@ -216,7 +155,7 @@ void Run::cube(const Problem& problem)
 
 void Run::longBrick(const Problem& problem)
 {
-  FemWarpTimes times;
+  MethodTimes times;
   std::vector<double> cholmodCold;
   DirectResult cholmod;
   morph::Points moved;
@@ -227,7 +166,7 @@ void Run::longBrick(const Problem& problem)
     say(problem.name + ", repetition " + std::to_string(i + 1));
     femWarp.reset();
     this->settleDown();
-    femWarp = timeFemWarp(problem, *monitor, times, moved);
+    femWarp = timeMethod<morph::FemWarp>(problem, Tolerance, *monitor, times, moved);
     this->settleDown();
     cholmod = solveByCholmod(linearSystem(*femWarp, problem));
     cholmodCold.push_back(cholmod.coldSeconds);
@@ -255,7 +194,7 @@ void Run::longBrick(const Problem& problem)
 
 void Run::series(const std::vector<Problem>& problems)
 {
-  std::vector<FemWarpTimes> times(problems.size());
+  std::vector<MethodTimes> times(problems.size());
   std::vector<double> residual(problems.size());
   const auto monitor = makeMonitor(this->cores_);
   // Repetitions outside: a slow spell of the machine falls on all sizes alike.
@@ -266,7 +205,8 @@ void Run::series(const std::vector<Problem>& problems)
     {
       morph::Points moved;
       this->settleDown();
-      const auto femWarp = timeFemWarp(problems[p], *monitor, times[p], moved);
+      const auto femWarp =
+        timeMethod<morph::FemWarp>(problems[p], Tolerance, *monitor, times[p], moved);
       residual[p] =
         relativeResidual(linearSystem(*femWarp, problems[p]), freeDisplacement(problems[p], moved));
     }

@@ -38,7 +38,7 @@ struct Session
   void solve(Eigen::MatrixXd& columns)
   {
     const auto n = static_cast<int>(columns.rows());
-    this->require(klu_solve(this->symbolic, this->numeric, n, static_cast<int>(columns.cols()),
+    this->require(klu_tsolve(this->symbolic, this->numeric, n, static_cast<int>(columns.cols()),
                     columns.data(), &this->common) != 0,
       "the solution");
   }
@@ -47,7 +47,7 @@ struct Session
 
 DirectResult solveByKlu(const LinearSystem& system)
 {
-  // Rows of a symmetric matrix are its columns, so the arrays serve as they are. KLU does not write to them.
+  // KLU reads columns: it gets the transpose, and solves with the transpose of that. It does not write to the arrays.
   const morph::SparseMatrix& matrix = system.matrix;
   auto* columnStart = const_cast<int*>(matrix.outerIndexPtr());
   auto* row = const_cast<int*>(matrix.innerIndexPtr());

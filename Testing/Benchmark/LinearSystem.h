@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "FemWarp.h"
 #include "TwistedBrick.h"
+
+#include "SparseRows.h"
 
 namespace benchmark
 {
-/// The system that FEMWARP solves for one problem: A_I U_I = -A_B U_B, in displacements. Refers to the morpher it
-/// was made from.
+/// The system that FEMWARP or LBWARP solves for one problem: A_I U_I = -A_B U_B, in displacements. Refers to the
+/// morpher it was made from.
 struct LinearSystem
 {
   const morph::SparseMatrix& matrix; ///< #free x #free
   morph::Points rightHandSide;       ///< #free x 3
 };
-LinearSystem linearSystem(const morph::FemWarp& femWarp, const Problem& problem);
+
+/// Displacements of the prescribed nodes, #prescribed x 3.
+morph::Points prescribedDisplacement(const Problem& problem);
+
+template <typename Method>
+LinearSystem linearSystem(const Method& method, const Problem& problem)
+{
+  return { method.solver().matrix(), -(method.coupling() * prescribedDisplacement(problem)) };
+}
 
 /// Displacements of the free nodes, #free x 3, from the moved mesh.
 morph::Points freeDisplacement(const Problem& problem, const morph::Points& moved);

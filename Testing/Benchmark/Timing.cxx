@@ -3,9 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 namespace benchmark
 {
+double ThreadStopwatch::now()
+{
+  timespec time = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  constexpr double Nanosecond = 1e-9;
+  return static_cast<double>(time.tv_sec) + Nanosecond * static_cast<double>(time.tv_nsec);
+}
+
 double median(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());

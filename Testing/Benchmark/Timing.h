@@ -19,6 +19,22 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Processor seconds of the calling thread since construction: what its own work took, whatever else ran beside it.
+class ThreadStopwatch
+{
+public:
+  ThreadStopwatch()
+    : start_(now())
+  {
+  }
+  double seconds() const { return now() - this->start_; }
+
+private:
+  static double now();
+
+  double start_;
+};
+
 /// The middle value; the mean of the two middle ones for an even count. `values` is not empty.
 double median(std::vector<double> values);
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 namespace benchmark
 {
@@ -55,14 +56,38 @@ morph::Mesh brick(const std::array<int, 3>& cells)
   mesh.offsets.push_back(static_cast<morph::Index>(mesh.connectivity.size()));
   return mesh;
 }
+
+void jitterInterior(morph::Points& points, const std::array<int, 3>& cells, double jitter)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  for (morph::Index node = 0; node < points.rows(); ++node)
+  {
+    auto point = points.row(node);
+    bool inside = true;
+    for (int d = 0; d < 3; ++d)
+    {
+      inside = inside && point[d] > 0 && point[d] < cells[d];
+    }
+    for (int d = 0; d < 3 && inside; ++d)
+    {
+      point[d] += shift(random);
+    }
+  }
+}
 }
 
-Problem twistedBrick(int nx, int ny, int nz, int axis)
+Problem twistedBrick(int nx, int ny, int nz, int axis, double jitter)
 {
   const std::array<int, 3> cells = { nx, ny, nz };
   Problem problem;
   problem.name = std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz);
   problem.mesh = brick(cells);
+  if (jitter > 0)
+  {
+    problem.name += ", jittered";
+    jitterInterior(problem.mesh.points, cells, jitter);
+  }
   problem.size = std::sqrt(double(nx) * nx + double(ny) * ny + double(nz) * nz);
 
   const morph::Points& rest = problem.mesh.points;

@@ -106,55 +106,63 @@ void add(Mesh& mesh, std::uint8_t type, const std::vector<Index>& nodes)
 
 Mesh hexes(int nx, int ny, int nz)
 {
-  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int) {
-    add(mesh, Hexahedron, { b.begin(), b.end() });
-  });
+  return boxes(nx, ny, nz,
+    [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int) {
+      add(mesh, Hexahedron, { b.begin(), b.end() });
+    });
 }
 
 Mesh tets(int nx, int ny, int nz)
 {
-  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int i, int j, int k) {
-    static constexpr int Even[5][4] = { { 0, 1, 2, 5 }, { 0, 2, 3, 7 }, { 0, 5, 7, 4 },
-      { 2, 7, 5, 6 }, { 0, 2, 7, 5 } };
-    static constexpr int Odd[5][4] = { { 1, 2, 3, 6 }, { 0, 1, 3, 4 }, { 1, 6, 4, 5 },
-      { 3, 4, 6, 7 }, { 1, 3, 4, 6 } };
-    for (const auto& t : (i + j + k) % 2 ? Odd : Even)
+  return boxes(nx, ny, nz,
+    [](Mesh& mesh, const std::array<Index, 8>& b, int i, int j, int k)
     {
-      add(mesh, Tetra, { b[t[0]], b[t[1]], b[t[2]], b[t[3]] });
-    }
-  });
+      static constexpr int Even[5][4] = { { 0, 1, 2, 5 }, { 0, 2, 3, 7 }, { 0, 5, 7, 4 },
+        { 2, 7, 5, 6 }, { 0, 2, 7, 5 } };
+      static constexpr int Odd[5][4] = { { 1, 2, 3, 6 }, { 0, 1, 3, 4 }, { 1, 6, 4, 5 },
+        { 3, 4, 6, 7 }, { 1, 3, 4, 6 } };
+      for (const auto& t : (i + j + k) % 2 ? Odd : Even)
+      {
+        add(mesh, Tetra, { b[t[0]], b[t[1]], b[t[2]], b[t[3]] });
+      }
+    });
 }
 
 Mesh wedges(int nx, int ny, int nz)
 {
-  return boxes(nx, ny, nz, [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int) {
-    add(mesh, Wedge, { b[0], b[1], b[2], b[4], b[5], b[6] });
-    add(mesh, Wedge, { b[0], b[2], b[3], b[4], b[6], b[7] });
-  });
+  return boxes(nx, ny, nz,
+    [](Mesh& mesh, const std::array<Index, 8>& b, int, int, int)
+    {
+      add(mesh, Wedge, { b[0], b[1], b[2], b[4], b[5], b[6] });
+      add(mesh, Wedge, { b[0], b[2], b[3], b[4], b[6], b[7] });
+    });
 }
 
 Mesh hexesAndWedges(int nx, int ny, int nz)
 {
-  return boxes(nx, ny, nz, [nz](Mesh& mesh, const std::array<Index, 8>& b, int, int, int k) {
-    if (2 * k < nz)
+  return boxes(nx, ny, nz,
+    [nz](Mesh& mesh, const std::array<Index, 8>& b, int, int, int k)
     {
-      add(mesh, Hexahedron, { b.begin(), b.end() });
-    }
-    else
-    {
-      // Prisms along x: they meet the hexahedra below with quadrilaterals.
-      add(mesh, Wedge, { b[0], b[3], b[4], b[1], b[2], b[5] });
-      add(mesh, Wedge, { b[3], b[7], b[4], b[2], b[6], b[5] });
-    }
-  });
+      if (2 * k < nz)
+      {
+        add(mesh, Hexahedron, { b.begin(), b.end() });
+      }
+      else
+      {
+        // Prisms along x: they meet the hexahedra below with quadrilaterals.
+        add(mesh, Wedge, { b[0], b[3], b[4], b[1], b[2], b[5] });
+        add(mesh, Wedge, { b[3], b[7], b[4], b[2], b[6], b[5] });
+      }
+    });
 }
 
 Mesh hexesAndPyramids(int nx, int ny, int nz)
 {
   std::vector<Eigen::RowVector3d> centres;
   const Index latticeNodes = static_cast<Index>(nx + 1) * (ny + 1) * (nz + 1);
-  Mesh mesh =
-    boxes(nx, ny, nz, [&](Mesh& m, const std::array<Index, 8>& b, int i, int j, int k) {
+  Mesh mesh = boxes(nx, ny, nz,
+    [&](Mesh& m, const std::array<Index, 8>& b, int i, int j, int k)
+    {
       if ((i + j + k) % 2 == 0)
       {
         add(m, Hexahedron, { b.begin(), b.end() });
@@ -266,7 +274,8 @@ double size(const Points& points)
 
 unsigned seed()
 {
-  static const unsigned value = [] {
+  static const unsigned value = []
+  {
     const char* text = std::getenv("MORPH_TEST_SEED");
     const unsigned s = text ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : 20111;
     std::cout << "random seed " << s << " (MORPH_TEST_SEED sets another)" << std::endl;
@@ -303,12 +312,14 @@ void ThreadedMonitor::parallelFor(
   std::vector<std::thread> crew;
   for (int t = 0; t < this->threads; ++t)
   {
-    crew.emplace_back([&, t] {
-      for (Index r = t; r < ranges; r += this->threads)
+    crew.emplace_back(
+      [&, t]
       {
-        body(r * grain, std::min(n, (r + 1) * grain));
-      }
-    });
+        for (Index r = t; r < ranges; r += this->threads)
+        {
+          body(r * grain, std::min(n, (r + 1) * grain));
+        }
+      });
   }
   for (std::thread& member : crew)
   {

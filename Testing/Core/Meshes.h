@@ -61,8 +61,7 @@ struct ThreadedMonitor : morph::Monitor
   void progress(double fraction) override;
   bool cancelled() override;
   void warn(const std::string& message) override;
-  void parallelFor(
-    Index n, Index grain, const std::function<void(Index, Index)>& body) override;
+  void parallelFor(Index n, Index grain, const std::function<void(Index, Index)>& body) override;
 
   int threads;
   double cancelAt = 2; ///< cancels once progress has come this far

@@ -46,9 +46,9 @@ Outcome morphOuter(const Mesh& mesh, Eigen::RowVector3d (*map)(const Eigen::RowV
   result.report = method.evaluate(target, result.moved, monitor);
   const Points rhs =
     method.coupling() * Points(target - meshes::rows(mesh.points, partition.prescribed));
-  const Points left = rhs +
-    method.solver().matrix() *
-      Points(meshes::rows(result.moved, method.rows()) - meshes::rows(mesh.points, method.rows()));
+  const Points left =
+    rhs + method.solver().matrix() * Points(meshes::rows(result.moved, method.rows()) -
+                                            meshes::rows(mesh.points, method.rows()));
   for (int c = 0; c < 3; ++c)
   {
     result.trueResidual = std::max(result.trueResidual, left.col(c).norm() / rhs.col(c).norm());
@@ -63,9 +63,8 @@ Mesh polar(bool asWedges)
   Mesh mesh;
   mesh.offsets.push_back(0);
   const auto axis = [](int k) -> Index { return k; };
-  const auto at = [](int i, int j, int k) -> Index {
-    return (Layers + 1) + (i % Around) + Around * ((j - 1) + Rings * k);
-  };
+  const auto at = [](int i, int j, int k) -> Index
+  { return (Layers + 1) + (i % Around) + Around * ((j - 1) + Rings * k); };
   mesh.points.resize((Layers + 1) * (1 + Around * Rings), 3);
   for (int k = 0; k <= Layers; ++k)
   {
@@ -111,17 +110,20 @@ TEST(HardMeshes, CollapsedHexahedraAreWedges)
   const Mesh collapsed = polar(false), wedges = polar(true);
   Monitor silent;
   EXPECT_EQ(boundaryFaces(collapsed, silent).nodes, boundaryFaces(wedges, silent).nodes);
-  EXPECT_EQ(boundaryFaces(collapsed, silent).cells.size(), boundaryFaces(wedges, silent).cells.size());
+  EXPECT_EQ(
+    boundaryFaces(collapsed, silent).cells.size(), boundaryFaces(wedges, silent).cells.size());
 
   meshes::ThreadedMonitor monitor;
   const Outcome result = morphOuter(collapsed, affine, monitor);
   Mesh expected = collapsed;
   meshes::transform(expected, affine);
-  EXPECT_LT((result.moved - expected.points).cwiseAbs().maxCoeff(), 1e-10 * meshes::size(collapsed.points));
+  EXPECT_LT(
+    (result.moved - expected.points).cwiseAbs().maxCoeff(), 1e-10 * meshes::size(collapsed.points));
   EXPECT_TRUE(monitor.warnings.empty());
 
   // A hexahedron's shape functions collapse to a wedge's: the same nodes for any motion.
-  const Outcome bent = morphOuter(collapsed, bend, monitor), same = morphOuter(wedges, bend, monitor);
+  const Outcome bent = morphOuter(collapsed, bend, monitor),
+                same = morphOuter(wedges, bend, monitor);
   EXPECT_LT(bent.trueResidual, 1e-9);
   EXPECT_LT((bent.moved - same.moved).cwiseAbs().maxCoeff(), 1e-2);
 }
@@ -183,7 +185,8 @@ TEST(HardMeshes, ManySliversConvergeAndTheResidualIsTrue)
       {
         continue;
       }
-      const Eigen::RowVector3d a = mesh.points.row(n[0]), b = mesh.points.row(n[1]), d = mesh.points.row(n[2]);
+      const Eigen::RowVector3d a = mesh.points.row(n[0]), b = mesh.points.row(n[1]),
+                               d = mesh.points.row(n[2]);
       mesh.points.row(n[3]) = (a + b + d) / 3 + height * (b - a).cross(d - a).normalized();
       for (int k = 0; k < 4; ++k)
       {
@@ -195,7 +198,8 @@ TEST(HardMeshes, ManySliversConvergeAndTheResidualIsTrue)
     EXPECT_TRUE(result.moved.allFinite()) << height;
     EXPECT_LT(result.report.iterations, 1000) << height; // 640 at 1e-6, where they are stiffest
     // What is reported is what x really leaves, and where it is above the tolerance a warning says so.
-    EXPECT_NEAR(std::log10(result.report.relativeResidual), std::log10(result.trueResidual), 1) << height;
+    EXPECT_NEAR(std::log10(result.report.relativeResidual), std::log10(result.trueResidual), 1)
+      << height;
     if (result.trueResidual > 2e-9)
     {
       EXPECT_NE(monitor.warnings.back().find("Rounding"), std::string::npos) << height;

@@ -67,9 +67,8 @@ TEST(Topology, BoundaryFacesCloseAndPointOutward)
     for (std::size_t f = 0; f < faces.cells.size(); ++f)
     {
       const Index first = faces.offsets[f], size = faces.offsets[f + 1] - first;
-      const auto at = [&, &m = mesh](Index k) {
-        return Eigen::RowVector3d(m.points.row(faces.connectivity[first + k]));
-      };
+      const auto at = [&, &m = mesh](Index k)
+      { return Eigen::RowVector3d(m.points.row(faces.connectivity[first + k])); };
       for (Index k = 1; k + 1 < size; ++k)
       {
         const Eigen::RowVector3d normal = (at(k) - at(0)).cross(at(k + 1) - at(0)) / 2;
@@ -239,8 +238,17 @@ TEST(Mesh, ValidateNamesWhatIsWrong)
 TEST(NodePartition, NamesWrongAndRepeatedIds)
 {
   const Mesh mesh = meshes::hexes(2, 2, 2);
-  EXPECT_NE(messageOf([&] { partitionNodes(mesh, { 0, -3, 27 }); }).find("-3, 27"), std::string::npos);
-  EXPECT_NE(messageOf([&] { partitionNodes(mesh, { 4, 1, 4 }); }).find("more than once: 4"),
+  EXPECT_NE(messageOf(
+              [&] {
+                partitionNodes(mesh, { 0, -3, 27 });
+              })
+              .find("-3, 27"),
+    std::string::npos);
+  EXPECT_NE(messageOf(
+              [&] {
+                partitionNodes(mesh, { 4, 1, 4 });
+              })
+              .find("more than once: 4"),
     std::string::npos);
 }
 

@@ -87,6 +87,44 @@ class Routes(unittest.TestCase):
         np.testing.assert_allclose(array(morph, "MorphDisplacement"), expected - self.rest,
                                    atol=2e-6 * self.size)
 
+    def test_every_method_goes_this_way(self):
+        boundary = ExtractMorphBoundary(Input=self.grid)
+        moved = Transform(Input=boundary)
+        moved.Transform.Rotate = [0, 0, 30]
+        moved.Transform.Scale = [1, 2, 1]
+        bent = Calculator(Input=boundary, CoordinateResults=1,
+                          Function="coords + 0.02*RestPosition_Z*RestPosition_Z*iHat")
+        expected = (self.rest * [1, 2, 1]) @ rotation(30).T
+        outer = ((self.rest == self.rest.min(axis=0)) | (self.rest == self.rest.max(axis=0))).any(axis=1)
+        for method in (MorphFEMWARP, MorphLBWARP, MorphSimplexLinear, MorphSimplexNaturalNeighbor,
+                       MorphWeightedResidual):
+            with self.subTest(method=method.__name__):
+                morph = method(Input=self.grid, Boundary=moved)
+                self.assertMoved(morph, expected)
+                morph.Boundary = bent
+                target = self.rest.copy()
+                target[:, 0] += 0.02 * self.rest[:, 2] ** 2
+                found = points(morph)
+                np.testing.assert_allclose(found[outer], target[outer], atol=1e-5)
+                # Inside each method has its own answer, near that of the others.
+                self.assertLess(np.abs(found - target).max(), 0.5)
+                self.assertEqual(updated(morph).PrepareCount, 1)
+
+    def test_what_the_methods_count_is_in_the_panel(self):
+        moved = Transform(Input=ExtractMorphBoundary(Input=self.grid))
+        moved.Transform.Translate = [1, 0, 0]
+        linear = updated(MorphSimplexLinear(Input=self.grid, Boundary=moved))
+        for name in ("FoldedTetrahedra", "BridgingTetrahedra", "ExtrapolatedNodes"):
+            self.assertEqual(getattr(linear, name), 0, name)
+        natural = updated(MorphSimplexNaturalNeighbor(Input=self.grid, Boundary=moved))
+        self.assertEqual(natural.WeightsStored, 1)
+        self.assertEqual(natural.Coordinates, "Sibson")
+        with Messages() as messages:
+            natural.MemoryLimit = 1e-4
+            updated(natural)
+        self.assertEqual(messages.text.count("memory limit"), 1, messages.text)
+        self.assertEqual(natural.WeightsStored, 0)
+
     def test_dragging_prepares_once(self):
         moved = Transform(Input=ExtractMorphBoundary(Input=self.grid))
         morph = MorphFEMWARP(Input=self.grid, Boundary=moved)

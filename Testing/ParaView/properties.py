@@ -59,11 +59,14 @@ def same(value, text):
 class Properties(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        grid = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])])
+        wavelet = simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])
+        # Some properties choose among cell arrays.
+        grid = simple.GenerateIds(Input=simple.AppendDatasets(Input=[wavelet]))
         boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid),
                                      Function="iHat*coordsX*0.1", ResultArrayName="Shift")
         boundary.UpdatePipeline()
-        cls.inputs = {"Input": grid, "Boundary": boundary}
+        target = ExtractMorphBoundary(Input=grid)
+        cls.inputs = {"Input": grid, "Boundary": boundary, "Target": target}
 
     def create(self, xml):
         names = [p.get("name") for p in xml.iter("InputProperty")]

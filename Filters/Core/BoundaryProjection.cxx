@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryProjection.h"
+
+#include "FaceQuality.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace morph
+{
+ProjectionTarget::~ProjectionTarget() = default;
+
+namespace
+{
+std::vector<Index> nodesIn(const BoundaryMotion& motion, BoundaryMotion::State state)
+{
+  std::vector<Index> ids;
+  for (std::size_t n = 0; n < motion.state.size(); ++n)
+  {
+    if (motion.state[n] == state)
+    {
+      ids.push_back(static_cast<Index>(n));
+    }
+  }
+  return ids;
+}
+
+/// Tries search(node, position, found) for each id; where it succeeds the node goes there.
+template <typename Search>
+ProjectionReport moveTo(
+  const std::vector<Index>& ids, const Search& search, BoundaryMotion& motion, Monitor& monitor)
+{
+  const Points before = motion.moved();
+  std::vector<std::uint8_t> found(ids.size(), 0);
+  monitor.parallelFor(static_cast<Index>(ids.size()), 256,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        Eigen::RowVector3d to;
+        if (search(ids[i], Eigen::RowVector3d(before.row(ids[i])), to) && to.allFinite())
+        {
+          motion.displacement.row(ids[i]) = to - motion.rest.row(ids[i]);
+          found[i] = 1;
+        }
+      }
+    });
+  monitor.check();
+  ProjectionReport report;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    (found[i] ? report.projected : report.missed).push_back(ids[i]);
+  }
+  return report;
+}
+
+/// Takes those of `nodes` that are projected back to `before`; returns whether any was.
+bool takeBack(const std::vector<Index>& nodes, const Points& before, ProjectionReport& report,
+  BoundaryMotion& motion)
+{
+  std::vector<Index> back;
+  for (Index node : nodes)
+  {
+    if (std::binary_search(report.projected.begin(), report.projected.end(), node))
+    {
+      back.push_back(node);
+    }
+  }
+  std::sort(back.begin(), back.end());
+  back.erase(std::unique(back.begin(), back.end()), back.end());
+  for (Index node : back)
+  {
+    motion.displacement.row(node) = before.row(node);
+    report.projected.erase(
+      std::lower_bound(report.projected.begin(), report.projected.end(), node));
+  }
+  report.kept.insert(report.kept.end(), back.begin(), back.end());
+  std::sort(report.kept.begin(), report.kept.end());
+  return !back.empty();
+}
+}
+
+namespace
+{
+/// Enough for folds some tens of faces across to open; a round costs little beside the projection.
+constexpr int RelaxationRounds = 100;
+
+/// Spreads projected nodes out where faces fold.
+class Relaxation
+{
+public:
+  Relaxation(const BoundaryFaces& faces, const Classification& geometry,
+    const ProjectionTarget& target, const Points& normals, BoundaryMotion& motion, Monitor& monitor)
+    : faces_(faces)
+    , geometry_(geometry)
+    , target_(target)
+    , normals_(normals)
+    , motion_(motion)
+    , monitor_(monitor)
+    , wasMoved_(motion.state.size(), 0)
+  {
+    for (const auto& [a, b] : geometry.edges.nodes)
+    {
+      this->pairs_.emplace_back(a, b);
+      this->pairs_.emplace_back(b, a);
+    }
+    std::sort(this->pairs_.begin(), this->pairs_.end());
+  }
+
+  /// Moves those of `nodes` and their neighbors that are projected to the place on the target nearest to the mean of
+  /// their neighbors, all at once.
+  void round(const std::vector<Index>& nodes, const std::vector<Index>& projected)
+  {
+    std::vector<Index> around = nodes;
+    for (Index node : nodes)
+    {
+      this->eachNeighbor(node, [&](Index other) { around.push_back(other); });
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::vector<Index> moving;
+    std::set_intersection(
+      around.begin(), around.end(), projected.begin(), projected.end(), std::back_inserter(moving));
+    const Points now = this->motion_.moved();
+    this->place(moving,
+      [&](Index node)
+      {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        Index count = 0;
+        this->eachNeighbor(node,
+          [&](Index other)
+          {
+            sum += now.row(other);
+            ++count;
+          });
+        return Eigen::RowVector3d(sum / static_cast<double>(count));
+      });
+  }
+
+  /// Brings projected mid-side and face nodes back between their corners where those were moved.
+  void finish(const std::vector<Index>& projected)
+  {
+    std::vector<Index> moving;
+    for (Index node : projected)
+    {
+      const auto [first, last] = this->between(node);
+      if (std::any_of(first, last, [&](Index corner) { return this->wasMoved_[corner]; }))
+      {
+        moving.push_back(node);
+      }
+    }
+    const Points now = this->motion_.moved();
+    this->place(moving,
+      [&](Index node)
+      {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        const auto [first, last] = this->between(node);
+        std::for_each(first, last, [&](Index corner) { sum += now.row(corner); });
+        return Eigen::RowVector3d(sum / static_cast<double>(last - first));
+      });
+  }
+
+private:
+  template <typename Visit>
+  void eachNeighbor(Index node, const Visit& visit) const
+  {
+    for (auto p = std::lower_bound(
+           this->pairs_.begin(), this->pairs_.end(), std::pair<Index, Index>(node, -1));
+         p != this->pairs_.end() && p->first == node; ++p)
+    {
+      visit(p->second);
+    }
+  }
+
+  std::pair<const Index*, const Index*> between(Index node) const
+  {
+    const Index i = std::lower_bound(this->faces_.nodes.begin(), this->faces_.nodes.end(), node) -
+                    this->faces_.nodes.begin();
+    return { this->faces_.between.begin(i), this->faces_.between.end(i) };
+  }
+
+  template <typename Wanted>
+  void place(const std::vector<Index>& nodes, const Wanted& wanted)
+  {
+    this->monitor_.parallelFor(static_cast<Index>(nodes.size()), 64,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          const Index node = nodes[i];
+          Eigen::RowVector3d to;
+          if (this->target_.closestOnSurface(
+                this->geometry_.entity[node], wanted(node), this->normals_.row(node), to) &&
+              to.allFinite())
+          {
+            this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
+            this->wasMoved_[node] = 1;
+          }
+        }
+      });
+  }
+
+  const BoundaryFaces& faces_;
+  const Classification& geometry_;
+  const ProjectionTarget& target_;
+  const Points& normals_;
+  BoundaryMotion& motion_;
+  Monitor& monitor_;
+  std::vector<std::uint8_t> wasMoved_;
+  std::vector<std::pair<Index, Index>> pairs_; ///< corners that share an edge, both ways
+};
+}
+
+ProjectionReport projectCurves(const Classification& geometry, const ProjectionTarget& target,
+  BoundaryMotion& motion, Monitor& monitor)
+{
+  const Points displacement = motion.displacement, moved = motion.moved();
+  ProjectionReport report = moveTo(
+    nodesIn(motion, BoundaryMotion::OnCurve),
+    [&](Index, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
+    { return target.closestOnFeatures(x, y); },
+    motion, monitor);
+  std::vector<Index> turned;
+  do
+  {
+    turned.clear();
+    const Points now = motion.moved();
+    for (const GeometryCurve& curve : geometry.curves)
+    {
+      const std::size_t n = curve.nodes.size(), pieces = curve.loop ? n : n - 1;
+      for (std::size_t i = 0; i < pieces; ++i)
+      {
+        const Index a = curve.nodes[i], b = curve.nodes[(i + 1) % n];
+        const Eigen::RowVector3d was = moved.row(b) - moved.row(a), is = now.row(b) - now.row(a);
+        if (!(was.dot(is) > 0) && !was.isZero(0))
+        {
+          turned.insert(turned.end(), { a, b });
+        }
+      }
+    }
+  } while (takeBack(turned, displacement, report, motion));
+  return report;
+}
+
+ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+  const ProjectionTarget& target, BoundaryMotion& motion, Monitor& monitor)
+{
+  const Points displacement = motion.displacement, moved = motion.moved();
+  const std::vector<Index> foldedBefore = faceQuality(motion.rest, moved, faces, geometry).folded;
+  const Points normals = surfaceNodeNormals(moved, faces, geometry);
+  ProjectionReport report = moveTo(
+    nodesIn(motion, BoundaryMotion::OnSurface),
+    [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
+    { return target.closestOnSurface(geometry.entity[node], x, normals.row(node), y); },
+    motion, monitor);
+  const auto folding = [&]
+  {
+    std::vector<Index> nodes;
+    for (Index f : faceQuality(motion.rest, motion.moved(), faces, geometry).folded)
+    {
+      if (!std::binary_search(foldedBefore.begin(), foldedBefore.end(), f))
+      {
+        nodes.insert(nodes.end(), faces.connectivity.begin() + faces.offsets[f],
+          faces.connectivity.begin() + faces.offsets[f + 1]);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    monitor.check();
+    return nodes;
+  };
+  std::vector<Index> nodes = folding();
+  if (!nodes.empty())
+  {
+    Relaxation relaxation(faces, geometry, target, normals, motion, monitor);
+    for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
+    {
+      relaxation.round(nodes, report.projected);
+      nodes = folding();
+    }
+    relaxation.finish(report.projected);
+  }
+  while (takeBack(nodes, displacement, report, motion))
+  {
+    nodes = folding();
+  }
+  return report;
+}
+
+Points surfaceNodeNormals(
+  const ConstPoints& points, const BoundaryFaces& faces, const Classification& geometry)
+{
+  Points normal = Points::Zero(points.rows(), 3),
+         area(static_cast<Index>(faces.offsets.size()) - 1, 3);
+  for (Index f = 0; f < area.rows(); ++f)
+  {
+    const Index* nodes = faces.connectivity.data() + faces.offsets[f];
+    const Index size = faces.offsets[f + 1] - faces.offsets[f];
+    area.row(f) = vectorArea(points, nodes, size);
+    for (Index k = 0; k < size; ++k)
+    {
+      if (geometry.dimension[nodes[k]] == 2)
+      {
+        normal.row(nodes[k]) += area.row(f);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index k = static_cast<Index>(i), node = faces.nodes[i];
+    if (geometry.dimension[node] != 2)
+    {
+      continue;
+    }
+    const Index* corners = faces.between.begin(k);
+    for (const Index* corner = corners; corner != faces.between.end(k); ++corner)
+    {
+      const Index e = geometry.edges.find(corners[0], *corner);
+      const Adjacency& at = geometry.edges.faces;
+      for (const Index* f = e < 0 ? nullptr : at.begin(e); f && f != at.end(e); ++f)
+      {
+        if (geometry.surfaceOfFace[*f] == geometry.entity[node])
+        {
+          normal.row(node) += area.row(*f);
+        }
+      }
+    }
+    normal.row(node).normalize();
+  }
+  return normal;
+}
+}

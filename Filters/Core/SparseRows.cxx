@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SparseRows.h"
+
+#include "Error.h"
+
+#include <limits>
+#include <numeric>
+
+namespace morph
+{
+void openRows(SparseMatrix& matrix, Index width, const std::vector<int>& sizes)
+{
+  const Index entries = std::accumulate(sizes.begin(), sizes.end(), Index(0));
+  if (entries > std::numeric_limits<int>::max())
+  {
+    throw Error("The mesh is too large: its matrix has " + std::to_string(entries) +
+                " entries, more than the solver can number (2^31 - 1).");
+  }
+  matrix.resize(static_cast<Index>(sizes.size()) - 1, width);
+  std::partial_sum(sizes.begin(), sizes.end(), matrix.outerIndexPtr());
+  matrix.resizeNonZeros(entries);
+}
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceMorph.h"
+
+#include "MotionFit.h"
+#include "SurfaceLoops.h"
+#include "SurfaceResidual.h"
+#include "SurfaceSmoothing.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace morph
+{
+namespace
+{
+Points rows(const Points& all, const std::vector<Index>& ids)
+{
+  Points some(static_cast<Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    some.row(static_cast<Index>(i)) = all.row(ids[i]);
+  }
+  return some;
+}
+
+/// The loops round a surface as rows in `fixed`; none where a loop's node is not fixed.
+SurfaceResidual::Loops loopRows(
+  const BoundaryFaces& faces, const std::vector<Index>& faceIds, const std::vector<Index>& fixed)
+{
+  SurfaceResidual::Loops loops = boundaryLoops(faces, faceIds);
+  for (std::vector<Index>& loop : loops)
+  {
+    for (Index& node : loop)
+    {
+      const auto place = std::lower_bound(fixed.begin(), fixed.end(), node);
+      if (place == fixed.end() || *place != node)
+      {
+        return {};
+      }
+      node = place - fixed.begin();
+    }
+  }
+  return loops;
+}
+
+/// Returns whether the affine map had to be replaced.
+bool moveByResidual(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
+  const std::vector<Index>& fixed, const std::vector<Index>& free, Index neighbors,
+  BoundaryMotion& motion, Monitor& monitor)
+{
+  const Points prescribed = rows(motion.rest, fixed);
+  const Points target = prescribed + rows(motion.displacement, fixed);
+  SurfaceResidual residual;
+  residual.setNumberOfNeighbors(neighbors);
+  residual.prepare(prescribed, rows(motion.rest, free), loopRows(faces, faceIds, fixed), monitor);
+  Points moved;
+  const bool replaced = residual.evaluate(target, moved, monitor).replaced();
+  for (std::size_t i = 0; i < free.size(); ++i)
+  {
+    motion.displacement.row(free[i]) = moved.row(static_cast<Index>(i)) - motion.rest.row(free[i]);
+  }
+  return replaced;
+}
+}
+
+SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+  const SurfaceMorphOptions& options, BoundaryMotion& motion, Monitor& monitor)
+{
+  SurfaceMorphReport report;
+  const std::vector<Index> known = motion.known();
+  const double count = static_cast<double>(geometry.surfaces.size());
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    const GeometrySurface& surface = geometry.surfaces[s];
+    std::vector<Index> fixed, free;
+    for (Index node : surface.nodes)
+    {
+      (motion.state[node] != BoundaryMotion::Unknown ? fixed : free).push_back(node);
+    }
+    const bool moves = std::any_of(fixed.begin(), fixed.end(),
+      [&](Index node) { return !motion.displacement.row(node).isZero(0); });
+    if (fixed.empty())
+    {
+      std::vector<std::vector<Index>> sets(2, known);
+      const Index body = motion.bodyOfNode[faces.connectivity[faces.offsets[surface.faces[0]]]];
+      sets[0].erase(std::remove_if(sets[0].begin(), sets[0].end(),
+                      [&](Index node) { return motion.bodyOfNode[node] != body; }),
+        sets[0].end());
+      follow(spanningSet(motion.rest, free, sets), free, options.unattached, motion);
+      report.unattached.push_back(static_cast<Index>(s));
+    }
+    else if (moves && !free.empty())
+    {
+      if (options.method == SurfaceMorphOptions::Method::Smoothing)
+      {
+        smoothSurface(faces, surface.faces, fixed, free, motion, monitor);
+      }
+      else if (moveByResidual(
+                 faces, surface.faces, fixed, free, options.neighbors, motion, monitor))
+      {
+        report.reflected.push_back(static_cast<Index>(s));
+      }
+    }
+    for (Index node : free)
+    {
+      motion.state[node] = BoundaryMotion::OnSurface;
+    }
+    monitor.check();
+    monitor.progress(static_cast<double>(s + 1) / count);
+  }
+  return report;
+}
+}

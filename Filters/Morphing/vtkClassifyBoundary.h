@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkClassifyBoundary
+ * @brief   which vertex, curve or surface of the model owns each boundary node of a mesh
+ *
+ * Morphing in order (vertices, then curves, then surfaces, then volumes) has to know to which
+ * geometry each node belongs. This filter finds it on any volume mesh, from the angles between its
+ * boundary faces or from ids that the grid brings along.
+ *
+ * - Surfaces are patches of boundary faces: neighbors that turn by no more than FeatureAngle are in
+ *   one patch, so that a curved wall is one surface. With SurfaceIdArray, or the point arrays
+ *   GeometryDimension and GeometryId, they are what those say.
+ * - Curves are where surfaces meet, where other than two faces meet, and features that end inside a
+ *   surface; they are ordered chains from vertex to vertex, with a parameter in [0, 1] by arc
+ *   length (or as CurveParameter says).
+ * - Vertices are where curves end or meet, turn by more than CornerAngle, or change the surfaces
+ *   beside them. Closed curves without a vertex and closed surfaces without a curve occur.
+ *
+ * Output port 0 is the input with the point arrays
+ * - `GeometryDimension` (signed char): 0 vertex, 1 curve, 2 surface, 3 volume, -1 in no volume
+ *   cell;
+ * - `GeometryId` (vtkIdType): of that vertex, curve or surface, as given, or counted from 0 in the
+ *   order of their lowest node ids; of a volume node, the number of its body;
+ * - `CurveParameter` (double): in [0, 1] where the dimension is 1, 0 elsewhere.
+ *
+ * Port 1 is the boundary as vtkExtractMorphBoundary writes it, with these point arrays and the cell
+ * array `GeometryId`, the id of the face's surface. Port 2 are the vertices and curves as polygonal
+ * data, with the cell arrays `GeometryDimension` and `GeometryId`. Mid-side and face nodes of
+ * quadratic cells belong to the edge or face they are in the middle of.
+ *
+ * Errors, with empty outputs: composite data (use Merge Blocks first), no volume cells, cells that
+ * a morph does not support, coordinates that are not finite, arrays of the wrong type or length or
+ * that contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives
+ * empty outputs and no message. With several MPI processes an execution is collective. Cost: a
+ * pass over the cells, and a sort of the boundary's edges.
+ *
+ * M. L. Staten et al., "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", Proc.
+ * 20th Int. Meshing Roundtable (2011) 293-311.
+ *
+ * @sa vtkExtractMorphBoundary vtkMorphAlgorithm vtkFeatureEdges
+ */
+#ifndef vtkClassifyBoundary_h
+#define vtkClassifyBoundary_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkUnstructuredGridAlgorithm.h>
+
+class vtkMorphMonitor;
+class vtkPolyData;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkClassifyBoundary
+  : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkClassifyBoundary* New();
+  vtkTypeMacro(vtkClassifyBoundary, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The boundary with its surface ids (port 1), and the vertices and curves (port 2).
+   */
+  vtkPolyData* GetSurfaces();
+  vtkPolyData* GetCurves();
+  ///@}
+
+  ///@{
+  /**
+   * Neighboring boundary faces whose normals turn by more than this lie on different surfaces.
+   * Degrees, default 25, range [0, 180].
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * A curve that turns by more than this at a node has a vertex there. Degrees, default 45, range
+   * [0, 180].
+   */
+  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a cell array of one component with whole numbers: the surface ids. A boundary face
+   * takes that of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets,
+   * after Merge Blocks); in a grid without two-dimensional cells, of the volume cell behind it.
+   * Faces that no two-dimensional cell lies on are grouped by FeatureAngle. Takes precedence over
+   * UseGeometryArrays. Empty or "None": none. Default: none.
+   */
+  vtkSetStringMacro(SurfaceIdArray);
+  vtkGetStringMacro(SurfaceIdArray);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the point arrays GeometryDimension and GeometryId, where the input has them, say which
+   * geometry owns each boundary node, and CurveParameter its place on a curve. Default on.
+   */
+  vtkSetMacro(UseGeometryArrays, bool);
+  vtkGetMacro(UseGeometryArrays, bool);
+  vtkBooleanMacro(UseGeometryArrays, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether FeatureAngle applies inside surfaces whose ids are given, too, and parts them. Default
+   * off.
+   */
+  vtkSetMacro(FeaturesInside, bool);
+  vtkGetMacro(FeaturesInside, bool);
+  vtkBooleanMacro(FeaturesInside, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to search with. 0 means all cores. The result does not depend on it. Default 0, range
+   * [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many there were in the last execution. Surfaces and curves of one given id that do not hang
+   * together count each.
+   */
+  vtkGetMacro(NumberOfVertices, vtkIdType);
+  vtkGetMacro(NumberOfCurves, vtkIdType);
+  vtkGetMacro(NumberOfSurfaces, vtkIdType);
+  ///@}
+
+protected:
+  vtkClassifyBoundary();
+  ~vtkClassifyBoundary() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkClassifyBoundary(const vtkClassifyBoundary&) = delete;
+  void operator=(const vtkClassifyBoundary&) = delete;
+
+  void Classify(
+    vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
+  void Clear(vtkInformationVector* outputVector);
+
+  double FeatureAngle = 25;
+  double CornerAngle = 45;
+  char* SurfaceIdArray = nullptr;
+  bool UseGeometryArrays = true;
+  bool FeaturesInside = false;
+  int NumberOfThreads = 0;
+  vtkIdType NumberOfVertices = 0;
+  vtkIdType NumberOfCurves = 0;
+  vtkIdType NumberOfSurfaces = 0;
+};
+
+#endif

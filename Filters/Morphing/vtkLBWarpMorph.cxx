@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLBWarpMorph.h"
+
+#include "LogBarrierWarp.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkLBWarpMorph);
+
+vtkLBWarpMorph::vtkLBWarpMorph() = default;
+vtkLBWarpMorph::~vtkLBWarpMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
+{
+  auto morpher = std::make_unique<morph::LogBarrierWarp>();
+  morpher->setOutsideHull(this->OutsideHull == RELAX_OUTSIDE_HULL
+                            ? morph::LogBarrierWarp::OutsideHull::Relax
+                            : morph::LogBarrierWarp::OutsideHull::Error);
+  return morpher;
+}
+
+std::string vtkLBWarpMorph::PrepareOptions()
+{
+  return this->OutsideHull == RELAX_OUTSIDE_HULL ? "Relax" : "Error";
+}
+
+void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
+{
+  static_cast<morph::LogBarrierWarp&>(morpher).setTolerance(this->Tolerance);
+}
+
+void vtkLBWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "OutsideHull: " << this->OutsideHull << "\n";
+}

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphBoundary.h"
+
+#include "CurveMorph.h"
+#include "Error.h"
+#include "FaceQuality.h"
+#include "SurfaceMorph.h"
+#include "Topology.h"
+#include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphGeometry.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphOutput.h"
+#include "vtkMorphSurface.h"
+#include "vtkMorphTarget.h"
+#include "vtkMorphTime.h"
+
+#include <vtkCellData.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <limits>
+
+vtkStandardNewMacro(vtkMorphBoundary);
+
+struct vtkMorphBoundary::vtkInternals
+{
+  vtkMorphTime Time;
+};
+
+namespace
+{
+using morph::Index;
+
+/// The nodes of `match` whose geometry has at most `dimension`.
+vtkMorphBoundaryMatch::Result upTo(
+  const vtkMorphBoundaryMatch::Result& match, const morph::Classification& geometry, int dimension)
+{
+  vtkMorphBoundaryMatch::Result result;
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < match.Ids.size(); ++i)
+  {
+    const int own = geometry.dimension[match.Ids[i]];
+    if (own >= 0 && own <= dimension)
+    {
+      result.Ids.push_back(match.Ids[i]);
+      rows.push_back(static_cast<Index>(i));
+    }
+  }
+  result.Targets.resize(static_cast<Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    result.Targets.row(static_cast<Index>(i)) = match.Targets.row(rows[i]);
+  }
+  if (rows.empty())
+  {
+    const char* what = dimension == 0   ? "vertex"
+                       : dimension == 1 ? "vertex or curve"
+                                        : "vertex, curve or surface";
+    throw morph::Error("None of the " + std::to_string(match.Ids.size()) +
+                       " nodes that the boundary names is on a " + what + " of the mesh (it has " +
+                       std::to_string(geometry.vertices.size()) + " vertices, " +
+                       std::to_string(geometry.curves.size()) + " curves and " +
+                       std::to_string(geometry.surfaces.size()) +
+                       " surfaces). Raise PrescribedDimension, lower FeatureAngle, or name other "
+                       "nodes.");
+  }
+  return result;
+}
+
+template <typename Array, typename Value>
+vtkSmartPointer<Array> makeArray(const char* name, const morph::Points& rows)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(rows.rows());
+  std::transform(rows.data(), rows.data() + rows.size(), array->GetPointer(0),
+    [](double value) { return static_cast<Value>(value); });
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> makeArray(const char* name, const morph::Points& rows, bool isFloat)
+{
+  if (isFloat)
+  {
+    return makeArray<vtkFloatArray, float>(name, rows);
+  }
+  return makeArray<vtkDoubleArray, double>(name, rows);
+}
+
+morph::Points rowsOf(const morph::Points& all, const std::vector<Index>& ids)
+{
+  morph::Points some(static_cast<Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    some.row(static_cast<Index>(i)) = all.row(ids[i]);
+  }
+  return some;
+}
+
+void writeMotion(const morph::Points& rest, const morph::Points& moved,
+  const std::vector<Index>& nodes, bool isFloat, vtkPolyData* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetData(makeArray("Points", rowsOf(moved, nodes), isFloat));
+  output->SetPoints(points);
+  output->GetPointData()->AddArray(
+    makeArray("MorphDisplacement", rowsOf(moved, nodes) - rowsOf(rest, nodes), isFloat));
+  output->GetPointData()->SetActiveVectors("MorphDisplacement");
+}
+
+/// Returns the output's cell ids of the folded faces.
+std::vector<Index> writeQuality(
+  const morph::FaceQuality& quality, const std::vector<Index>& faceOf, vtkPolyData* output)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("ScaledJacobian");
+  std::vector<Index> folded;
+  for (std::size_t cell = 0; cell < faceOf.size(); ++cell)
+  {
+    const double value = quality.scaledJacobian[faceOf[cell]];
+    values->InsertNextValue(value);
+    if (value <= 0)
+    {
+      folded.push_back(static_cast<Index>(cell));
+    }
+  }
+  output->GetCellData()->AddArray(values);
+  output->GetCellData()->SetActiveScalars("ScaledJacobian");
+  // Viewers would color by a point array that is active.
+  output->GetPointData()->SetActiveScalars(nullptr);
+  vtkMorphOutput::AddField(output, "MinScaledJacobian", quality.minimum);
+  vtkMorphOutput::AddField(output, "MeanScaledJacobian", quality.mean);
+  vtkMorphOutput::AddField(output, "FoldedFaces", static_cast<int>(quality.folded.size()));
+  return folded;
+}
+
+void warnOfNodes(morph::Monitor& monitor, const std::vector<Index>& nodes, const char* text)
+{
+  if (!nodes.empty())
+  {
+    monitor.warn(text + morph::listIds(nodes) + ".");
+  }
+}
+}
+
+vtkMorphBoundary::vtkMorphBoundary()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(3);
+  this->ResetResults();
+}
+
+vtkMorphBoundary::~vtkMorphBoundary()
+{
+  this->SetSurfaceIdArray(nullptr);
+  this->SetBoundaryIdArray(nullptr);
+  this->SetDisplacementArray(nullptr);
+}
+
+void vtkMorphBoundary::SetBoundaryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkMorphBoundary::SetBoundaryData(vtkDataObject* boundary)
+{
+  this->SetInputDataObject(1, boundary);
+}
+
+void vtkMorphBoundary::SetTargetConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkMorphBoundary::SetTargetData(vtkDataObject* target)
+{
+  this->SetInputDataObject(2, target);
+}
+
+int vtkMorphBoundary::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port > 0)
+  {
+    // RequestData names moved nodes that are missing better than the executive does.
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMorphBoundary::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphBoundary::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
+    this->Internals->Time.Request(this->RestTime, upstream ? upstream->GetPipelineMTime() : 0,
+      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphBoundary::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+  vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  if (inputVector[1]->GetInformationObject(0))
+  {
+    input = this->Internals->Time.TakeRest(input, request);
+  }
+  if (!input)
+  {
+    return 1;
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->ResetResults();
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const auto morphBoundary = [&]
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
+    grid = vtkMorphInput::RequireGrid(input, "The input");
+    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    {
+      this->Morph(grid, boundary, target, output, monitor);
+    }
+  };
+  const auto clear = [&]
+  {
+    output->Initialize();
+    this->ResetResults();
+  };
+  const int done = vtkMorphExecution::Run(this, "morph this mesh's boundary", morphBoundary, clear);
+  // With an error too: they may explain it.
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  if (done)
+  {
+    vtkMorphTime::CopyDataTime(boundary, output);
+  }
+  return done;
+}
+
+void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkDataObject* target, vtkPolyData* output, vtkMorphMonitor& monitor)
+{
+  vtkPointSet* given = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPolyData* targetSurface =
+    target ? vtkMorphInput::RequirePolyData(target, "The target") : nullptr;
+  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
+  vtkMorphInput::RequireVolumeCells(mesh);
+  const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
+  monitor.SetRange(0.1, 0.2);
+  vtkMorphGeometry::Options options;
+  options.FeatureAngle = this->FeatureAngle;
+  options.CornerAngle = this->CornerAngle;
+  options.FeaturesInside = this->FeaturesInside;
+  options.SurfaceIdArray = vtkMorphInput::ArrayName(this->SurfaceIdArray);
+  options.UseGeometryArrays = this->UseGeometryArrays;
+  const morph::Classification geometry =
+    vtkMorphGeometry::Classify(grid, mesh, faces, options, monitor);
+
+  vtkMorphBoundaryMatch::Options matching;
+  matching.BoundaryIdArray = vtkMorphInput::ArrayName(this->BoundaryIdArray);
+  matching.DisplacementArray = vtkMorphInput::ArrayName(this->DisplacementArray);
+  matching.ScaleFactor = this->ScaleFactor;
+  matching.MatchTolerance = this->MatchTolerance;
+  matching.HoldUnnamedBoundary = false;
+  const double size = vtkMorphMesh::Size(mesh);
+  const vtkMorphBoundaryMatch::Result named =
+    vtkMorphBoundaryMatch::Match(given, mesh, faces, size, matching);
+  for (const std::string& warning : named.Warnings)
+  {
+    monitor.warn(warning);
+  }
+  const vtkMorphBoundaryMatch::Result match = upTo(named, geometry, this->PrescribedDimension);
+
+  morph::SurfaceMorphOptions how;
+  how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
+  how.neighbors = this->NumberOfNeighbors;
+  how.unattached = static_cast<morph::Unattached>(this->UnattachedMotion);
+  morph::BoundaryMotion motion =
+    morph::beginMotion(mesh, faces, geometry, match.Ids, match.Targets);
+  this->GivenPoints = static_cast<vtkIdType>(match.Ids.size());
+  this->HeldVertices = motion.count(morph::BoundaryMotion::Held);
+
+  monitor.SetRange(0.2, 0.3);
+  morph::morphCurves(geometry, how.unattached, motion, monitor);
+  std::unique_ptr<vtkMorphTarget> place;
+  morph::ProjectionReport onCurves, onSurfaces;
+  if (targetSurface)
+  {
+    monitor.SetRange(0.3, 0.4);
+    place = std::make_unique<vtkMorphTarget>(targetSurface, this->FeatureAngle,
+      this->ProjectionAngle, this->ProjectionDistance * size, monitor);
+    onCurves = morph::projectCurves(geometry, *place, motion, monitor);
+  }
+  monitor.SetRange(0.4, 0.7);
+  const morph::SurfaceMorphReport report =
+    morph::morphSurfaces(faces, geometry, how, motion, monitor);
+  if (place)
+  {
+    monitor.SetRange(0.7, 0.9);
+    const morph::Points moved = motion.moved();
+    place->Assign(geometry, moved);
+    place->Orient(moved, morph::surfaceNodeNormals(moved, faces, geometry));
+    onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
+    this->ReportProjection(onCurves, onSurfaces, *place, monitor);
+  }
+  monitor.SetRange(0.9, 1);
+
+  const bool isFloat = vtkMorphOutput::IsFloat(grid, this->OutputPointsPrecision);
+  morph::Points moved = motion.moved();
+  if (isFloat)
+  {
+    moved = moved.cast<float>().cast<double>().eval();
+  }
+  const std::vector<Index> faceOf = vtkMorphSurface::Write(grid, mesh, faces, output);
+  vtkMorphGeometry::AddPointArrays(geometry, faces.nodes, output->GetPointData());
+  vtkMorphGeometry::AddSurfaceIds(geometry, faceOf, output);
+  writeMotion(mesh.points, moved, faces.nodes, isFloat, output);
+
+  const morph::FaceQuality quality = morph::faceQuality(mesh.points, moved, faces, geometry);
+  const std::vector<Index> folded = writeQuality(quality, faceOf, output);
+  this->MinScaledJacobian = quality.minimum;
+  this->MeanScaledJacobian = quality.mean;
+  this->FoldedFaces = static_cast<vtkIdType>(quality.folded.size());
+  vtkMorphOutput::AddField(output, "ProjectedPoints", static_cast<int>(this->ProjectedPoints));
+  vtkMorphOutput::AddField(output, "UnprojectedPoints", static_cast<int>(this->UnprojectedPoints));
+  warnOfNodes(monitor, folded,
+    "Faces of the moved boundary are folded, and no cell behind them can be valid: the output's "
+    "cell ids ");
+  std::vector<Index> reflected;
+  for (Index s : report.reflected)
+  {
+    reflected.push_back(geometry.surfaces[s].id);
+  }
+  warnOfNodes(monitor, reflected,
+    "The curves' motion reflects or flattens surfaces, which follow the nearest rotation and scale "
+    "instead: surface ids ");
+}
+
+void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
+  const morph::ProjectionReport& onSurfaces, const vtkMorphTarget& target, vtkMorphMonitor& monitor)
+{
+  const auto both = [](const std::vector<Index>& a, const std::vector<Index>& b)
+  { return static_cast<vtkIdType>(a.size() + b.size()); };
+  this->ProjectedPoints = both(onCurves.projected, onSurfaces.projected);
+  this->UnprojectedPoints =
+    both(onCurves.missed, onCurves.kept) + both(onSurfaces.missed, onSurfaces.kept);
+  if (target.HasFeatures())
+  {
+    warnOfNodes(monitor, onCurves.missed,
+      "Curve nodes are not projected, since no feature edge of the target is within "
+      "ProjectionDistance: node ids ");
+  }
+  else
+  {
+    warnOfNodes(monitor, onCurves.missed,
+      "Curve nodes are not projected, since the target has no feature edges (lower FeatureAngle?): "
+      "node ids ");
+  }
+  warnOfNodes(monitor, onCurves.kept,
+    "Curve nodes are not projected, since their curve would turn back: node ids ");
+  warnOfNodes(monitor, onSurfaces.missed,
+    "Surface nodes are not projected, since the target has no place within ProjectionDistance "
+    "whose normal is within ProjectionAngle: node ids ");
+  warnOfNodes(
+    monitor, onSurfaces.kept, "Surface nodes are not projected, since faces would fold: node ids ");
+}
+
+void vtkMorphBoundary::ResetResults()
+{
+  this->MinScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  this->FoldedFaces = 0;
+  this->GivenPoints = 0;
+  this->HeldVertices = 0;
+  this->ProjectedPoints = 0;
+  this->UnprojectedPoints = 0;
+}
+
+void vtkMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  os << indent << "PrescribedDimension: " << this->PrescribedDimension << "\n";
+  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
+  os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
+  os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
+  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
+  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
+  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
+  os << indent << "FeaturesInside: " << this->FeaturesInside << "\n";
+  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
+  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
+  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
+  os << indent << "ProjectionDistance: " << this->ProjectionDistance << "\n";
+  os << indent << "ProjectionAngle: " << this->ProjectionAngle << "\n";
+  os << indent << "RestTime: " << this->RestTime << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
+  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
+  os << indent << "FoldedFaces: " << this->FoldedFaces << "\n";
+  os << indent << "GivenPoints: " << this->GivenPoints << "\n";
+  os << indent << "HeldVertices: " << this->HeldVertices << "\n";
+  os << indent << "ProjectedPoints: " << this->ProjectedPoints << "\n";
+  os << indent << "UnprojectedPoints: " << this->UnprojectedPoints << "\n";
+}

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMorphBoundary
+ * @brief   moves a mesh's boundary from its vertices or curves: curves first, then surfaces
+ *
+ * Where a changed shape is known at the vertices and curves of a model alone, this filter moves the
+ * rest of the boundary along, in the paper's order: vertices as given, then curves, then surfaces,
+ * each step with the nodes of lower dimension fixed. Its output is the displaced boundary that a
+ * morph filter takes on its port 1, which then moves the volume.
+ *
+ * - Curves: nodes keep their parameter between the given ones. On a straight curve displacements
+ *   are linear in the arc length; a curved one is carried along by the affine map nearest to the
+ *   motion around it, so affine motions come out exactly.
+ * - Surfaces: by weighted residual, the paper's equations (3) to (6) with NumberOfNeighbors nearest
+ *   nodes, or by Laplacian smoothing of the displacements.
+ * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
+ * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges, and
+ *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits
+ *   (on the one surface of the target that holds most of their surface's curve nodes, if there is
+ *   one). Given nodes and vertices are left where they are. Where faces fold thereby, nodes are
+ *   spread out on the target; where that does not help, they keep their unprojected position, and a
+ *   warning names them.
+ *
+ * Port 0 takes the mesh at rest (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
+ * finds it, whose output can be given here. Port 1 takes the moved nodes (vtkPointSet), matched to
+ * the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on geometry of a dimension up
+ * to PrescribedDimension are given; the others are ignored. Vertices that port 1 does not name are
+ * held in place. Port 2, optional, takes the target (vtkPolyData, an STL file for instance).
+ *
+ * The output is the boundary as vtkExtractMorphBoundary writes it, at its moved points, with the
+ * arrays of vtkClassifyBoundary, the point vectors `MorphDisplacement`, and the cell array
+ * `ScaledJacobian` (active scalars): the quality of the face, signed by its surface's normal as the
+ * motion carries it along; 1 is the ideal triangle or quad, and a face at or below 0 is folded. (A
+ * face of a quadratic cell is measured by its corners, and all its polygons have its value.) Field
+ * data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints, UnprojectedPoints. No
+ * motion gives the rest positions bit for bit.
+ *
+ * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime.
+ *
+ * Errors, with an empty output: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports; port
+ * 1 names no node of a dimension up to PrescribedDimension; a target without polygons. An execution
+ * that is aborted gives an empty output and no message. With several MPI processes an execution is
+ * collective. Cost: a search for the nearest
+ * curve nodes for each surface node, and a few in the target.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
+ * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
+ *
+ * @sa vtkClassifyBoundary vtkExtractMorphBoundary vtkMorphAlgorithm
+ */
+#ifndef vtkMorphBoundary_h
+#define vtkMorphBoundary_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkPolyDataAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+
+namespace morph
+{
+struct ProjectionReport;
+}
+
+class vtkDataObject;
+class vtkMorphMonitor;
+class vtkMorphTarget;
+class vtkUnstructuredGrid;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphBoundary : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkMorphBoundary* New();
+  vtkTypeMacro(vtkMorphBoundary, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The moved nodes (port 1) and the target surface (port 2): the same as SetInputConnection() and
+   * SetInputData() on those ports. A null target removes it.
+   */
+  void SetBoundaryConnection(vtkAlgorithmOutput* output);
+  void SetBoundaryData(vtkDataObject* boundary);
+  void SetTargetConnection(vtkAlgorithmOutput* output);
+  void SetTargetData(vtkDataObject* target);
+  ///@}
+
+  ///@{
+  /**
+   * Nodes that port 1 names are given where their geometry has at most this dimension: 0 vertices,
+   * 1 curves too, 2 surfaces too. Default 1.
+   */
+  vtkSetClampMacro(PrescribedDimension, int, 0, 2);
+  vtkGetMacro(PrescribedDimension, int);
+  ///@}
+
+  enum SurfaceMethods
+  {
+    WEIGHTED_RESIDUAL = 0,
+    SMOOTHING = 1
+  };
+  ///@{
+  /**
+   * How surfaces follow. Default WEIGHTED_RESIDUAL.
+   */
+  vtkSetClampMacro(SurfaceMethod, int, WEIGHTED_RESIDUAL, SMOOTHING);
+  vtkGetMacro(SurfaceMethod, int);
+  void SetSurfaceMethodToWeightedResidual() { this->SetSurfaceMethod(WEIGHTED_RESIDUAL); }
+  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SMOOTHING); }
+  ///@}
+
+  ///@{
+  /**
+   * How many of the nearest fixed nodes of its surface a node's residual is weighted from. Default
+   * 20, range [1, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfNeighbors, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfNeighbors, int);
+  ///@}
+
+  enum UnattachedMotions
+  {
+    FOLLOW_AFFINELY = 0,
+    FOLLOW_RIGIDLY = 1,
+    STAY = 2
+  };
+  ///@{
+  /**
+   * What closed curves without a vertex, and closed surfaces without a curve, do where nothing is
+   * given on them: follow the affine map nearest to the motion around them, or the rigid one, which
+   * keeps a round hole round, or stay. Default FOLLOW_AFFINELY.
+   */
+  vtkSetClampMacro(UnattachedMotion, int, FOLLOW_AFFINELY, STAY);
+  vtkGetMacro(UnattachedMotion, int);
+  void SetUnattachedMotionToFollowAffinely() { this->SetUnattachedMotion(FOLLOW_AFFINELY); }
+  void SetUnattachedMotionToFollowRigidly() { this->SetUnattachedMotion(FOLLOW_RIGIDLY); }
+  void SetUnattachedMotionToStay() { this->SetUnattachedMotion(STAY); }
+  ///@}
+
+  ///@{
+  /**
+   * How the geometry is found: see vtkClassifyBoundary. FeatureAngle is also that between the faces
+   * of the target.
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  vtkSetStringMacro(SurfaceIdArray);
+  vtkGetStringMacro(SurfaceIdArray);
+  vtkSetMacro(UseGeometryArrays, bool);
+  vtkGetMacro(UseGeometryArrays, bool);
+  vtkBooleanMacro(UseGeometryArrays, bool);
+  vtkSetMacro(FeaturesInside, bool);
+  vtkGetMacro(FeaturesInside, bool);
+  vtkBooleanMacro(FeaturesInside, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How port 1 is matched: see vtkMorphAlgorithm.
+   */
+  vtkSetStringMacro(BoundaryIdArray);
+  vtkGetStringMacro(BoundaryIdArray);
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  vtkSetMacro(ScaleFactor, double);
+  vtkGetMacro(ScaleFactor, double);
+  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  vtkGetMacro(MatchTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far a node may go to the target, in units of the diagonal of the bounding box of the volume
+   * cells' nodes. Default 0.1, range [0, 10].
+   */
+  vtkSetClampMacro(ProjectionDistance, double, 0.0, 10.0);
+  vtkGetMacro(ProjectionDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * By how much the normal of the target may differ from that of the moved surface where a node is
+   * projected: keeps nodes of a thin wall from the wall's other side. The target's normals may all
+   * point inwards. Degrees, default 60, range [0, 180].
+   */
+  vtkSetClampMacro(ProjectionAngle, double, 0.0, 180.0);
+  vtkGetMacro(ProjectionAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * The time at which port 0 is at rest; see vtkMorphAlgorithm. Default -1e300, so the first.
+   */
+  vtkSetMacro(RestTime, double);
+  vtkGetMacro(RestTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION for that of port 0 (double where that is neither). Default DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
+   * [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Quality of the moved faces as of the last execution: NaN and 0 where there was no result.
+   */
+  vtkGetMacro(MinScaledJacobian, double);
+  vtkGetMacro(MeanScaledJacobian, double);
+  vtkGetMacro(FoldedFaces, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: nodes that port 1 gave, vertices that it did not name and that were
+   * held, nodes that were projected to the target, and nodes that were to be and were not.
+   */
+  vtkGetMacro(GivenPoints, vtkIdType);
+  vtkGetMacro(HeldVertices, vtkIdType);
+  vtkGetMacro(ProjectedPoints, vtkIdType);
+  vtkGetMacro(UnprojectedPoints, vtkIdType);
+  ///@}
+
+protected:
+  vtkMorphBoundary();
+  ~vtkMorphBoundary() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkMorphBoundary(const vtkMorphBoundary&) = delete;
+  void operator=(const vtkMorphBoundary&) = delete;
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  void ResetResults();
+  void ReportProjection(const morph::ProjectionReport& onCurves,
+    const morph::ProjectionReport& onSurfaces, const vtkMorphTarget& target,
+    vtkMorphMonitor& monitor);
+  void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkDataObject* target,
+    vtkPolyData* output, vtkMorphMonitor& monitor);
+
+  int PrescribedDimension = 1;
+  int SurfaceMethod = WEIGHTED_RESIDUAL;
+  int NumberOfNeighbors = 20;
+  int UnattachedMotion = FOLLOW_AFFINELY;
+  double FeatureAngle = 25;
+  double CornerAngle = 45;
+  char* SurfaceIdArray = nullptr;
+  bool UseGeometryArrays = true;
+  bool FeaturesInside = false;
+  char* BoundaryIdArray = nullptr;
+  char* DisplacementArray = nullptr;
+  double ScaleFactor = 1;
+  double MatchTolerance = 1e-6;
+  double ProjectionDistance = 0.1;
+  double ProjectionAngle = 60;
+  double RestTime = -1e300;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  int NumberOfThreads = 0;
+
+  double MinScaledJacobian;
+  double MeanScaledJacobian;
+  vtkIdType FoldedFaces;
+  vtkIdType GivenPoints;
+  vtkIdType HeldVertices;
+  vtkIdType ProjectedPoints;
+  vtkIdType UnprojectedPoints;
+};
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphSurface_h
+#define vtkMorphSurface_h
+
+#include "Topology.h"
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+/// The outer boundary of a grid as polygons that remember their nodes.
+namespace vtkMorphSurface
+{
+/// Fills `output` with faces.nodes as points, at rest, and the faces as polygons, as
+/// vtkExtractMorphBoundary describes them: point arrays of the grid, MorphPointId and RestPosition,
+/// cell arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. Returns for each
+/// polygon the number of its face: a face of a quadratic cell becomes several polygons.
+std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, vtkPolyData* output);
+}
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSimplexLinearMorph.h"
+
+#include "SimplexLinear.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkSimplexLinearMorph);
+
+vtkSimplexLinearMorph::vtkSimplexLinearMorph() = default;
+vtkSimplexLinearMorph::~vtkSimplexLinearMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkSimplexLinearMorph::CreateMorpher()
+{
+  return std::make_unique<morph::SimplexLinear>();
+}
+
+void vtkSimplexLinearMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

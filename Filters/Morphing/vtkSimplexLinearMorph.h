@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSimplexLinearMorph
+ * @brief   morphs a mesh by linear interpolation in tetrahedra between its boundary nodes
+ *
+ * A Delaunay tessellation of the prescribed nodes alone is deformed with them and carries each node
+ * inside along by its barycentric coordinates in the tetrahedron that contains it (equation (7) of
+ * Staten et al.). The fastest method: one search, then four weights a node. Affine motions of the
+ * boundary are reproduced exactly. The mesh's cells are not looked at, so any volume mesh will do,
+ * and bodies need not hang together.
+ *
+ * Where the mesh is not convex tetrahedra span its holes, slots and gaps and couple the walls that
+ * face each other there: BridgingTetrahedra counts those with nodes in them. Where the motion turns
+ * tetrahedra inside out, which FoldedTetrahedra counts, cells in them are inverted.
+ *
+ * On structured meshes many sets of boundary nodes lie on one sphere, and the tessellation is not
+ * unique. Coordinates alone decide: renumbering the nodes changes nothing, turning the mesh may
+ * give other tetrahedra.
+ *
+ * It is an error if all prescribed nodes lie in one plane. Memory: 56 bytes a node inside, and some
+ * 300 a prescribed node.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
+ * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311,
+ * section 3.3.
+ *
+ * @sa vtkMorphAlgorithm vtkSimplexNaturalNeighborMorph vtkExtractMorphBoundary
+ */
+#ifndef vtkSimplexLinearMorph_h
+#define vtkSimplexLinearMorph_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+#include "vtkMorphAlgorithm.h"
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkSimplexLinearMorph : public vtkMorphAlgorithm
+{
+public:
+  static vtkSimplexLinearMorph* New();
+  vtkTypeMacro(vtkSimplexLinearMorph, vtkMorphAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * As of the last execution: tetrahedra with nodes in them that have no positive volume after the
+   * motion; those with an edge that leaves the mesh; and nodes outside the prescribed nodes' convex
+   * hull by more than rounding, which are extrapolated. In the output's field data too.
+   */
+  vtkIdType GetFoldedTetrahedra() { return this->GetCount("FoldedTetrahedra"); }
+  vtkIdType GetBridgingTetrahedra() { return this->GetCount("BridgingTetrahedra"); }
+  vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }
+  ///@}
+
+protected:
+  vtkSimplexLinearMorph();
+  ~vtkSimplexLinearMorph() override;
+
+  std::unique_ptr<morph::Morpher> CreateMorpher() override;
+
+private:
+  vtkSimplexLinearMorph(const vtkSimplexLinearMorph&) = delete;
+  void operator=(const vtkSimplexLinearMorph&) = delete;
+};
+
+#endif

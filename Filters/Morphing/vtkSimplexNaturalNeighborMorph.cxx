@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSimplexNaturalNeighborMorph.h"
+
+#include "SimplexNaturalNeighbor.h"
+
+#include <vtkObjectFactory.h>
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
+
+vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
+vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
+{
+  using Kind = morph::SimplexNaturalNeighbor::Coordinates;
+  auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
+  morpher->setCoordinates(this->Coordinates == LAPLACE ? Kind::Laplace : Kind::Sibson);
+  morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->MemoryLimit));
+  return morpher;
+}
+
+std::string vtkSimplexNaturalNeighborMorph::PrepareOptions()
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << this->Coordinates << " " << this->MemoryLimit;
+  return text.str();
+}
+
+void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Coordinates: " << this->Coordinates << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSimplexNaturalNeighborMorph
+ * @brief   morphs a mesh by natural-neighbor interpolation between its boundary nodes
+ *
+ * Each node inside follows its natural neighbors among the prescribed nodes, those whose Voronoi
+ * cells its own would border on, weighted by Sibson's or Laplace's coordinates (equation (8) of
+ * Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells are not
+ * looked at. The coordinates depend on the Voronoi diagram, which is unique, and not on the choice
+ * of a Delaunay tessellation, so structured meshes move symmetrically and turning a mesh changes
+ * nothing; and they vary smoothly with the node's place. In quality the method is near
+ * vtkSimplexLinearMorph, at many times the cost.
+ *
+ * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors: weights are
+ * kept where they fit into MemoryLimit, and computed anew for each motion otherwise, which a
+ * warning tells.
+ *
+ * It is an error if all prescribed nodes lie in one plane.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
+ * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311,
+ * section 3.4; R. Sibson, "A vector identity for the Dirichlet tessellation", Math. Proc. Camb.
+ * Phil. Soc. 87 (1980) 151-155.
+ *
+ * @sa vtkMorphAlgorithm vtkSimplexLinearMorph vtkExtractMorphBoundary
+ */
+#ifndef vtkSimplexNaturalNeighborMorph_h
+#define vtkSimplexNaturalNeighborMorph_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+#include "vtkMorphAlgorithm.h"
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkSimplexNaturalNeighborMorph
+  : public vtkMorphAlgorithm
+{
+public:
+  static vtkSimplexNaturalNeighborMorph* New();
+  vtkTypeMacro(vtkSimplexNaturalNeighborMorph, vtkMorphAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum CoordinatesType
+  {
+    SIBSON = 0,
+    LAPLACE = 1
+  };
+
+  ///@{
+  /**
+   * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
+   * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
+   * neighbor's distance; somewhat less smooth. Changing it prepares anew. Default SIBSON.
+   */
+  vtkSetClampMacro(Coordinates, int, SIBSON, LAPLACE);
+  vtkGetMacro(Coordinates, int);
+  void SetCoordinatesToSibson() { this->SetCoordinates(SIBSON); }
+  void SetCoordinatesToLaplace() { this->SetCoordinates(LAPLACE); }
+  ///@}
+
+  ///@{
+  /**
+   * Megabytes (10^6 bytes) that the weights may take, 12 bytes each; the result does not depend on
+   * it. Changing it prepares anew. Default 4000, range [0, 1e12]; 0 keeps none.
+   */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, 1e12);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: nodes that took the coordinates of vtkSimplexLinearMorph because they
+   * lie on or outside the prescribed nodes' convex hull, or because rounding spoilt theirs; nodes
+   * outside the hull by more than rounding, which are extrapolated; and whether the weights were
+   * kept (1) or computed anew (0). In the output's field data too.
+   */
+  vtkIdType GetBarycentricNodes() { return this->GetCount("BarycentricNodes"); }
+  vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }
+  vtkIdType GetWeightsStored() { return this->GetCount("WeightsStored"); }
+  ///@}
+
+protected:
+  vtkSimplexNaturalNeighborMorph();
+  ~vtkSimplexNaturalNeighborMorph() override;
+
+  std::unique_ptr<morph::Morpher> CreateMorpher() override;
+  std::string PrepareOptions() override;
+
+private:
+  vtkSimplexNaturalNeighborMorph(const vtkSimplexNaturalNeighborMorph&) = delete;
+  void operator=(const vtkSimplexNaturalNeighborMorph&) = delete;
+
+  int Coordinates = SIBSON;
+  double MemoryLimit = 4000;
+};
+
+#endif

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The meshless methods against CGAL, the memory's bandwidth and the size of the mesh, in one run.
+#include "CommandLine.h"
+#include "MeshlessFigures.h"
+
+int main(int argc, char** argv)
+{
+  return benchmark::commandLine(argc, argv, "benchmark-meshless",
+    "Measures weighted residual, simplex-linear and simplex-natural neighbor on twisted bricks of\n"
+    "hexahedra and prints figures beside their targets.\n"
+    "Cold: prepare and evaluate of a fresh morpher. Warm: evaluate alone.\n",
+    "", benchmark::measureMeshlessFigures);
+}

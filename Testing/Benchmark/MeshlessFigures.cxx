@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshlessFigures.h"
+
+#include "Bandwidth.h"
+#include "CgalBaseline.h"
+#include "FigureRun.h"
+#include "Threads.h"
+
+#include "PrescribedSites.h"
+#include "SimplexLinear.h"
+#include "SimplexNaturalNeighbor.h"
+#include "SpatialOrder.h"
+#include "WeightedResidual.h"
+
+#include <algorithm>
+
+namespace benchmark
+{
+namespace
+{
+constexpr int AxisX = 0;
+constexpr int AxisZ = 2;
+constexpr double SibsonDifference = 1e-8; // of the mesh's size
+
+class Run : public FigureRun
+{
+public:
+  using FigureRun::FigureRun;
+
+  void cube(const Problem& problem);
+  template <typename Method>
+  void series(const std::string& name, const std::vector<Problem>& problems);
+
+private:
+  template <typename Method>
+  void time(const Problem& problem, MethodTimes& times, morph::Points& moved) const
+  {
+    this->settleDown();
+    timeConfigured<Method>(
+      problem, [](Method&) {}, *makeMonitor(this->cores_), times, moved);
+  }
+  double bandwidth() const;
+  void addStreaming(
+    const Problem& problem, const std::string& name, const MethodTimes& times, double bandwidth);
+  void againstSibson(const Problem& problem, const morph::PrescribedSites& sites,
+    const CgalBaseline& cgal, const morph::Points& moved, double cold);
+};
+
+double Run::bandwidth() const
+{
+  say("memory bandwidth");
+  return measureBandwidth(this->options_.quick ? 100000000 : 1000000000, *makeMonitor(this->cores_)).best();
+}
+
+void Run::addStreaming(
+  const Problem& problem, const std::string& name, const MethodTimes& times, double bandwidth)
+{
+  const std::string tail = withThreads(this->cores_);
+  this->add(problem, name + ": prepare" + tail, median(times.prepare), "s");
+  this->add(problem, name + ": cold" + tail, median(times.cold), "s");
+  this->add(problem, name + ": warm" + tail, median(times.warm), "s");
+  this->add(problem, name + ": bytes of weights and coordinates", times.bytesMoved, "B");
+  this->add(problem, name + ": warm / one stream of them through memory",
+    median(times.warm) * bandwidth / times.bytesMoved, "", Target::atMost(3));
+}
+
+/// On nodes spread evenly over the free ones.
+void Run::againstSibson(const Problem& problem, const morph::PrescribedSites& sites,
+  const CgalBaseline& cgal, const morph::Points& moved, double cold)
+{
+  say(problem.name + ", CGAL's Sibson coordinates");
+  constexpr morph::Index Samples = 20;
+  const std::vector<morph::Index>& free = problem.partition.free;
+  const auto n = static_cast<morph::Index>(free.size());
+  const morph::Points targets = sites.average(problem.target);
+  double seconds = 0, difference = 0;
+  for (morph::Index i = 0; i < Samples; ++i)
+  {
+    const morph::Index node = free[(2 * i + 1) * n / (2 * Samples)];
+    const CgalBaseline::Sibson sibson = cgal.sibson(problem.mesh.points.row(node));
+    seconds += sibson.seconds;
+    Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
+    for (std::size_t k = 0; k < sibson.sites.size(); ++k)
+    {
+      x += sibson.weights[k] * targets.row(sibson.sites[k]);
+    }
+    difference = std::max(difference, (x - moved.row(node)).norm());
+  }
+  this->check(problem, "natural neighbor: difference from CGAL's, of the size", difference / problem.size,
+    SibsonDifference);
+  this->add(problem, "CGAL's Sibson coordinates of a node, 1 thread", seconds / Samples, "s");
+  this->add(problem, "natural neighbor: cold a node" + withThreads(this->cores_), cold / static_cast<double>(n), "s");
+  this->add(problem, "natural neighbor: CGAL's time a node / cold time a node",
+    seconds / Samples * static_cast<double>(n) / cold, "", Target::atLeast(500));
+}
+
+void Run::cube(const Problem& problem)
+{
+  MethodTimes linear, natural, residual;
+  morph::Points moved, movedByNatural;
+  std::vector<double> delaunay, locate;
+  const morph::PrescribedSites sites(problem.mesh.points, problem.partition.prescribed);
+  const std::vector<morph::Index> order = morph::spatialOrder(problem.mesh.points, problem.partition.free);
+  morph::Points places(static_cast<morph::Index>(order.size()), 3);
+  for (morph::Index i = 0; i < places.rows(); ++i)
+  {
+    places.row(i) = problem.mesh.points.row(order[i]);
+  }
+  std::unique_ptr<CgalBaseline> cgal;
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say(problem.name + ", repetition " + std::to_string(i + 1));
+    this->settleDown();
+    cgal = std::make_unique<CgalBaseline>(sites.coordinates());
+    delaunay.push_back(cgal->delaunaySeconds());
+    locate.push_back(cgal->locate(places));
+    this->time<morph::SimplexLinear>(problem, linear, moved);
+    this->time<morph::WeightedResidual>(problem, residual, moved);
+    if (i == 0) // as long as all the others
+    {
+      this->time<morph::SimplexNaturalNeighbor>(problem, natural, movedByNatural);
+    }
+  }
+  const double bandwidth = this->bandwidth();
+  this->add(problem, "CGAL's Delaunay tessellation, 1 thread", median(delaunay), "s");
+  this->add(problem, "CGAL's point location, 1 thread", median(locate), "s");
+  this->add(problem, "simplex-linear: cold / CGAL's tessellation and location",
+    median(linear.cold) / (median(delaunay) + median(locate)), "", Target::atMost(1.5));
+  this->add(problem, "weighted residual: cold / simplex-linear's cold",
+    median(residual.cold) / median(linear.cold), "", Target::atMost(15));
+  this->addStreaming(problem, "simplex-linear", linear, bandwidth);
+  this->addStreaming(problem, "weighted residual", residual, bandwidth);
+  this->addStreaming(problem, "natural neighbor", natural, bandwidth);
+  this->againstSibson(problem, sites, *cgal, movedByNatural, median(natural.cold));
+}
+
+template <typename Method>
+void Run::series(const std::string& name, const std::vector<Problem>& problems)
+{
+  std::vector<MethodTimes> times(problems.size());
+  const int repeat = std::is_same<Method, morph::SimplexNaturalNeighbor>::value ? 1 : this->options_.repeat;
+  for (int i = 0; i < repeat; ++i)
+  {
+    say("series, " + name + ", repetition " + std::to_string(i + 1));
+    for (std::size_t p = 0; p < problems.size(); ++p)
+    {
+      morph::Points moved;
+      this->time<Method>(problems[p], times[p], moved);
+    }
+  }
+  std::vector<double> nodes, cold;
+  for (std::size_t p = 0; p < problems.size(); ++p)
+  {
+    nodes.push_back(static_cast<double>(problems[p].mesh.numberOfNodes()));
+    cold.push_back(median(times[p].cold));
+    this->add(problems[p], name + ": series, cold" + withThreads(this->cores_), cold.back(), "s");
+  }
+  this->add(problems.back(),
+    name + ": exponent of cold time against nodes, series of " + std::to_string(problems.size()),
+    logLogSlope(nodes, cold), "", Target::atMost(1.1));
+}
+}
+
+Report measureMeshlessFigures(const Options& options, bool& correct)
+{
+  const int side = options.quick ? 12 : 50;
+  const int across = options.quick ? 6 : 20;
+  const int shortest = options.quick ? 18 : 60;
+  const int longest = options.quick ? 42 : 260;
+  const int step = options.quick ? 12 : 40;
+
+  Run run(options);
+  run.cube(twistedBrick(side, side, side, AxisZ));
+  std::vector<Problem> bricks;
+  for (int length = shortest; length <= longest; length += step)
+  {
+    bricks.push_back(twistedBrick(length, across, across, AxisX));
+  }
+  run.series<morph::SimplexLinear>("simplex-linear", bricks);
+  run.series<morph::WeightedResidual>("weighted residual", bricks);
+  run.series<morph::SimplexNaturalNeighbor>("natural neighbor", bricks);
+  correct = run.correct;
+  return run.report;
+}
+}

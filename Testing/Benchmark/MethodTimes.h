@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Timing.h"
+#include "TwistedBrick.h"
+
+#include "Morpher.h"
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace benchmark
+{
+/// What a morphing method took, in seconds, one entry a repetition.
+struct MethodTimes
+{
+  std::vector<double> prepare;
+  std::vector<double> cold; ///< prepare and the first evaluate
+  std::vector<double> warm; ///< an evaluate after that
+  int iterations = 0;
+  double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
+};
+
+/// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated twice. Appends to `times`;
+/// `moved` becomes the moved mesh. Returns the morpher. Throws std::runtime_error if the two evaluations differ in
+/// a bit.
+template <typename Method, typename Configure>
+std::unique_ptr<Method> timeConfigured(const Problem& problem, const Configure& configure,
+  morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
+{
+  moved.resize(0, 3); // the first evaluate pays for its result
+  const Stopwatch cold;
+  auto method = std::make_unique<Method>();
+  configure(*method);
+  method->prepare(problem.mesh, problem.partition, monitor);
+  times.prepare.push_back(cold.seconds());
+  method->evaluate(problem.target, moved, monitor);
+  times.cold.push_back(cold.seconds());
+
+  const morph::Points first = moved;
+  const Stopwatch warm;
+  const morph::EvaluateReport report = method->evaluate(problem.target, moved, monitor);
+  times.warm.push_back(warm.seconds());
+  times.iterations = report.iterations;
+  times.bytesMoved = report.bytesMoved;
+  if (moved != first)
+  {
+    throw std::runtime_error("Two evaluations of the same boundary gave different meshes.");
+  }
+  return method;
+}
+
+/// The same for a Method with a tolerance.
+template <typename Method>
+std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
+  morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
+{
+  return timeConfigured<Method>(
+    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times, moved);
+}
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods.h"
+
+#include "FemWarp.h"
+#include "LogBarrierWarp.h"
+#include "SimplexLinear.h"
+#include "SimplexNaturalNeighbor.h"
+#include "WeightedResidual.h"
+
+#include <ostream>
+
+namespace meshes
+{
+using namespace morph;
+
+const std::vector<LinearMethod>& linearMethods()
+{
+  static const std::vector<LinearMethod> methods = {
+    { "FemWarp",
+      []
+      {
+        auto method = std::make_unique<FemWarp>();
+        method->setTolerance(1e-13);
+        return method;
+      } },
+    { "LogBarrierWarp",
+      []
+      {
+        auto method = std::make_unique<LogBarrierWarp>();
+        method->setTolerance(1e-13);
+        return method;
+      } },
+    { "SimplexLaplace",
+      []
+      {
+        auto method = std::make_unique<SimplexNaturalNeighbor>();
+        method->setCoordinates(SimplexNaturalNeighbor::Coordinates::Laplace);
+        return method;
+      } },
+    { "SimplexLinear", [] { return std::make_unique<SimplexLinear>(); } },
+    { "SimplexSibson", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
+    { "WeightedResidual", [] { return std::make_unique<WeightedResidual>(); } },
+    { "WeightedResidualAdaptive",
+      []
+      {
+        auto method = std::make_unique<WeightedResidual>();
+        method->setNumberOfNeighbors(20);
+        method->setAdaptiveNeighbors(true);
+        return method;
+      } },
+  };
+  return methods;
+}
+
+std::ostream& operator<<(std::ostream& stream, const LinearMethod& method)
+{
+  return stream << method.name;
+}
+}

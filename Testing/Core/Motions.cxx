@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Motions.h"
+
+#include "Topology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <random>
+
+namespace motions
+{
+using namespace morph;
+
+Row affine(const Row& x)
+{
+  const Eigen::Matrix3d shear =
+    (Eigen::Matrix3d() << 1.1, .3, .2, -.1, 1.4, .05, .2, .1, .9).finished();
+  return x * shear + Row(3, -2, .5);
+}
+
+Row twist(const Row& x, double w, double h, double angle)
+{
+  const double a = angle * x[2] / h, dx = x[0] - w / 2, dy = x[1] - w / 2;
+  return { w / 2 + dx * std::cos(a) - dy * std::sin(a), w / 2 + dx * std::sin(a) + dy * std::cos(a),
+    1.5 * x[2] };
+}
+
+Points mapped(const Points& points, const Map& map)
+{
+  Points result(points.rows(), 3);
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    result.row(i) = map(points.row(i));
+  }
+  return result;
+}
+
+NodePartition outerPartition(const Mesh& mesh)
+{
+  Monitor monitor;
+  return partitionNodes(mesh, boundaryFaces(mesh, monitor).nodes);
+}
+
+Points targets(const Mesh& mesh, const NodePartition& partition, const Map& map)
+{
+  return mapped(meshes::rows(mesh.points, partition.prescribed), map);
+}
+
+std::vector<std::pair<std::string, Mesh>> jittered()
+{
+  auto list = meshes::all(4, 4, 4);
+  for (auto& [name, mesh] : list)
+  {
+    meshes::jitterInterior(mesh, name == "hexes, pyramids and tets" ? 0.1 : 0.15, meshes::seed());
+  }
+  return list;
+}
+
+std::vector<Index> shuffledNumbers(Index n)
+{
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), Index(0));
+  std::shuffle(order.begin(), order.end(), std::mt19937(meshes::seed()));
+  return order;
+}
+
+double difference(const Points& a, const Points& b)
+{
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+bool identical(const Points& a, const Points& b)
+{
+  return a.rows() == b.rows() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+}
+
+Error::Kind kindOf(const std::function<void()>& call, std::string& message)
+{
+  try
+  {
+    call();
+  }
+  catch (const Error& error)
+  {
+    message = error.what();
+    return error.kind();
+  }
+  ADD_FAILURE() << "no error";
+  return Error::Kind::InvalidInput;
+}
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Error.h"
+#include "Meshes.h"
+#include "NodePartition.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Motions of the outer boundary, for the tests of the morphing methods.
+namespace motions
+{
+using Row = Eigen::RowVector3d;
+using Map = std::function<Row(const Row&)>;
+
+/// Shear, stretch and shift.
+Row affine(const Row& x);
+/// Not affine: a twist about the z axis through the middle of a box of width `w` and height `h`, stretched along z.
+Row twist(const Row& x, double w, double h, double angle);
+
+/// `map` applied to each row.
+morph::Points mapped(const morph::Points& points, const Map& map);
+/// The mesh's outer nodes are prescribed.
+morph::NodePartition outerPartition(const morph::Mesh& mesh);
+/// Where `map` takes the prescribed nodes.
+morph::Points targets(
+  const morph::Mesh& mesh, const morph::NodePartition& partition, const Map& map);
+/// meshes::all() at 4 x 4 x 4, their inner nodes jittered.
+std::vector<std::pair<std::string, morph::Mesh>> jittered();
+/// 0, 1, ... n - 1 in random order.
+std::vector<morph::Index> shuffledNumbers(morph::Index n);
+
+/// The largest absolute difference of two sets of points.
+double difference(const morph::Points& a, const morph::Points& b);
+/// Equal to the last bit, signs of zeros included.
+bool identical(const morph::Points& a, const morph::Points& b);
+
+/// The kind of the morph::Error that `call` throws, and its message. Fails the test where it throws none.
+morph::Error::Kind kindOf(const std::function<void()>& call, std::string& message);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+
+#include "AffineFit.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+using namespace morph;
+
+namespace
+{
+Points randomPoints(Index n, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> value(-1, 1);
+  Points points(n, 3);
+  return points.unaryExpr([&](double) { return value(random); });
+}
+
+/// Random points squeezed into a space of the given dimension, turned in space.
+Points flatPoints(Index n, int dimension, std::mt19937& random)
+{
+  Points points = randomPoints(n, random);
+  points.rightCols(3 - dimension).setZero();
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(1.1, Eigen::Vector3d(3, -1, 2).normalized()).toRotationMatrix();
+  return (points * turn).rowwise() + Eigen::RowVector3d(4, 5, -6);
+}
+}
+
+TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
+{
+  std::mt19937 random(meshes::seed());
+  for (int dimension : { 0, 1, 2, 3 })
+  {
+    const Points rest = flatPoints(40, dimension, random), u = randomPoints(40, random);
+    const AffineLeastSquares leastSquares(rest);
+    EXPECT_EQ(leastSquares.rank(), dimension);
+    const AffineFit fit = leastSquares.fit(u);
+    // The means taken off, the gradient is a least-squares problem of its own.
+    const Eigen::MatrixXd arms = rest.rowwise() - rest.colwise().mean();
+    const Eigen::MatrixXd right = u.rowwise() - u.colwise().mean();
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-8);
+    solver.compute(arms);
+    const Eigen::MatrixXd gradient =
+      dimension == 0 ? Eigen::MatrixXd::Zero(3, 3) : Eigen::MatrixXd(solver.solve(right));
+    EXPECT_LT((fit.gradient() - gradient).norm(), 1e-12) << dimension;
+    EXPECT_LT((fit.displacement(rest.colwise().mean()) - u.colwise().mean()).norm(), 1e-13);
+  }
+}
+
+TEST(AffineFit, TransposeIsTheAdjoint)
+{
+  std::mt19937 random(meshes::seed());
+  for (int dimension : { 0, 1, 2, 3 })
+  {
+    const Points rest = flatPoints(40, dimension, random), u = randomPoints(40, random);
+    const Points x = randomPoints(25, random), gradient = randomPoints(25, random);
+    const AffineLeastSquares leastSquares(rest);
+    const AffineFit fit = leastSquares.fit(u);
+    double value = 0;
+    for (Index i = 0; i < x.rows(); ++i)
+    {
+      value += gradient.row(i).dot(fit.displacement(x.row(i)));
+    }
+    Points adjoint = Points::Ones(40, 3); // added to
+    leastSquares.fitTranspose(x, gradient, adjoint);
+    EXPECT_NEAR((adjoint.array() - 1).matrix().cwiseProduct(u).sum(), value, 1e-11) << dimension;
+  }
+}

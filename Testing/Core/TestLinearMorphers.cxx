@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every method with free = M prescribed has to do, for each of them.
+#include "LinearMethods.h"
+#include "Meshes.h"
+#include "Motions.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace morph;
+using motions::affine;
+using motions::difference;
+using motions::identical;
+using motions::jittered;
+using motions::outerPartition;
+using motions::targets;
+
+namespace
+{
+class LinearMorphers : public testing::TestWithParam<meshes::LinearMethod>
+{
+protected:
+  static Points morphed(
+    const Mesh& mesh, const NodePartition& partition, const Points& target, int threads = 1)
+  {
+    meshes::ThreadedMonitor monitor(threads);
+    const auto method = GetParam().make();
+    method->prepare(mesh, partition, monitor);
+    Points result;
+    method->evaluate(target, result, monitor);
+    EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
+    return result;
+  }
+};
+
+motions::Map twistOf(double size, double angle = 1.2)
+{
+  return [=](const motions::Row& x) { return motions::twist(x, size, size, angle); };
+}
+
+/// Every node moved a little, those on the outside as well: no four nodes of a plane, no five of a sphere.
+std::vector<std::pair<std::string, Mesh>> inGeneralPosition()
+{
+  auto list = meshes::all(4, 4, 4);
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> shift(-.1, .1);
+  for (auto& entry : list)
+  {
+    entry.second.points =
+      entry.second.points.unaryExpr([&](double x) { return x + shift(random); });
+  }
+  return list;
+}
+}
+
+TEST_P(LinearMorphers, AffineMotionsComeOutExactly)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+    EXPECT_LT(
+      difference(result, motions::mapped(mesh.points, affine)), 1e-10 * meshes::size(mesh.points))
+      << name;
+  }
+}
+
+TEST_P(LinearMorphers, AffineMotionsComeOutExactlyInMirroredMeshes)
+{
+  for (auto [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    mesh.points.col(1) *= -1;
+    const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+    EXPECT_LT(
+      difference(result, motions::mapped(mesh.points, affine)), 1e-10 * meshes::size(mesh.points))
+      << name;
+  }
+}
+
+TEST_P(LinearMorphers, NoMotionIsTheIdentityBitForBit)
+{
+  for (auto [name, mesh] : jittered())
+  {
+    mesh.points.array() -= 2; // signed zeros among the coordinates
+    mesh.points.col(0) *= -1;
+    mesh.points.col(1) *= -1;
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, meshes::rows(mesh.points, partition.prescribed));
+    EXPECT_TRUE(identical(result, mesh.points)) << name;
+  }
+}
+
+TEST_P(LinearMorphers, PrescribedNodesArriveExactly)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target = targets(mesh, partition, twistOf(4));
+    const Points result = morphed(mesh, partition, target);
+    EXPECT_TRUE(identical(meshes::rows(result, partition.prescribed), target)) << name;
+  }
+}
+
+TEST_P(LinearMorphers, RigidMotionAndScaleGoThrough)
+{
+  const Eigen::Matrix3d R =
+    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const motions::Map rigid = [&](const motions::Row& x)
+  { return motions::Row(17.5 * x * R + motions::Row(40, -3, 8)); };
+  for (const auto& [name, mesh] : inGeneralPosition())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target = targets(mesh, partition, twistOf(4));
+    const Points expected = motions::mapped(morphed(mesh, partition, target), rigid);
+    Mesh turned = mesh;
+    meshes::transform(turned, rigid);
+    const Points result = morphed(turned, partition, motions::mapped(target, rigid));
+    EXPECT_LT(difference(result, expected), 1e-10 * meshes::size(turned.points)) << name;
+  }
+}
+
+TEST_P(LinearMorphers, RenumberingGoesThrough)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points reference = morphed(mesh, partition, targets(mesh, partition, twistOf(4)));
+    const std::vector<Index> order = motions::shuffledNumbers(mesh.numberOfNodes());
+    const Mesh shuffled = meshes::renumbered(mesh, order);
+    const NodePartition renamed = outerPartition(shuffled);
+    const Points result = morphed(shuffled, renamed, targets(shuffled, renamed, twistOf(4)));
+    EXPECT_LT(difference(meshes::rows(result, order), reference), 1e-10 * meshes::size(mesh.points))
+      << name;
+  }
+}
+
+TEST_P(LinearMorphers, AdjointEqualsFiniteDifferences)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    const auto method = GetParam().make();
+    method->prepare(mesh, partition, monitor);
+    Points gradient(mesh.numberOfNodes(), 3),
+      step(static_cast<Index>(partition.prescribed.size()), 3);
+    gradient = gradient.unaryExpr([&](double) { return value(random); });
+    step = step.unaryExpr([&](double) { return value(random); });
+
+    Points adjoint;
+    method->applyTranspose(gradient, adjoint, monitor);
+    ASSERT_EQ(adjoint.rows(), step.rows());
+
+    // Objective: gradient . positions. The map is linear, so central differences are exact but for rounding.
+    const Points at = targets(mesh, partition, twistOf(4, .8));
+    Points plus, minus;
+    method->evaluate(at + 0.5 * step, plus, monitor);
+    method->evaluate(at - 0.5 * step, minus, monitor);
+    const double change = gradient.cwiseProduct(plus - minus).sum();
+    EXPECT_NEAR(adjoint.cwiseProduct(step).sum(), change, 1e-9 * std::abs(change) + 1e-9) << name;
+
+    // One coordinate by itself.
+    Points single = Points::Zero(step.rows(), 3);
+    single(3, 1) = 1e-3;
+    method->evaluate(at + single, plus, monitor);
+    method->evaluate(at - single, minus, monitor);
+    EXPECT_NEAR(
+      adjoint(3, 1), gradient.cwiseProduct(plus - minus).sum() / 2e-3, 1e-7 * gradient.norm())
+      << name;
+  }
+}
+
+TEST_P(LinearMorphers, ThreadsAndHistoryDoNotShow)
+{
+  Mesh mesh = meshes::hexes(13, 12, 12); // more free nodes than one block of any sum
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(mesh, partition, twistOf(12, 1));
+  Monitor serial;
+  const auto method = GetParam().make();
+  method->prepare(mesh, partition, serial);
+  Points one, oneAdjoint;
+  method->evaluate(targets(mesh, partition, affine), one, serial);
+  method->evaluate(target, one, serial);
+  method->applyTranspose(mesh.points, oneAdjoint, serial);
+  for (int threads : { 2, 3, 5 })
+  {
+    meshes::ThreadedMonitor monitor(threads);
+    const auto other = GetParam().make();
+    other->prepare(mesh, partition, monitor);
+    Points many, adjoint;
+    other->evaluate(target, many, monitor);
+    EXPECT_TRUE(identical(many, one)) << threads;
+    other->applyTranspose(mesh.points, adjoint, monitor);
+    EXPECT_TRUE(identical(adjoint, oneAdjoint)) << threads;
+  }
+}
+
+TEST_P(LinearMorphers, AnObjectCanBePreparedAgain)
+{
+  Monitor monitor;
+  const auto method = GetParam().make();
+  const Mesh first = meshes::tets(5, 4, 3), second = meshes::wedges(3, 4, 4);
+  method->prepare(first, outerPartition(first), monitor);
+  const NodePartition partition = outerPartition(second);
+  const Points target = targets(second, partition, twistOf(4));
+  method->prepare(second, partition, monitor);
+  Points result;
+  method->evaluate(target, result, monitor);
+  EXPECT_TRUE(identical(result, morphed(second, partition, target)));
+}
+
+TEST_P(LinearMorphers, PrescribedInnerNodesStayWhereTheyArePut)
+{
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  std::vector<Index> ids = outerPartition(mesh).prescribed;
+  const Index centre = 62;
+  ids.push_back(centre);
+  const NodePartition partition = partitionNodes(mesh, ids);
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  const auto at = std::find(partition.prescribed.begin(), partition.prescribed.end(), centre);
+  target(at - partition.prescribed.begin(), 0) += .3;
+  const Points result = morphed(mesh, partition, target);
+  EXPECT_EQ(result(centre, 0), mesh.points(centre, 0) + .3);
+  // Its neighbors follow: all of them together, for ties may leave one of them out.
+  double sum = 0;
+  for (Index step : { 1, 5, 25 })
+  {
+    sum += result(centre + step, 0) + result(centre - step, 0) - 2 * mesh.points(centre, 0);
+  }
+  EXPECT_GT(sum, .006);
+}
+
+TEST_P(LinearMorphers, UnusedNodesAndLowerCellsStay)
+{
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  const NodePartition before = outerPartition(mesh);
+  mesh.points.conservativeResize(66, 3);
+  mesh.points.bottomRows(2).setConstant(9);
+  meshes::add(mesh, Line, { 64, 65 });
+  const NodePartition partition = partitionNodes(mesh, before.prescribed);
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+  EXPECT_EQ(result.bottomRows(2), mesh.points.bottomRows(2));
+}
+
+// No place in the parametric cell answers to such a node, yet it has to follow.
+TEST_P(LinearMorphers, MidNodesFarOutsideTheirCellFollowAffineMotions)
+{
+  Mesh mesh = meshes::quadraticHexes(2, 2, 2, false);
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_FALSE(partition.followers.empty());
+  for (Index node : partition.followers)
+  {
+    mesh.points.row(node) += motions::Row(1.7, -2.3, 1.1);
+  }
+  Points expected = motions::mapped(mesh.points, affine);
+  EXPECT_LT(difference(morphed(mesh, partition, targets(mesh, partition, affine)), expected),
+    1e-10 * meshes::size(mesh.points));
+}
+
+TEST_P(LinearMorphers, CurvedEdgesKeepTheirPlaceInTheCell)
+{
+  // A mid-side node off the chord of its edge moves with the linear cell around it, not with the chord's ends alone.
+  Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_FALSE(partition.followers.empty());
+  const Index node = partition.followers[4];
+  mesh.points.row(node) += motions::Row(.05, -.04, .06);
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+  EXPECT_LT((result.row(node) - affine(mesh.points.row(node))).norm(), 1e-10);
+}
+
+TEST_P(LinearMorphers, RefuseWhatTheyCannotUse)
+{
+  const Mesh mesh = meshes::hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  const auto method = GetParam().make();
+  std::string message;
+  using motions::kindOf;
+
+  EXPECT_EQ(kindOf([&] { method->prepare(mesh, partitionNodes(mesh, {}), monitor); }, message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("No node is prescribed"), std::string::npos);
+
+  const Mesh one = meshes::hexes(1, 1, 1);
+  kindOf([&] { method->prepare(one, outerPartition(one), monitor); }, message);
+  EXPECT_NE(message.find("No node is free"), std::string::npos);
+
+  method->prepare(mesh, partition, monitor);
+  Points moved = Points::Constant(1, 3, 5);
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  kindOf([&] { method->evaluate(target.topRows(4), moved, monitor); }, message);
+  EXPECT_NE(message.find("4 rows where 56"), std::string::npos) << message;
+  target(7, 2) = std::numeric_limits<double>::infinity();
+  kindOf([&] { method->evaluate(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("node ids " + std::to_string(partition.prescribed[7])), std::string::npos);
+  kindOf([&] { method->applyTranspose(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("56 rows where 64"), std::string::npos) << message;
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5)); // untouched
+}
+
+TEST_P(LinearMorphers, CancelStopsAndLeavesTheResultAlone)
+{
+  const Mesh mesh = meshes::hexes(8, 8, 8);
+  const NodePartition partition = outerPartition(mesh);
+  meshes::ThreadedMonitor monitor;
+  const auto method = GetParam().make();
+  std::string message;
+  using motions::kindOf;
+  monitor.cancelAt = 0.05;
+  EXPECT_EQ(
+    kindOf([&] { method->prepare(mesh, partition, monitor); }, message), Error::Kind::Cancelled);
+
+  monitor.cancelAt = 2;
+  method->prepare(mesh, partition, monitor);
+  EXPECT_EQ(monitor.lastProgress, 1);
+  const Points target = targets(mesh, partition, twistOf(8));
+  monitor.cancelAt = 0; // at once
+  Points moved = Points::Constant(1, 3, 5);
+  EXPECT_EQ(
+    kindOf([&] { method->evaluate(target, moved, monitor); }, message), Error::Kind::Cancelled);
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LinearMorphers, testing::ValuesIn(meshes::linearMethods()),
+  [](const auto& info) { return info.param.name; });

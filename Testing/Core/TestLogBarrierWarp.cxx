@@ -1,0 +1,664 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+#include "Motions.h"
+
+#include "CellShape.h"
+#include "Error.h"
+#include "LogBarrierWarp.h"
+#include "LogBarrierWeights.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseLU>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <set>
+
+using namespace meshes;
+using namespace motions;
+using namespace morph;
+
+namespace
+{
+using OutsideHull = LogBarrierWarp::OutsideHull;
+
+Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target,
+  double tolerance = 1e-12, int threads = 1)
+{
+  ThreadedMonitor monitor(threads);
+  LogBarrierWarp method;
+  method.setTolerance(tolerance);
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  method.evaluate(target, result, monitor);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
+  return result;
+}
+
+/// Rows of (I - W_I) x_I - W_B x_B at rest: how far the weights miss their nodes.
+double missed(const LogBarrierWarp& method, const Mesh& mesh)
+{
+  const Points residual = method.solver().matrix() * rows(mesh.points, method.rows()) +
+                          method.coupling() * rows(mesh.points, method.partition().prescribed);
+  return residual.cwiseAbs().maxCoeff();
+}
+
+Index count(const EvaluateReport& report, const std::string& name)
+{
+  for (const Count& c : report.counts)
+  {
+    if (c.name == name)
+    {
+      return c.value;
+    }
+  }
+  ADD_FAILURE() << "no count " << name;
+  return -1;
+}
+
+/// A mesh with one inner node that its neighbors cannot hold.
+Mesh withNodeOutside(Index node, const Eigen::RowVector3d& shift)
+{
+  Mesh mesh = hexes(6, 6, 6);
+  mesh.points.row(node) += shift;
+  return mesh;
+}
+constexpr Index Centre = 171; // of hexes(6, 6, 6)
+}
+
+TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
+{
+  auto list = jittered();
+  Mesh flat = hexes(5, 5, 5);
+  jitterInterior(flat, .2, seed());
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  transform(flat, [&](const Eigen::RowVector3d& x)
+    { return Eigen::RowVector3d(Eigen::RowVector3d(x[0], .03 * x[1], 1e-4 * x[2]) * turn); });
+  list.emplace_back("flat 1e4", flat);
+  list.emplace_back("lattice", hexes(5, 5, 5));
+  for (const auto& [name, mesh] : list)
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.prepare(mesh, partition, monitor);
+    EXPECT_LT(missed(method, mesh), 1e-12) << name;
+    const SparseMatrix& A = method.solver().matrix();
+    const Eigen::VectorXd sums =
+      A * Eigen::VectorXd::Ones(A.cols()) +
+      method.coupling() * Eigen::VectorXd::Ones(method.coupling().cols());
+    EXPECT_LT(sums.cwiseAbs().maxCoeff(), 1e-14) << name;
+    // An M-matrix: a unit diagonal and nothing positive beside it.
+    for (int i = 0; i < A.rows(); ++i)
+    {
+      for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry)
+      {
+        EXPECT_TRUE(entry.col() == i ? entry.value() == 1 : entry.value() < 0) << name;
+      }
+    }
+    EXPECT_LE(method.mostWeightIterations(), 12) << name;
+    EXPECT_GE(method.meanWeightIterations(), 1) << name;
+  }
+}
+
+TEST(LogBarrierWarp, NeighborsAreAllThatShareAVolumeCell)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.prepare(mesh, partition, monitor);
+    std::vector<std::set<Index>> expected(mesh.numberOfNodes()), found(mesh.numberOfNodes());
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      const int n = cellShape(mesh.types[c])->numberOfCorners;
+      for (int a = 0; a < n; ++a)
+      {
+        expected[mesh.cell(c)[a]].insert(mesh.cell(c), mesh.cell(c) + n);
+      }
+    }
+    for (int i = 0; i < static_cast<int>(method.rows().size()); ++i)
+    {
+      std::set<Index>& mine = found[method.rows()[i]];
+      for (SparseMatrix::InnerIterator entry(method.solver().matrix(), i); entry; ++entry)
+      {
+        mine.insert(method.rows()[entry.col()]);
+      }
+      for (SparseMatrix::InnerIterator entry(method.coupling(), i); entry; ++entry)
+      {
+        mine.insert(partition.prescribed[entry.col()]);
+      }
+      EXPECT_EQ(mine, expected[method.rows()[i]]) << name << ' ' << i;
+    }
+  }
+}
+
+TEST(LogBarrierWarp, AffineMotionsComeOutExactly)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+    Mesh expected = mesh;
+    transform(expected, affine);
+    EXPECT_LT((result - expected.points).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points)) << name;
+  }
+}
+
+TEST(LogBarrierWarp, AgreesWithADirectSolve)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.setTolerance(1e-13);
+    method.prepare(mesh, partition, monitor);
+    Points result;
+    const EvaluateReport report = method.evaluate(target, result, monitor);
+    EXPECT_GT(report.iterations, 0) << name;
+    EXPECT_LE(report.relativeResidual, 1e-13) << name;
+    EXPECT_EQ(count(report, "OutsideHullNodes"), 0) << name;
+    EXPECT_EQ(count(report, "FallBackIterations"), 0) << name;
+
+    const Eigen::SparseMatrix<double> A = method.solver().matrix();
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(A);
+    const Points displacement = target - rows(mesh.points, partition.prescribed);
+    const Eigen::MatrixXd expected = lu.solve(Eigen::MatrixXd(-(method.coupling() * displacement)));
+    const Points found = rows(result, method.rows()) - rows(mesh.points, method.rows());
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11) << name;
+    for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
+    {
+      EXPECT_EQ(result.row(partition.prescribed[i]), target.row(static_cast<Index>(i))) << name;
+    }
+  }
+}
+
+TEST(LogBarrierWarp, NoMotionIsTheIdentityBitForBit)
+{
+  for (auto [name, mesh] : jittered())
+  {
+    mesh.points.array() -= 2; // signed zeros among the coordinates
+    mesh.points.col(0) *= -1;
+    mesh.points.col(1) *= -1;
+    const NodePartition partition = outerPartition(mesh);
+    const Points result = morphed(mesh, partition, rows(mesh.points, partition.prescribed));
+    EXPECT_EQ(std::memcmp(result.data(), mesh.points.data(), sizeof(double) * result.size()), 0)
+      << name;
+  }
+}
+
+TEST(LogBarrierWarp, RigidMotionScaleAndRenumberingGoThrough)
+{
+  const Eigen::Matrix3d R =
+    (Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized())).toRotationMatrix();
+  const auto rigid = [&](const Eigen::RowVector3d& x)
+  { return Eigen::RowVector3d(17.5 * x * R + Eigen::RowVector3d(40, -3, 8)); };
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target =
+      targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+    const Points reference = morphed(mesh, partition, target);
+
+    Mesh turned = mesh;
+    transform(turned, rigid);
+    Points turnedTarget = target;
+    Points expected = reference;
+    for (Points* points : { &turnedTarget, &expected })
+    {
+      for (Index i = 0; i < points->rows(); ++i)
+      {
+        points->row(i) = rigid(points->row(i));
+      }
+    }
+    EXPECT_LT((morphed(turned, partition, turnedTarget) - expected).cwiseAbs().maxCoeff(),
+      1e-10 * size(turned.points))
+      << name;
+
+    std::vector<Index> order(mesh.numberOfNodes());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed()));
+    const Mesh shuffled = renumbered(mesh, order);
+    std::vector<Index> ids;
+    for (Index id : partition.prescribed)
+    {
+      ids.push_back(order[id]);
+    }
+    const NodePartition renamed = partitionNodes(shuffled, ids);
+    Points all(mesh.numberOfNodes(), 3);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      all.row(ids[i]) = target.row(static_cast<Index>(i));
+    }
+    const Points result = morphed(shuffled, renamed, rows(all, renamed.prescribed));
+    EXPECT_LT((rows(result, order) - reference).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points))
+      << name;
+  }
+}
+
+TEST(LogBarrierWarp, FreeNodesStayInTheHullOfThePrescribedOnes)
+{
+  std::mt19937 random(seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Points target = rows(mesh.points, partition.prescribed); // scattered: FEMWARP need not obey
+    target += 3 * target.unaryExpr([&](double) { return value(random); });
+    const Points free = rows(morphed(mesh, partition, target), partition.free);
+    for (int i = 0; i < 50; ++i)
+    {
+      const Eigen::Vector3d direction(value(random), value(random), value(random));
+      EXPECT_LT((free * direction).maxCoeff(), (target * direction).maxCoeff()) << name;
+    }
+  }
+}
+
+TEST(LogBarrierWarp, AdjointEqualsFiniteDifferences)
+{
+  std::mt19937 random(seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.setTolerance(1e-13);
+    method.prepare(mesh, partition, monitor);
+    Points gradient(mesh.numberOfNodes(), 3),
+      step(static_cast<Index>(partition.prescribed.size()), 3);
+    gradient = gradient.unaryExpr([&](double) { return value(random); });
+    step = step.unaryExpr([&](double) { return value(random); });
+
+    const std::size_t before = method.memory();
+    Points adjoint;
+    const EvaluateReport report = method.applyTranspose(gradient, adjoint, monitor);
+    ASSERT_EQ(adjoint.rows(), step.rows());
+    EXPECT_LE(report.relativeResidual, 1e-13) << name;
+    EXPECT_GT(method.memory(), before) << name; // the transposed system is kept
+
+    // Objective: gradient . positions. The map is linear, so central differences are exact but for rounding.
+    const Points at = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, .8); });
+    Points plus, minus;
+    method.evaluate(at + 0.5 * step, plus, monitor);
+    method.evaluate(at - 0.5 * step, minus, monitor);
+    const double difference = gradient.cwiseProduct(plus - minus).sum();
+    EXPECT_NEAR(adjoint.cwiseProduct(step).sum(), difference, 1e-9 * std::abs(difference) + 1e-9)
+      << name;
+
+    // One coordinate by itself.
+    Points single = Points::Zero(step.rows(), 3);
+    single(3, 1) = 1e-3;
+    method.evaluate(at + single, plus, monitor);
+    method.evaluate(at - single, minus, monitor);
+    EXPECT_NEAR(
+      adjoint(3, 1), gradient.cwiseProduct(plus - minus).sum() / 2e-3, 1e-7 * gradient.norm())
+      << name;
+  }
+}
+
+TEST(LogBarrierWarp, ThreadsAndHistoryDoNotShow)
+{
+  Mesh mesh = hexes(24, 23, 22); // more rows than one block of the solver's sums
+  jitterInterior(mesh, .2, seed());
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 24, 22, 1); });
+  const Points one = morphed(mesh, partition, target, 1e-10, 1);
+  for (int threads : { 2, 5 })
+  {
+    const Points many = morphed(mesh, partition, target, 1e-10, threads);
+    EXPECT_EQ(std::memcmp(one.data(), many.data(), sizeof(double) * one.size()), 0) << threads;
+  }
+
+  Monitor monitor;
+  LogBarrierWarp method;
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  method.evaluate(targets(mesh, partition, affine), result, monitor);
+  method.applyTranspose(mesh.points, result, monitor);
+  method.evaluate(target, result, monitor);
+  EXPECT_EQ(std::memcmp(one.data(), result.data(), sizeof(double) * one.size()), 0);
+}
+
+TEST(LogBarrierWarp, RandomNumbersChangeTheRowsNotTheResult)
+{
+  const Mesh mesh = hexes(26, 25, 24);
+  std::vector<Index> order(mesh.numberOfNodes());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed()));
+  const Mesh shuffled = renumbered(mesh, order);
+  const auto move = [](const auto& x) { return twist(x, 26, 24, 1); };
+  const NodePartition partition = outerPartition(mesh), renamed = outerPartition(shuffled);
+  const Points reference = morphed(mesh, partition, targets(mesh, partition, move));
+
+  Monitor monitor;
+  LogBarrierWarp method;
+  method.setTolerance(1e-12);
+  method.prepare(shuffled, renamed, monitor);
+  EXPECT_NE(method.rows(), renamed.free);
+  Points result;
+  method.evaluate(targets(shuffled, renamed, move), result, monitor);
+  EXPECT_LT((rows(result, order) - reference).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points));
+
+  // The adjoint goes through the same order.
+  Points gradient = Points::Zero(mesh.numberOfNodes(), 3);
+  const Index node = method.rows()[1234];
+  gradient(node, 2) = 1;
+  Points step, plus, minus;
+  method.applyTranspose(gradient, step, monitor);
+  const Points at = targets(shuffled, renamed, move);
+  method.evaluate(at + step, plus, monitor);
+  method.evaluate(at - step, minus, monitor);
+  EXPECT_NEAR((plus(node, 2) - minus(node, 2)) / 2, step.squaredNorm(), 1e-9 * step.squaredNorm());
+}
+
+TEST(LogBarrierWarp, StretchedAndGradedMeshesConvergeFast)
+{
+  for (const char* kind : { "graded", "flat" })
+  {
+    Mesh mesh = hexes(20, 20, 20);
+    jitterInterior(mesh, .1, seed());
+    const bool graded = std::string(kind) == "graded";
+    transform(mesh,
+      [graded](const Eigen::RowVector3d& x)
+      {
+        return graded ? Eigen::RowVector3d(
+                          x[0], x[1], std::pow(1.6, x[2] - 20) * 20) // edges of 0.001 to 7.5
+                      : Eigen::RowVector3d(x[0], .01 * x[1], 1e-4 * x[2]);
+      });
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.prepare(mesh, partition, monitor);
+    EXPECT_LT(missed(method, mesh), 1e-11) << kind;
+    Points result;
+    const EvaluateReport report = method.evaluate(
+      targets(mesh, partition, [](const auto& x) { return twist(x, 20, 20, 1); }), result, monitor);
+    EXPECT_LT(report.iterations, 40) << kind;
+    EXPECT_EQ(count(report, "FallBackIterations"), 0) << kind;
+  }
+}
+
+TEST(LogBarrierWarp, TheUnitOfLengthDoesNotShow)
+{
+  Mesh mesh = hexes(8, 8, 8);
+  jitterInterior(mesh, .2, seed());
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 8, 8, 1); });
+  const Points reference = morphed(mesh, partition, target);
+  for (double unit : { 1e-30, 1e40 })
+  {
+    Mesh scaled = mesh;
+    scaled.points *= unit;
+    EXPECT_LT(
+      (morphed(scaled, partition, unit * target) / unit - reference).cwiseAbs().maxCoeff(), 1e-9)
+      << unit;
+  }
+}
+
+TEST(LogBarrierWarp, FreeNodesOnAFlatOuterFaceKeepToIt)
+{
+  // The inner nodes of the face z = 0 are left free: the limit of their weights lies within the face.
+  Mesh mesh = hexes(5, 5, 5);
+  jitterInterior(mesh, .15, seed());
+  const NodePartition outer = outerPartition(mesh);
+  std::vector<Index> ids;
+  for (Index id : outer.prescribed)
+  {
+    const auto p = mesh.points.row(id);
+    if (p[2] > 0 || p[0] == 0 || p[0] == 5 || p[1] == 0 || p[1] == 5)
+    {
+      ids.push_back(id);
+    }
+  }
+  ASSERT_EQ(ids.size() + 16, outer.prescribed.size());
+  const NodePartition partition = partitionNodes(mesh, ids);
+  Monitor monitor;
+  LogBarrierWarp method;
+  method.prepare(mesh, partition, monitor);
+  EXPECT_LT(missed(method, mesh), 1e-10);
+  Points result;
+  const EvaluateReport report = method.evaluate(
+    targets(mesh, partition, [](const auto& x) { return twist(x, 5, 5, 1); }), result, monitor);
+  EXPECT_EQ(count(report, "OutsideHullNodes"), 0);
+  for (Index id : outer.prescribed)
+  {
+    if (mesh.points(id, 2) == 0)
+    {
+      EXPECT_NEAR(result(id, 2), 0, 1e-12);
+    }
+  }
+}
+
+TEST(LogBarrierWarp, ANodeOutsideItsHullIsNamed)
+{
+  const Mesh mesh = withNodeOutside(Centre, { 1.3, .1, .2 });
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  LogBarrierWarp method;
+  EXPECT_EQ(method.outsideHull(), OutsideHull::Error);
+  std::string message;
+  kindOf([&] { method.prepare(mesh, partition, monitor); }, message);
+  EXPECT_EQ(message.rfind("1 free node does not lie inside the hull", 0), 0u) << message;
+  EXPECT_NE(message.find("node ids 171."), std::string::npos) << message;
+  EXPECT_NE(message.find("Relax"), std::string::npos) << message;
+  Points moved;
+  EXPECT_THROW(method.evaluate(rows(mesh.points, partition.prescribed), moved, monitor), Error);
+}
+
+TEST(LogBarrierWarp, RelaxTakesTheSecondRingFirst)
+{
+  const Mesh mesh = withNodeOutside(Centre, { 1.3, .1, .2 });
+  const NodePartition partition = outerPartition(mesh);
+  ThreadedMonitor monitor;
+  LogBarrierWarp method;
+  method.setOutsideHull(OutsideHull::Relax);
+  method.prepare(mesh, partition, monitor);
+  ASSERT_EQ(monitor.warnings.size(), 1u);
+  EXPECT_NE(monitor.warnings[0].find("node ids 171."), std::string::npos) << monitor.warnings[0];
+  EXPECT_LT(missed(method, mesh), 1e-12);
+  Points result;
+  const EvaluateReport report = method.evaluate(targets(mesh, partition, affine), result, monitor);
+  EXPECT_EQ(count(report, "OutsideHullNodes"), 1);
+  EXPECT_EQ(count(report, "TwoRingNodes"), 1);
+  EXPECT_EQ(count(report, "AffineNodes"), 0);
+  EXPECT_EQ(count(report, "StiffnessNodes"), 0);
+  Mesh expected = mesh;
+  transform(expected, affine);
+  EXPECT_LT((result - expected.points).cwiseAbs().maxCoeff(), 1e-9);
+
+  // The row is wider than the ring and its transpose has entries where it has none.
+  Points gradient = Points::Zero(mesh.numberOfNodes(), 3), step, plus, minus;
+  gradient(Centre + 1, 0) = 1;
+  method.applyTranspose(gradient, step, monitor);
+  const Points at = rows(mesh.points, partition.prescribed);
+  method.evaluate(at + step, plus, monitor);
+  method.evaluate(at - step, minus, monitor);
+  EXPECT_NEAR((plus(Centre + 1, 0) - minus(Centre + 1, 0)) / 2, step.squaredNorm(),
+    1e-8 * step.squaredNorm());
+}
+
+TEST(LogBarrierWarp, RelaxThenTakesAffineWeights)
+{
+  // The one free node lies outside the whole mesh.
+  Mesh mesh = hexes(2, 2, 2);
+  mesh.points.row(13) = Eigen::RowVector3d(3, 1.1, .9);
+  const NodePartition partition = outerPartition(mesh);
+  ThreadedMonitor monitor;
+  LogBarrierWarp method;
+  method.setOutsideHull(OutsideHull::Relax);
+  method.prepare(mesh, partition, monitor);
+  EXPECT_LT(missed(method, mesh), 1e-13);
+  Points result;
+  const EvaluateReport report = method.evaluate(targets(mesh, partition, affine), result, monitor);
+  EXPECT_EQ(count(report, "OutsideHullNodes"), 1);
+  EXPECT_EQ(count(report, "AffineNodes"), 1);
+  EXPECT_LT((result.row(13) - affine(mesh.points.row(13))).norm(), 1e-12);
+
+  // Least norm: the weights are affine functions of the neighbors' places.
+  const Points neighbors = rows(mesh.points, partition.prescribed);
+  const Eigen::VectorXd w = -Eigen::MatrixXd(method.coupling()).transpose().col(0);
+  Eigen::MatrixXd affineFunctions(26, 4);
+  affineFunctions << Eigen::VectorXd::Ones(26), neighbors;
+  const Eigen::VectorXd fit = affineFunctions * affineFunctions.colPivHouseholderQr().solve(w);
+  EXPECT_LT((fit - w).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(LogBarrierWarp, RelaxAtLastTakesTheStiffness)
+{
+  // All neighbors lie in one plane and the node off it: no weights of sum 1 reach it.
+  Mesh mesh = hexes(2, 2, 2);
+  mesh.points.col(2).setZero();
+  mesh.points(13, 2) = 1;
+  std::vector<Index> ids(27);
+  std::iota(ids.begin(), ids.end(), Index(0));
+  ids.erase(ids.begin() + 13);
+  const NodePartition partition = partitionNodes(mesh, ids);
+  ThreadedMonitor monitor;
+  LogBarrierWarp method;
+  method.setOutsideHull(OutsideHull::Relax);
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  const Points target =
+    rows(mesh.points, partition.prescribed).rowwise() + Eigen::RowVector3d(1, 2, 3);
+  const EvaluateReport report = method.evaluate(target, result, monitor);
+  EXPECT_EQ(count(report, "StiffnessNodes"), 1);
+  EXPECT_LT((result.row(13) - mesh.points.row(13) - Eigen::RowVector3d(1, 2, 3)).norm(), 1e-12);
+}
+
+TEST(LogBarrierWarp, ScrambledMeshesGetAResultWhereRelaxed)
+{
+  Mesh mesh = hexes(12, 12, 12);
+  jitterInterior(mesh, 1.2, seed()); // most cells inverted
+  const NodePartition partition = outerPartition(mesh);
+  ThreadedMonitor monitor;
+  LogBarrierWarp method;
+  std::string message;
+  kindOf([&] { method.prepare(mesh, partition, monitor); }, message);
+  EXPECT_NE(message.find("in all"), std::string::npos) << message;
+  method.setOutsideHull(OutsideHull::Relax);
+  method.prepare(mesh, partition, monitor);
+  EXPECT_LT(missed(method, mesh), 1e-9);
+  Points result;
+  const EvaluateReport report = method.evaluate(targets(mesh, partition, affine), result, monitor);
+  EXPECT_GT(count(report, "OutsideHullNodes"), 10);
+  EXPECT_EQ(count(report, "OutsideHullNodes"),
+    count(report, "TwoRingNodes") + count(report, "AffineNodes") + count(report, "StiffnessNodes"));
+  Mesh expected = mesh;
+  transform(expected, affine);
+  EXPECT_LT((result - expected.points).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(LogBarrierWarp, PrescribedInteriorNodesStayWhereTheyArePut)
+{
+  const Mesh mesh = hexes(4, 4, 4);
+  std::vector<Index> ids = outerPartition(mesh).prescribed;
+  const Index centre = 62;
+  ids.push_back(centre);
+  const NodePartition partition = partitionNodes(mesh, ids);
+  Points target = rows(mesh.points, partition.prescribed);
+  const auto at = std::find(partition.prescribed.begin(), partition.prescribed.end(), centre);
+  target(at - partition.prescribed.begin(), 0) += .3;
+  const Points result = morphed(mesh, partition, target);
+  EXPECT_EQ(result(centre, 0), mesh.points(centre, 0) + .3);
+  EXPECT_GT(result(centre + 1, 0), mesh.points(centre + 1, 0) + .001); // its neighbors follow
+}
+
+TEST(LogBarrierWarp, MirroredMeshesAndUnusedNodesAreNoMatter)
+{
+  Mesh mesh = hexes(4, 4, 4);
+  jitterInterior(mesh, .15, seed());
+  const NodePartition before = outerPartition(mesh);
+  mesh.points.col(1) *= -1;
+  mesh.points.conservativeResize(127, 3);
+  mesh.points.bottomRows(2).setConstant(9);
+  add(mesh, Line, { 125, 126 });
+  const NodePartition partition = partitionNodes(mesh, before.prescribed);
+  const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
+  Mesh expected = mesh;
+  transform(expected, affine);
+  EXPECT_LT(
+    (result - expected.points).topRows(125).cwiseAbs().maxCoeff(), 1e-10 * size(mesh.points));
+  EXPECT_EQ(result.bottomRows(2), mesh.points.bottomRows(2));
+}
+
+TEST(LogBarrierWarp, ABodyWithoutPrescribedNodesIsNamed)
+{
+  Mesh mesh = hexes(2, 2, 2);
+  const NodePartition first = outerPartition(mesh);
+  const Mesh other = mesh;
+  mesh.points.conservativeResize(54, 3);
+  mesh.points.bottomRows(27) = other.points.array() + 10;
+  for (Index c = 0; c < 8; ++c)
+  {
+    std::vector<Index> nodes(other.cell(c), other.cell(c) + 8);
+    for (Index& n : nodes)
+    {
+      n += 27;
+    }
+    add(mesh, Hexahedron, nodes);
+  }
+  Monitor monitor;
+  LogBarrierWarp method;
+  std::string message;
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partitionNodes(mesh, first.prescribed), monitor); }, message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("Body 1 (8 cells"), std::string::npos) << message;
+}
+
+TEST(LogBarrierWarp, RefusesWhatItCannotUse)
+{
+  const Mesh mesh = hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  LogBarrierWarp method;
+  std::string message;
+  for (double wrong : { 0., -1., 1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    EXPECT_THROW(method.setTolerance(wrong), Error);
+  }
+  EXPECT_EQ(kindOf([&] { method.prepare(mesh, partitionNodes(mesh, {}), monitor); }, message),
+    Error::Kind::Singular);
+  method.prepare(mesh, partition, monitor);
+  Points moved = Points::Constant(1, 3, 5);
+  Points target = rows(mesh.points, partition.prescribed);
+  target(7, 2) = 1e300;
+  kindOf([&] { method.evaluate(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("too large"), std::string::npos) << message;
+  target(7, 2) = std::numeric_limits<double>::infinity();
+  kindOf([&] { method.evaluate(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("node ids " + std::to_string(partition.prescribed[7])), std::string::npos);
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5)); // untouched
+}
+
+TEST(LogBarrierWarp, CancelStopsAndLeavesTheResultAlone)
+{
+  const Mesh mesh = hexes(8, 8, 8);
+  const NodePartition partition = outerPartition(mesh);
+  ThreadedMonitor monitor;
+  LogBarrierWarp method;
+  std::string message;
+  monitor.cancelAt = 0.3;
+  EXPECT_EQ(
+    kindOf([&] { method.prepare(mesh, partition, monitor); }, message), Error::Kind::Cancelled);
+
+  monitor.cancelAt = 2;
+  method.prepare(mesh, partition, monitor);
+  EXPECT_EQ(monitor.lastProgress, 1);
+  monitor.cancelAt = 0; // at once
+  Points moved = Points::Constant(1, 3, 5);
+  const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 8, 8, 1); });
+  EXPECT_EQ(
+    kindOf([&] { method.evaluate(target, moved, monitor); }, message), Error::Kind::Cancelled);
+  EXPECT_EQ(kindOf([&] { method.applyTranspose(mesh.points, moved, monitor); }, message),
+    Error::Kind::Cancelled);
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5));
+}

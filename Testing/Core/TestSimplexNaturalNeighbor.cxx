@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is particular to natural neighbors; TestLinearMorphers.cxx has what they share with the other methods.
+#include "SimplexNaturalNeighbor.h"
+
+#include "Meshes.h"
+#include "Motions.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace morph;
+using motions::difference;
+using motions::jittered;
+using motions::outerPartition;
+using motions::targets;
+using Row = Eigen::RowVector3d;
+using Kind = SimplexNaturalNeighbor::Coordinates;
+
+namespace
+{
+motions::Map twistOf(double size)
+{
+  return [=](const Row& x) { return motions::twist(x, size, size, 1.2); };
+}
+
+Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target, Kind kind)
+{
+  Monitor monitor;
+  SimplexNaturalNeighbor method;
+  method.setCoordinates(kind);
+  method.prepare(mesh, partition, monitor);
+  Points moved;
+  method.evaluate(target, moved, monitor);
+  return moved;
+}
+
+Index count(const EvaluateReport& report, const std::string& name)
+{
+  const auto found = std::find_if(
+    report.counts.begin(), report.counts.end(), [&](const Count& c) { return c.name == name; });
+  return found == report.counts.end() ? -1 : found->value;
+}
+}
+
+TEST(SimplexNaturalNeighbor, TurningALatticeChangesNothing)
+{
+  // Every tessellation of a lattice is a choice, and another one after turning.
+  const Eigen::Matrix3d R =
+    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const motions::Map rigid = [&](const Row& x) { return Row(2.5 * x * R + Row(4, -3, 8)); };
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target = targets(mesh, partition, twistOf(4));
+    Mesh turned = mesh;
+    meshes::transform(turned, rigid);
+    for (Kind kind : { Kind::Sibson, Kind::Laplace })
+    {
+      const Points expected = motions::mapped(morphed(mesh, partition, target, kind), rigid);
+      const Points result = morphed(turned, partition, motions::mapped(target, rigid), kind);
+      EXPECT_LT(difference(result, expected), 1e-8 * meshes::size(turned.points)) << name;
+    }
+  }
+}
+
+TEST(SimplexNaturalNeighbor, SymmetricMotionsStaySymmetric)
+{
+  const Mesh mesh = meshes::hexes(6, 6, 6);
+  const NodePartition partition = outerPartition(mesh);
+  const auto bulge = [](const Row& x)
+  {
+    const double r = (x.head<2>().array() - 3).matrix().squaredNorm();
+    return Row(x[0], x[1], x[2] + .05 * r * x[2]);
+  };
+  const Points moved = morphed(mesh, partition, targets(mesh, partition, bulge), Kind::Sibson);
+  const auto height = [&](int i, int j, int k) { return moved(i + 7 * (j + 7 * k), 2); };
+  for (int k = 1; k < 6; ++k)
+  {
+    for (int j = 1; j < 6; ++j)
+    {
+      for (int i = 1; i < 6; ++i)
+      {
+        EXPECT_NEAR(height(i, j, k), height(6 - i, j, k), 1e-10);
+        EXPECT_NEAR(height(i, j, k), height(j, i, k), 1e-10);
+      }
+    }
+  }
+}
+
+TEST(SimplexNaturalNeighbor, TheMemoryLimitChangesNoResult)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target = targets(mesh, partition, twistOf(4));
+    meshes::ThreadedMonitor silent, monitor(3);
+    SimplexNaturalNeighbor stored, anew;
+    anew.setMemoryLimit(100);
+    stored.prepare(mesh, partition, silent);
+    anew.prepare(mesh, partition, monitor);
+    EXPECT_TRUE(silent.warnings.empty());
+    ASSERT_EQ(monitor.warnings.size(), 1u);
+    EXPECT_NE(monitor.warnings[0].find("memory limit of 1e-07 GB"), std::string::npos)
+      << monitor.warnings[0];
+    EXPECT_LT(anew.memory(), stored.memory());
+
+    Points one, other;
+    const EvaluateReport first = stored.evaluate(target, one, silent);
+    const EvaluateReport second = anew.evaluate(target, other, monitor);
+    EXPECT_TRUE(motions::identical(one, other)) << name;
+    EXPECT_EQ(count(first, "WeightsStored"), 1);
+    EXPECT_EQ(count(second, "WeightsStored"), 0);
+    EXPECT_EQ(count(first, "BarycentricNodes"), count(second, "BarycentricNodes"));
+    stored.applyTranspose(mesh.points, one, silent);
+    anew.applyTranspose(mesh.points, other, monitor);
+    EXPECT_TRUE(motions::identical(one, other)) << name;
+  }
+}
+
+TEST(SimplexNaturalNeighbor, NodesOnTheHullAndBeyondAreCounted)
+{
+  const Mesh mesh = meshes::hexes(6, 6, 6);
+  std::vector<Index> ids;
+  for (Index id = 0; id < mesh.numberOfNodes(); ++id)
+  {
+    const Row x = mesh.points.row(id);
+    const bool corner = (x.array() == 0 || x.array() == 4).all();
+    if (corner)
+    {
+      ids.push_back(id);
+    }
+  }
+  ASSERT_EQ(ids.size(), 8u);
+  const NodePartition partition = partitionNodes(mesh, ids);
+  const auto beyond = std::count_if(partition.free.begin(), partition.free.end(),
+    [&](Index id) { return mesh.points.row(id).maxCoeff() > 4; });
+  Monitor monitor;
+  SimplexNaturalNeighbor method;
+  method.prepare(mesh, partition, monitor);
+  Points moved;
+  const EvaluateReport report =
+    method.evaluate(targets(mesh, partition, motions::affine), moved, monitor);
+  EXPECT_EQ(count(report, "ExtrapolatedNodes"), beyond);
+  const Index within = 3 * 3 * 3;
+  EXPECT_EQ(count(report, "BarycentricNodes"), static_cast<Index>(partition.free.size()) - within);
+  EXPECT_LT(difference(moved, motions::mapped(mesh.points, motions::affine)),
+    1e-10 * meshes::size(mesh.points));
+}
+
+TEST(SimplexNaturalNeighbor, NoNodeInsideFallsBack)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    SimplexNaturalNeighbor method;
+    method.prepare(mesh, partition, monitor);
+    Points moved;
+    const EvaluateReport report =
+      method.evaluate(targets(mesh, partition, motions::affine), moved, monitor);
+    EXPECT_EQ(count(report, "BarycentricNodes"), 0) << name;
+  }
+}

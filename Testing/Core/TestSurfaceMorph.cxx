@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryShapes.h"
+
+#include "CurveMorph.h"
+#include "Error.h"
+#include "FaceQuality.h"
+#include "SurfaceLoops.h"
+#include "SurfaceMorph.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+using namespace morph;
+using shapes::Row;
+
+namespace
+{
+using Map = std::function<Row(const Row&)>;
+using Method = SurfaceMorphOptions::Method;
+
+constexpr Method Methods[] = { Method::WeightedResidual, Method::Smoothing };
+
+struct Case
+{
+  Mesh mesh;
+  BoundaryFaces faces;
+  Classification geometry;
+
+  explicit Case(const Mesh& m, const ClassificationOptions& options = {})
+    : mesh(m)
+  {
+    Monitor monitor;
+    this->faces = boundaryFaces(this->mesh, monitor);
+    this->geometry = classify(this->mesh, this->faces, options, monitor);
+  }
+
+  /// Boundary nodes of a dimension of at most `highest`.
+  std::vector<Index> upTo(int highest) const
+  {
+    std::vector<Index> ids;
+    for (Index node : this->faces.nodes)
+    {
+      if (this->geometry.dimension[node] <= highest)
+      {
+        ids.push_back(node);
+      }
+    }
+    return ids;
+  }
+
+  BoundaryMotion begin(const std::vector<Index>& ids, const Map& map) const
+  {
+    Points targets(static_cast<Index>(ids.size()), 3);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      targets.row(static_cast<Index>(i)) = map(this->mesh.points.row(ids[i]));
+    }
+    return beginMotion(this->mesh, this->faces, this->geometry, ids, targets);
+  }
+
+  Points morph(const std::vector<Index>& ids, const Map& map,
+    const SurfaceMorphOptions& options = {}, int threads = 1,
+    SurfaceMorphReport* report = nullptr) const
+  {
+    meshes::ThreadedMonitor monitor(threads);
+    BoundaryMotion motion = this->begin(ids, map);
+    morphCurves(this->geometry, options.unattached, motion, monitor);
+    const SurfaceMorphReport done =
+      morphSurfaces(this->faces, this->geometry, options, motion, monitor);
+    if (report)
+    {
+      *report = done;
+    }
+    return motion.moved();
+  }
+
+  double worst(const Points& moved, const Map& map) const
+  {
+    double worst = 0;
+    for (Index node : this->faces.nodes)
+    {
+      worst = std::max(worst, (moved.row(node) - map(this->mesh.points.row(node))).norm());
+    }
+    return worst / meshes::size(moved);
+  }
+};
+
+Map randomAffine(unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  Eigen::Matrix3d A;
+  do
+  {
+    A = Eigen::Matrix3d::NullaryExpr([&] { return number(random); });
+  } while (A.determinant() < 0.2);
+  const Row shift(5 * number(random), 5 * number(random), 5 * number(random));
+  return [A, shift](const Row& x) { return Row(x * A.transpose() + shift); };
+}
+
+Row twist(const Row& x)
+{
+  const double a = 0.2 * x[2];
+  return Row(x[0] * std::cos(a) - x[1] * std::sin(a) + 0.05 * x[1] * x[1],
+    x[0] * std::sin(a) + x[1] * std::cos(a), x[2] + 0.03 * x[0] * x[0]);
+}
+
+Row same(const Row& x)
+{
+  return x;
+}
+
+std::vector<std::pair<std::string, Mesh>> solids()
+{
+  return { { "box", meshes::hexes(4, 3, 2) }, { "tets", meshes::tets(3, 3, 3) },
+    { "tet10", meshes::quadraticTets(2, 2, 2) }, { "hex27", meshes::quadraticHexes(3, 2, 2, true) },
+    { "hole", shapes::boxWithHole(32, 4, 3) }, { "cylinder", shapes::cylinder(8, 4) },
+    { "hollow ball", shapes::hollowBall(8) }, { "creased", shapes::creasedPlate() },
+    { "two bodies", shapes::together(shapes::boxWithHole(16, 2, 2), meshes::tets(2, 2, 2)) } };
+}
+
+std::string messageOf(const std::function<void()>& call)
+{
+  try
+  {
+    call();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "(no error)";
+}
+}
+
+TEST(SurfaceMorph, NoMotionIsTheIdentityBitForBit)
+{
+  for (const auto& [name, mesh] : solids())
+  {
+    const Case c(mesh);
+    for (const Method method : Methods)
+    {
+      SurfaceMorphOptions options;
+      options.method = method;
+      for (int highest = 0; highest <= 2; ++highest)
+      {
+        const std::vector<Index> ids = c.upTo(highest);
+        if (!ids.empty())
+        {
+          const Points moved = c.morph(ids, same, options);
+          EXPECT_EQ(moved, mesh.points) << name;
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfaceMorph, AffineMotionOfTheVerticesMovesEverything)
+{
+  // Closed curves without a vertex too; on the cylinder and the ball no vertex says anything.
+  for (unsigned k = 0; k < 3; ++k)
+  {
+    const Map map = randomAffine(meshes::seed() + k);
+    for (const auto& [name, mesh] : solids())
+    {
+      const Case c(mesh);
+      for (const Method method : Methods)
+      {
+        SurfaceMorphOptions options;
+        options.method = method;
+        for (int highest = 0; highest <= 1; ++highest)
+        {
+          const std::vector<Index> ids = c.upTo(highest);
+          if (!ids.empty())
+          {
+            EXPECT_LE(c.worst(c.morph(ids, map, options), map), 1e-10) << name;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfaceMorph, CurvedCurvesFollowAffineMotions)
+{
+  // A quarter of a disc: each arc's ends alone do not tell how its bulge moves, the other vertices do.
+  Mesh mesh = meshes::hexes(4, 6, 3);
+  meshes::transform(mesh,
+    [](const Row& x)
+    {
+      const double a = x[1] * std::acos(0.) / 6, r = 1 + 0.25 * x[0];
+      return Row(r * std::cos(a), r * std::sin(a), 0.3 * x[2]);
+    });
+  const Case c(mesh);
+  ASSERT_EQ(c.geometry.vertices.size(), 8u);
+  const Map map = randomAffine(meshes::seed());
+  BoundaryMotion motion = c.begin(c.upTo(0), map);
+  Monitor monitor;
+  morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+  const Points moved = motion.moved();
+  for (Index node : c.upTo(1))
+  {
+    EXPECT_LE((moved.row(node) - map(mesh.points.row(node))).norm(), 1e-12);
+  }
+}
+
+TEST(SurfaceMorph, GivenNodesAreExactAndTheOthersBlend)
+{
+  const Case c(meshes::hexes(4, 3, 2));
+  // One vertex moves, the others are held: displacements fall off linearly along its curves.
+  const std::vector<Index> one = { 0 };
+  const Row to(-0.3, -0.2, 0.1);
+  BoundaryMotion motion = c.begin(one, [&](const Row&) { return to; });
+  EXPECT_EQ(motion.count(BoundaryMotion::Held), 7);
+  Monitor monitor;
+  morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+  for (Index i = 0; i <= 4; ++i)
+  {
+    EXPECT_LE((motion.displacement.row(i) - (1 - i / 4.) * to).norm(), 1e-15);
+  }
+  // A node given on a curve splits it.
+  BoundaryMotion split = c.begin({ 2 }, [](const Row& x) { return Row(x + Row(0, 1, 0)); });
+  morphCurves(c.geometry, Unattached::FollowAffinely, split, monitor);
+  const double expected[] = { 0, 0.5, 1, 0.5, 0 };
+  for (Index i = 0; i <= 4; ++i)
+  {
+    EXPECT_NEAR(split.displacement(i, 1), expected[i], 1e-14);
+  }
+  // All nodes given: exact, whatever the motion.
+  const std::vector<Index> all = c.upTo(2);
+  const Points moved = c.morph(all, twist);
+  for (Index node : all)
+  {
+    EXPECT_EQ(moved.row(node), twist(c.mesh.points.row(node)));
+  }
+}
+
+TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
+{
+  const Case hole(shapes::boxWithHole(32, 4, 3));
+  const Map stretch = [](const Row& x) { return Row(2 * x[0], x[1], x[2] + 1); };
+  const auto radii = [&](Unattached how)
+  {
+    SurfaceMorphOptions options;
+    options.unattached = how;
+    const Points moved = hole.morph(hole.upTo(0), stretch, options);
+    std::pair<double, double> range(1e9, 0);
+    double lowest = 1e9;
+    for (Index node : hole.geometry.curves[0].nodes)
+    {
+      lowest = std::min(lowest, moved(node, 2));
+    }
+    for (const GeometryCurve& curve : hole.geometry.curves)
+    {
+      for (Index node : curve.nodes)
+      {
+        if (curve.loop)
+        {
+          const double r = moved.row(node).head(2).norm();
+          range = { std::min(range.first, r), std::max(range.second, r) };
+          lowest = std::min(lowest, moved(node, 2));
+        }
+      }
+    }
+    EXPECT_NEAR(lowest, how == Unattached::Stay ? 0 : 1, 1e-12);
+    return range;
+  };
+  EXPECT_NEAR(radii(Unattached::FollowAffinely).second, 2, 1e-12);
+  EXPECT_NEAR(radii(Unattached::FollowRigidly).first, 1, 1e-12);
+  EXPECT_NEAR(radii(Unattached::FollowRigidly).second, 1, 1e-12);
+  EXPECT_NEAR(radii(Unattached::Stay).second, 1, 1e-12);
+
+  // A cavity: the outer surface is given and turns.
+  const Case ball(shapes::hollowBall(8));
+  const Eigen::Matrix3d R =
+    Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Map turn = [&](const Row& x) { return Row(x * R.transpose() + Row(1, 2, 3)); };
+  std::vector<Index> outer;
+  for (Index node : ball.faces.nodes)
+  {
+    if (ball.mesh.points.row(node).norm() > 0.9)
+    {
+      outer.push_back(node);
+    }
+  }
+  for (const Unattached how :
+    { Unattached::FollowAffinely, Unattached::FollowRigidly, Unattached::Stay })
+  {
+    SurfaceMorphOptions options;
+    options.unattached = how;
+    SurfaceMorphReport report;
+    const Points moved = ball.morph(outer, turn, options, 1, &report);
+    EXPECT_EQ(report.unattached.size(), 1u);
+    for (Index node : ball.faces.nodes)
+    {
+      const bool stays = how == Unattached::Stay && ball.mesh.points.row(node).norm() < 0.9;
+      const Row expected =
+        stays ? Row(ball.mesh.points.row(node)) : turn(ball.mesh.points.row(node));
+      EXPECT_LE((moved.row(node) - expected).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(SurfaceMorph, BodiesDoNotPullEachOther)
+{
+  // The cavity of one body follows its own body, not the other.
+  Mesh far = shapes::hollowBall(8);
+  meshes::transform(far, [](const Row& x) { return Row(x + Row(10, 0, 0)); });
+  const Case c(shapes::together(shapes::hollowBall(8), far));
+  std::vector<Index> outer;
+  for (Index node : c.faces.nodes)
+  {
+    const Row x = c.mesh.points.row(node);
+    if (std::min(x.norm(), (x - Row(10, 0, 0)).norm()) > 0.9 && std::abs(x[0] - 5) > 0)
+    {
+      outer.push_back(node);
+    }
+  }
+  for (const Unattached how : { Unattached::FollowAffinely, Unattached::FollowRigidly })
+  {
+    SurfaceMorphOptions options;
+    options.unattached = how;
+    const Map map = [](const Row& x) { return x[0] < 5 ? x : Row(x + Row(0, 3, 0)); };
+    EXPECT_LE(c.worst(c.morph(outer, map, options), map), 1e-12);
+  }
+}
+
+TEST(SurfaceMorph, RigidMotionScaleAndNumberingDoNotMatter)
+{
+  std::mt19937 random(meshes::seed());
+  const Eigen::Matrix3d R =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(3, -1, 2).normalized()).toRotationMatrix();
+  const Map turned = [&](const Row& x) { return Row(1e-3 * x * R.transpose() + Row(1, 2, 3)); };
+  for (const Mesh& mesh : { shapes::boxWithHole(32, 4, 3), meshes::quadraticTets(2, 2, 2) })
+  {
+    const Case c(mesh);
+    std::vector<Index> order(mesh.numberOfNodes());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::shuffle(order.begin(), order.end(), random);
+    for (const Map& place : { Map(same), turned })
+    {
+      Mesh placed = meshes::renumbered(mesh, order);
+      meshes::transform(placed, place);
+      const Case d(placed);
+      const std::vector<Index> ids = c.upTo(1);
+      std::vector<Index> other;
+      Points targets(static_cast<Index>(ids.size()), 3);
+      for (std::size_t i = 0; i < ids.size(); ++i)
+      {
+        other.push_back(order[ids[i]]);
+        targets.row(static_cast<Index>(i)) = place(twist(mesh.points.row(ids[i])));
+      }
+      for (const Method method : Methods)
+      {
+        SurfaceMorphOptions options;
+        options.method = method;
+        // Which of equally near nodes are the nearest depends on the place: here all take part.
+        options.neighbors = 100000;
+        const Points moved = c.morph(ids, twist, options);
+        meshes::ThreadedMonitor monitor;
+        BoundaryMotion motion = beginMotion(d.mesh, d.faces, d.geometry, other, targets);
+        morphCurves(d.geometry, options.unattached, motion, monitor);
+        morphSurfaces(d.faces, d.geometry, options, motion, monitor);
+        const Points there = motion.moved();
+        double worst = 0;
+        for (Index node : c.faces.nodes)
+        {
+          worst = std::max(worst, (there.row(order[node]) - place(moved.row(node))).norm());
+        }
+        EXPECT_LE(worst, 1e-10 * meshes::size(there));
+      }
+    }
+  }
+}
+
+TEST(SurfaceMorph, ThreadsDoNotShow)
+{
+  const Case c(shapes::boxWithHole(32, 6, 6));
+  for (const Method method : Methods)
+  {
+    SurfaceMorphOptions options;
+    options.method = method;
+    EXPECT_EQ(c.morph(c.upTo(1), twist, options, 1), c.morph(c.upTo(1), twist, options, 4));
+  }
+}
+
+TEST(SurfaceMorph, SmoothingStaysWithinTheResiduals)
+{
+  // One vertex of a box is pulled: u is affine, and what is left of the vertices' motion bounds what is left inside.
+  const Case c(meshes::hexes(5, 5, 5));
+  SurfaceMorphOptions options;
+  options.method = Method::Smoothing;
+  const Points moved = c.morph(
+    { 0 }, [](const Row& x) { return Row(x - Row(1, 1, 1)); }, options);
+  for (Index node : c.faces.nodes)
+  {
+    const Row u = moved.row(node) - c.mesh.points.row(node);
+    EXPECT_LE(u.maxCoeff(), 0.2);
+    EXPECT_GE(u.minCoeff(), -1 - 1e-12);
+  }
+  EXPECT_TRUE(faceQuality(c.mesh.points, moved, c.faces, c.geometry).folded.empty());
+}
+
+TEST(SurfaceMorph, BadInputIsNamed)
+{
+  const Case c(meshes::hexes(2, 2, 2));
+  const auto message = [&](const std::vector<Index>& ids, const Points& targets)
+  { return messageOf([&] { beginMotion(c.mesh, c.faces, c.geometry, ids, targets); }); };
+  const auto has = [](const std::string& text, const char* part)
+  { return text.find(part) != std::string::npos; };
+  EXPECT_TRUE(has(message({}, Points(0, 3)), "No node of the boundary is given"));
+  EXPECT_TRUE(has(message({ 0, 2 }, Points::Zero(1, 3)), "2 nodes with 1 new positions"));
+  EXPECT_TRUE(has(message({ 0, 27, -1 }, Points::Zero(3, 3)), "ids 27, -1."));
+  EXPECT_TRUE(has(message({ 13 }, Points::Zero(1, 3)), "not on the boundary"));
+  EXPECT_TRUE(has(message({ 2, 2 }, Points::Zero(2, 3)), "more than once: ids 2."));
+  Points nan = Points::Zero(1, 3);
+  nan(0, 1) = NAN;
+  EXPECT_TRUE(has(message({ 6 }, nan), "node ids 6."));
+}
+
+TEST(SurfaceMorph, CoincidentEndsAndLengthlessCurves)
+{
+  // The two ends of an edge of the box in one place: its curve has no length.
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  for (Index i = 0; i <= 3; ++i)
+  {
+    mesh.points.row(i) = Row(0, 0, 0);
+  }
+  const Case c(mesh);
+  for (const Method method : Methods)
+  {
+    SurfaceMorphOptions options;
+    options.method = method;
+    const Points moved = c.morph(c.upTo(0), twist, options);
+    EXPECT_TRUE(moved.allFinite());
+    EXPECT_EQ(moved.row(1), moved.row(0));
+  }
+}
+
+TEST(SurfaceMorph, Cancels)
+{
+  const Case c(meshes::hexes(3, 3, 3));
+  meshes::ThreadedMonitor monitor;
+  monitor.cancelAt = 0.5;
+  BoundaryMotion motion = c.begin(c.upTo(0), twist);
+  EXPECT_THROW(morphCurves(c.geometry, Unattached::Stay, motion, monitor), Error);
+}
+
+TEST(SurfaceLoops, OuterRimAndHole)
+{
+  const Case c(shapes::boxWithHole(16, 2, 2));
+  std::size_t rims = 0;
+  for (const GeometrySurface& surface : c.geometry.surfaces)
+  {
+    const std::vector<std::vector<Index>> loops = boundaryLoops(c.faces, surface.faces);
+    rims += loops.size();
+    Row area = Row::Zero(), sum = Row::Zero();
+    for (const std::vector<Index>& loop : loops)
+    {
+      area += vectorArea(c.mesh.points, loop.data(), static_cast<Index>(loop.size()));
+    }
+    for (Index f : surface.faces)
+    {
+      sum += vectorArea(c.mesh.points, c.faces.connectivity.data() + c.faces.offsets[f],
+        c.faces.offsets[f + 1] - c.faces.offsets[f]);
+    }
+    EXPECT_LE((area - sum).norm(), 1e-13); // by Stokes
+  }
+  EXPECT_EQ(rims, 2u + 2u + 2u + 4u);
+  const Case ball(shapes::ball(4),
+    []
+    {
+      ClassificationOptions options;
+      options.featureAngle = 40;
+      return options;
+    }());
+  ASSERT_EQ(ball.geometry.surfaces.size(), 1u);
+  EXPECT_TRUE(boundaryLoops(ball.faces, ball.geometry.surfaces[0].faces).empty());
+}
+
+TEST(FaceQuality, IdealAndFoldedFaces)
+{
+  const Case box(meshes::hexes(4, 4, 4));
+  FaceQuality quality = faceQuality(box.mesh.points, box.mesh.points, box.faces, box.geometry);
+  EXPECT_NEAR(quality.minimum, 1, 1e-14);
+  EXPECT_NEAR(quality.mean, 1, 1e-14);
+  EXPECT_TRUE(quality.folded.empty());
+
+  // A turn by any angle, and a mirror image, leave it; so does any affine map the sign.
+  for (unsigned k = 0; k < 4; ++k)
+  {
+    Points moved = box.mesh.points;
+    const Map map = randomAffine(meshes::seed() + k);
+    for (Index n = 0; n < moved.rows(); ++n)
+    {
+      moved.row(n) = map(moved.row(n)) * (k == 3 ? -1 : 1);
+    }
+    EXPECT_TRUE(faceQuality(box.mesh.points, moved, box.faces, box.geometry).folded.empty());
+  }
+
+  // A node in the middle of the top is pulled over its neighbor: faces fold, in the plane, where no normal flips by
+  // much less.
+  Points moved = box.mesh.points;
+  Index node = -1;
+  for (Index n = 0; n < moved.rows(); ++n)
+  {
+    node = moved.row(n) == Row(2, 2, 4) ? n : node;
+  }
+  moved.row(node) = Row(3.5, 2, 4);
+  quality = faceQuality(box.mesh.points, moved, box.faces, box.geometry);
+  EXPECT_LT(quality.minimum, 0);
+  EXPECT_EQ(quality.folded.size(), 2u);
+  for (Index f : quality.folded)
+  {
+    const Index* nodes = box.faces.connectivity.data() + box.faces.offsets[f];
+    EXPECT_NE(std::find(nodes, nodes + 4, node), nodes + 4);
+  }
+
+  const Case tets(meshes::tets(1, 1, 1));
+  quality = faceQuality(tets.mesh.points, tets.mesh.points, tets.faces, tets.geometry);
+  EXPECT_NEAR(quality.minimum, 2 / std::sqrt(3.) * std::sqrt(0.5), 1e-14);
+  // An apex of the top pulled over its opposite side: the triangle's measure with the other sign.
+  const Case one(meshes::tets(2, 2, 2));
+  moved = one.mesh.points;
+  for (Index n = 0; n < moved.rows(); ++n)
+  {
+    if (moved.row(n) == Row(1, 1, 2))
+    {
+      moved(n, 0) = 2.5;
+    }
+  }
+  quality = faceQuality(one.mesh.points, moved, one.faces, one.geometry);
+  EXPECT_FALSE(quality.folded.empty());
+  EXPECT_GE(quality.minimum, -1);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
+
+#include "vtkLBWarpMorph.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+vtkSmartPointer<vtkLBWarpMorph> morph1(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
+{
+  auto filter = vtkSmartPointer<vtkLBWarpMorph>::New();
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(boundary);
+  return filter;
+}
+
+/// A grid of 6 x 6 x 6 hexahedra with one node shifted out of its neighbors' hull.
+vtkSmartPointer<vtkUnstructuredGrid> withNodeOutside()
+{
+  morph::Mesh mesh = meshes::hexes(6, 6, 6);
+  mesh.points.row(171) += Eigen::RowVector3d(1.3, .1, .2);
+  return grids::make(mesh);
+}
+
+vtkIdType field(vtkLBWarpMorph* filter, const char* name)
+{
+  vtkDataArray* array = filter->GetOutput()->GetFieldData()->GetArray(name);
+  EXPECT_NE(array, nullptr) << name;
+  return array ? static_cast<vtkIdType>(array->GetComponent(0, 0)) : -1;
+}
+}
+
+TEST(LBWarpMorph, FreeNodesStayInTheBoundarysHull)
+{
+  auto grid = grids::hexes(6);
+  auto boundary = grids::boundary(grid, grids::twist);
+  auto filter = morph1(grid, boundary);
+  filter->Update();
+  EXPECT_GT(filter->GetSolverIterations(), 0);
+  const morph::Points moved = grids::points(filter->GetOutput()), hull = grids::points(boundary);
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_LE(moved.col(c).maxCoeff(), hull.col(c).maxCoeff());
+    EXPECT_GE(moved.col(c).minCoeff(), hull.col(c).minCoeff());
+  }
+}
+
+TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
+{
+  auto grid = withNodeOutside();
+  auto filter = morph1(grid, grids::boundary(grid, grids::affine));
+  EXPECT_EQ(filter->GetOutsideHull(), vtkLBWarpMorph::ERROR_OUTSIDE_HULL);
+  {
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find("node ids 171."), std::string::npos) << listener.Errors[0];
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  filter->SetOutsideHullToRelax();
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("171"), std::string::npos) << listener.Warnings[0];
+  EXPECT_EQ(filter->GetOutsideHullNodes(), 1);
+  EXPECT_EQ(filter->GetTwoRingNodes(), 1);
+  EXPECT_EQ(filter->GetAffineNodes(), 0);
+  EXPECT_EQ(filter->GetStiffnessNodes(), 0);
+  EXPECT_EQ(field(filter, "TwoRingNodes"), 1);
+  EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
+              .cwiseAbs()
+              .maxCoeff(),
+    1e-8);
+}

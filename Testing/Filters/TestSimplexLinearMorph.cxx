@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is particular to simplex-linear; TestMorphFilters.cxx has what it shares with the other filters.
+#include "TestGrids.h"
+
+#include "vtkSimplexLinearMorph.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+TEST(SimplexLinearMorph, FoldedTetrahedraComeWithInvertedCells)
+{
+  auto grid = grids::hexes(6);
+  vtkNew<vtkSimplexLinearMorph> filter;
+  filter->SetInputData(grid);
+  const auto turned = [](double degrees)
+  {
+    return [degrees](const grids::Row& x)
+    {
+      const double a = degrees * 3.14159265358979 / 180 * x[2] / 6;
+      const double c = std::cos(a), s = std::sin(a);
+      return grids::Row(
+        3 + c * (x[0] - 3) - s * (x[1] - 3), 3 + s * (x[0] - 3) + c * (x[1] - 3), x[2]);
+    };
+  };
+  filter->SetBoundaryData(grids::boundary(grid, turned(20)));
+  filter->Update();
+  EXPECT_EQ(filter->GetFoldedTetrahedra(), 0);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  filter->SetBoundaryData(grids::boundary(grid, turned(270)));
+  filter->Update();
+  EXPECT_GT(filter->GetFoldedTetrahedra(), 0);
+  EXPECT_GT(filter->GetInvertedCells(), 0);
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+}
+
+TEST(SimplexLinearMorph, PrescribedNodesInOnePlaneAreOneError)
+{
+  auto grid = grids::make(meshes::hexes(3, 3, 3));
+  std::vector<morph::Index> bottom;
+  for (morph::Index i = 0; i < 16; ++i)
+  {
+    bottom.push_back(i);
+  }
+  auto boundary = grids::cloud(meshes::rows(grids::points(grid), bottom));
+  grids::addIds(boundary, "MorphPointId", bottom);
+  vtkNew<vtkSimplexLinearMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(boundary);
+  filter->HoldUnnamedBoundaryOff();
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("one plane"), std::string::npos) << listener.Errors[0];
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}

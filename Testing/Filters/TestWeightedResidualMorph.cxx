@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is particular to weighted residuals; TestMorphFilters.cxx has what they share with the other filters.
+#include "TestGrids.h"
+
+#include "vtkWeightedResidualMorph.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+morph::Points moved(vtkUnstructuredGrid* grid, int neighbors, bool adaptive)
+{
+  vtkNew<vtkWeightedResidualMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  filter->SetNumberOfNeighbors(neighbors);
+  filter->SetAdaptiveNeighbors(adaptive);
+  filter->Update();
+  return grids::points(filter->GetOutput());
+}
+}
+
+TEST(WeightedResidualMorph, OptionsReachTheMethod)
+{
+  auto grid = grids::hexes(6); // 218 prescribed nodes
+  const morph::Points all = moved(grid, 218, false);
+  EXPECT_TRUE(moved(grid, 100000, false) == all);
+  EXPECT_FALSE(moved(grid, 80, false) == all);
+  EXPECT_FALSE(moved(grid, 4, false) == moved(grid, 5, false));
+  EXPECT_FALSE(moved(grid, 4, false) == moved(grid, 4, true));
+}
+
+TEST(WeightedResidualMorph, ABoundaryTurnedInsideOutIsAWarning)
+{
+  auto grid = grids::hexes(4);
+  vtkNew<vtkWeightedResidualMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(
+    grids::boundary(grid, [](const grids::Row& x) { return grids::Row(x[0], x[1], -x[2]); }));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("determinant -1"), std::string::npos) << listener.Warnings[0];
+  EXPECT_EQ(filter->GetInvertedCells(), 64);
+}
+
+TEST(WeightedResidualMorph, ParametersAreClamped)
+{
+  vtkNew<vtkWeightedResidualMorph> filter;
+  EXPECT_EQ(filter->GetNumberOfNeighbors(), 80);
+  EXPECT_FALSE(filter->GetAdaptiveNeighbors());
+  filter->SetNumberOfNeighbors(0);
+  EXPECT_EQ(filter->GetNumberOfNeighbors(), 1);
+}
