@@ -23,8 +23,10 @@ double dot(const Points& a, const Points& b, Monitor& monitor)
 }
 }
 
-void BlockMatrix::open(std::vector<Index> offsets, std::vector<std::int32_t> columns)
+void BlockMatrix::open(
+  const void* owner, std::vector<Index> offsets, std::vector<std::int32_t> columns)
 {
+  this->owner_ = owner;
   this->offsets_ = std::move(offsets);
   this->columns_ = std::move(columns);
   this->values_.assign(9 * this->columns_.size(), 0.f);

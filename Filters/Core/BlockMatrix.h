@@ -14,8 +14,9 @@ namespace morph
 class BlockMatrix
 {
 public:
-  /// `offsets`: #rows + 1; `columns`: ascending in each row, the diagonal among them.
-  void open(std::vector<Index> offsets, std::vector<std::int32_t> columns);
+  /// `owner`: whose pattern this is; `offsets`: #rows + 1; `columns`: ascending in each row, the diagonal among them.
+  void open(const void* owner, std::vector<Index> offsets, std::vector<std::int32_t> columns);
+  bool isOpenFor(const void* owner) const { return this->owner_ == owner; }
 
   Index rows() const { return static_cast<Index>(this->offsets_.size()) - 1; }
   const std::vector<Index>& offsets() const { return this->offsets_; }
@@ -34,6 +35,7 @@ public:
   std::size_t memory() const;
 
 private:
+  const void* owner_ = nullptr;
   std::vector<Index> offsets_{ 0 };
   std::vector<std::int32_t> columns_;
   std::vector<float> values_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InversionFree.h"
 
-#include "EnergyMinimizer.h"
 #include "Error.h"
 #include "ScaledJacobian.h"
 
@@ -10,17 +9,83 @@
 
 namespace morph
 {
+namespace
+{
+/// Of the volume cells, from node to node around them; 1 where there is none.
+double meanEdge(const Mesh& mesh)
+{
+  double sum = 0;
+  Index count = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    for (int f = 0; f < shape.numberOfFaces; ++f)
+    {
+      const FaceShape& face = shape.faces[f];
+      for (int k = 0; k < face.size; ++k)
+      {
+        const Index a = mesh.cell(c)[shape.cornerNode[face.corner[k]]];
+        const Index b = mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]];
+        sum += (mesh.points.row(a) - mesh.points.row(b)).norm();
+        ++count;
+      }
+    }
+  }
+  return sum > 0 ? sum / static_cast<double>(count) : 1;
+}
+}
+
 void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const Bodies parts = bodies(rest);
-  this->mesh_ = rest;
   this->orientation_ = orientation(rest, parts);
   this->femWarp_.prepare(rest, this->partition(), monitor);
-  this->energy_ = std::make_unique<MeshEnergy>(this->mesh_, this->partition().free);
-  FoldoverDensity density;
-  const TargetShapes own = targetShapes(this->mesh_, this->orientation_, rest.points, Target::Initial, monitor);
-  this->validAtRest_ =
-    this->energy_->evaluate(rest.points, own, density, monitor).leastDeterminant > 0;
+  this->mesh_ = rest;
+  this->scale_ = std::exp2(-std::round(std::log2(meanEdge(rest))));
+  this->mesh_.points *= this->scale_;
+  MeshEnergy energy(this->mesh_, this->partition().free);
+  energy.setTargets(targetShapes(
+    this->mesh_, this->orientation_, this->mesh_.points, Target::Initial, monitor));
+  this->validAtRest_ = energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
+}
+
+Points InversionFree::warped(const Points& prescribed, EvaluateReport& report, Monitor& monitor) const
+{
+  const std::vector<Index>& ids = this->partition().prescribed;
+  Points boundary(prescribed.rows(), 3), result;
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    boundary.row(i) = this->restPoints().row(ids[i]) + prescribed.row(i);
+  }
+  report.iterations += this->femWarp_.evaluate(boundary, result, monitor).iterations;
+  result *= this->scale_;
+  return result;
+}
+
+void InversionFree::minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+{
+  if (!stages.untangle(points, monitor))
+  {
+    return;
+  }
+  monitor.progress(0.6);
+  for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
+  {
+    const Points guide = points;
+    energy.setTargets(
+      targetShapes(this->mesh_, this->orientation_, guide, this->target_, monitor));
+    stages.improve(points, 3, monitor);
+  }
+  monitor.progress(0.8);
+  if (this->stiffening_ && this->target_ != Target::Initial)
+  {
+    stages.stiffen(points, monitor);
+  }
+}
+
+double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
+{
+  return measureQuality(this->mesh_, points, this->orientation_, {}, monitor).minimum;
 }
 
 EvaluateReport InversionFree::displace(
@@ -36,60 +101,44 @@ EvaluateReport InversionFree::displace(
     return report;
   }
 
-  Points boundary(prescribed.rows(), 3);
-  for (Index i = 0; i < boundary.rows(); ++i)
-  {
-    boundary.row(i) = this->restPoints().row(partition.prescribed[i]) + prescribed.row(i);
-  }
-  Points warped;
-  report.iterations = this->femWarp_.evaluate(boundary, warped, monitor).iterations;
+  const Points warped = this->warped(prescribed, report, monitor);
   monitor.progress(0.1);
-
-  const bool fromRest = this->start_ == Start::Rest || !this->validAtRest_;
-  Points points = fromRest ? this->restPoints() : warped;
-  for (Index i = 0; i < boundary.rows(); ++i)
+  Points points = this->mesh_.points;
+  if (this->start_ == Start::FemWarp && this->validAtRest_)
   {
-    points.row(partition.prescribed[i]) = boundary.row(i);
+    points = warped;
   }
-  TargetShapes targets = targetShapes(this->mesh_, this->orientation_, warped, this->target_, monitor);
-  const std::vector<Index> infeasible = this->energy_->infeasibleCells(targets, points);
+  for (Index node : partition.prescribed)
+  {
+    points.row(node) = warped.row(node);
+  }
+
+  MeshEnergy energy(this->mesh_, partition.free);
+  const TargetShapes targets =
+    targetShapes(this->mesh_, this->orientation_, warped, this->target_, monitor);
+  energy.setTargets(targets);
+  const std::vector<Index> infeasible = energy.infeasibleCells(targets, points);
   if (!infeasible.empty())
   {
-    monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " + listIds(infeasible) +
-      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
+    monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " +
+      listIds(infeasible) + ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }
+  FoldoverStages stages(energy, this->minimizer_);
+  this->minimize(energy, stages, points, monitor);
 
-  EnergyMinimizer minimizer(*this->energy_, partition.free);
-  const bool valid = minimizer.untangle(points, targets, monitor);
-  if (valid)
-  {
-    for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
-    {
-      const Points guide = points;
-      targets = targetShapes(this->mesh_, this->orientation_, guide, this->target_, monitor);
-      minimizer.improve(points, targets, 3, monitor);
-    }
-    if (this->stiffening_ && this->target_ != Target::Initial)
-    {
-      minimizer.stiffen(points, targets, monitor);
-    }
-  }
-
-  const auto least = [&](const Points& at) {
-    return measureQuality(this->mesh_, at, this->orientation_, {}, monitor).minimum;
-  };
-  const double ofWarped = least(warped);
-  const bool keep = ofWarped > 0 && !(least(points) >= ofWarped);
+  const double ofWarped = this->leastScaledJacobian(warped, monitor);
+  const bool keep = ofWarped > 0 && !(this->leastScaledJacobian(points, monitor) >= ofWarped);
   const Points& result = keep ? warped : points;
   for (Index i = 0; i < free.rows(); ++i)
   {
-    free.row(i) = result.row(partition.free[i]) - this->restPoints().row(partition.free[i]);
+    const Index node = partition.free[i];
+    free.row(i) = (result.row(node) - this->mesh_.points.row(node)) / this->scale_;
   }
-  const EnergyMinimizer::Effort& effort = minimizer.effort();
-  report.iterations += static_cast<int>(effort.newtonSteps);
-  report.counts = { { "NewtonSteps", effort.newtonSteps }, { "LinearIterations", effort.linearIterations },
-    { "EnergyEvaluations", effort.evaluations }, { "InfeasibleCells", static_cast<Index>(infeasible.size()) },
-    { "KeptFEMWARP", keep ? 1 : 0 } };
+  const MinimizerEffort& effort = stages.effort();
+  report.iterations += static_cast<int>(effort.steps);
+  report.counts = { { "NewtonSteps", effort.steps }, { "LinearIterations", effort.linearIterations },
+    { "EnergyEvaluations", effort.evaluations },
+    { "InfeasibleCells", static_cast<Index>(infeasible.size()) }, { "KeptFEMWARP", keep ? 1 : 0 } };
   return report;
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FemWarp.h"
+#include "FoldoverStages.h"
 #include "MeshEnergy.h"
 #include "Morpher.h"
 #include "TargetShapes.h"
@@ -38,6 +39,8 @@ public:
   void setTarget(Target target) { this->target_ = target; }
   /// Of FEMWARP, and of the energy's relative decrease at which a stage ends. Range (0, 1), default 1e-10 and 1e-5.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
+  /// Default Newton.
+  void setMinimizer(FoldoverStages::Minimizer minimizer) { this->minimizer_ = minimizer; }
   /// Whether to lower the worst distortion in the end. Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
   /// How often the targets are taken anew from the mesh as it has become. Default 2.
@@ -49,15 +52,21 @@ protected:
     const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
+  /// FEMWARP's mesh, times scale_.
+  Points warped(const Points& prescribed, EvaluateReport& report, Monitor& monitor) const;
+  void minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  double leastScaledJacobian(const Points& points, Monitor& monitor) const;
+
   Start start_ = Start::FemWarp;
   Target target_ = Target::Stretched;
+  FoldoverStages::Minimizer minimizer_ = FoldoverStages::Minimizer::Newton;
   bool stiffening_ = true;
   int refreshes_ = 2;
 
-  Mesh mesh_;
+  Mesh mesh_; ///< at rest, its coordinates times scale_
+  double scale_ = 1;
   std::vector<std::int8_t> orientation_;
   bool validAtRest_ = true;
   FemWarp femWarp_;
-  std::unique_ptr<MeshEnergy> energy_;
 };
 }

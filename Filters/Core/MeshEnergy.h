@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BlockMatrix.h"
-#include "FoldoverEnergy.h"
-#include "Mesh.h"
-#include "Monitor.h"
+#include "FoldoverDensity.h"
+#include "Objective.h"
 #include "TargetShapes.h"
 #include "Topology.h"
 
@@ -12,46 +10,61 @@
 
 namespace morph
 {
-/// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all cells, as a function of the positions
-/// of the free nodes. Tetrahedra without a free node are left out: nothing moves them.
-class MeshEnergy
+/// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all cells. Tetrahedra without a free
+/// node are left out: nothing moves them.
+class MeshEnergy : public Objective
 {
 public:
+  /// `free`: ids of the nodes that move, ascending. Cost: passes over the cells; 100 bytes a cell.
+  MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
+
+  /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of weight 0 are left out.
+  void setTargets(const TargetShapes& targets);
+  /// The regularisation and the stiffness; theta is that of the targets. With a regularisation below 1e-9 no step may end with an inverted tetrahedron.
+  void setDensity(const FoldoverDensity& density) { this->density_ = density; }
+  const FoldoverDensity& density() const { return this->density_; }
+
+  /// Cells with a tetrahedron whose four nodes are all prescribed and that is not positive there, ascending: no method can repair them.
+  std::vector<Index> infeasibleCells(const TargetShapes& targets, const Points& points) const;
+
   struct State
   {
     double energy = 0;
     double leastDeterminant = 0; ///< relative to the targets; positive: no tetrahedron is inverted
     double mostDistortion = 0;   ///< largest phi where the stiffness counts: not in tetrahedral cells
   };
+  State evaluate(const Points& points, Monitor& monitor) const;
 
-  /// `free`: ids of the nodes that move, ascending. Keeps references to `mesh` and `free`. Cost: passes over the cells.
-  MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
-
-  /// #tetrahedra that depend on a free node; see TargetShapes for their numbers.
-  Index tetrahedra() const { return this->movable_; }
-  /// Tetrahedra with all four nodes prescribed that are not positive there, by cell, ascending: no method can repair them.
-  std::vector<Index> infeasibleCells(const TargetShapes& targets, const Points& points) const;
-
-  /// `points`: #nodes x 3. The density's theta is that of the targets. Independent of the threads, as all of these are.
-  State evaluate(
-    const Points& points, const TargetShapes& targets, const FoldoverDensity& density, Monitor& monitor) const;
-  /// `result`: #free x 3, d(energy)/d(position).
-  void gradient(const Points& points, const TargetShapes& targets, const FoldoverDensity& density, Points& result,
-    Monitor& monitor) const;
-  /// The positive semi-definite part of the second derivatives, tetrahedron by tetrahedron; #free x #free blocks. The matrix is
-  /// opened by the first call.
-  void hessian(const Points& points, const TargetShapes& targets, const FoldoverDensity& density,
-    BlockMatrix& result, Monitor& monitor) const;
+  const std::vector<Index>& free() const override { return this->free_; }
+  Value value(const Points& points, Monitor& monitor) const override;
+  void gradient(const Points& points, Points& result, Monitor& monitor) const override;
+  void hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const override;
 
 private:
-  bool isMovable(Index cell, const int* corner) const;
-  void openMatrix(BlockMatrix& matrix) const;
+  using Corners = Eigen::Matrix<double, 3, 8>;
 
-  const Mesh& mesh_;
-  const std::vector<Index>& free_;
-  std::vector<std::int32_t> row_; ///< #nodes, place in `free`, or -1
-  Adjacency around_;
-  std::vector<Index> blockStart_; ///< #cells + 1, corners before: where a cell's gradient starts
-  Index movable_ = 0;
+  Index cells() const { return static_cast<Index>(this->cornerStart_.size()) - 1; }
+  int numberOfCorners(Index cell) const
+  {
+    return static_cast<int>(this->cornerStart_[cell + 1] - this->cornerStart_[cell]);
+  }
+  const std::int32_t* corners(Index cell) const { return this->corner_.data() + this->cornerStart_[cell]; }
+  Corners positions(Index cell, const Points& points) const;
+  FoldoverDensity densityOf(const TargetShapes::Tetrahedron& tetrahedron) const;
+  bool isMovable(const std::int32_t* corners, const TargetShapes::Tetrahedron& tetrahedron) const;
+  void openMatrix(BlockMatrix& matrix) const;
+  void cellHessian(Index cell, const Points& points, float* blocks) const;
+  void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start, BlockMatrix& result,
+    Monitor& monitor) const;
+
+  std::vector<Index> free_;
+  std::vector<std::int32_t> row_;    ///< #nodes, place in `free`, or -1
+  std::vector<Index> ofCell_;        ///< volume cells by their ids
+  std::vector<Index> cornerStart_;   ///< #volume cells + 1
+  std::vector<std::int32_t> corner_; ///< node ids
+  Adjacency uses_;                   ///< #free: places in `corner_`
+  std::vector<Index> start_;         ///< #volume cells + 1, into `tetrahedra_`
+  std::vector<TargetShapes::Tetrahedron> tetrahedra_; ///< those with a free node
+  FoldoverDensity density_;
 };
 }

@@ -302,6 +302,7 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
         TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
         const Eigen::Matrix3d D = edges(parts.tets[t], x);
         Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
+        std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
         tetrahedron.theta = shape == Shape::Tet ? 0.5 : 0.1;
         tetrahedron.weight = parts.tets[t].weight * std::abs(D.determinant()) / 6;
       }
@@ -310,10 +311,11 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
 
   const double total = blockSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
     [&](Index t) { return result.tetrahedra[t].weight; });
+  const auto count = static_cast<double>(result.tetrahedra.size());
   monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain, [&](Index first, Index last) {
     for (Index t = first; t < last; ++t)
     {
-      result.tetrahedra[t].weight /= total;
+      result.tetrahedra[t].weight *= count / total;
     }
   });
   return result;

@@ -24,8 +24,9 @@ struct TargetShapes
   /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size.
   struct Tetrahedron
   {
+    std::int8_t corner[4]; ///< of the cell
     double inverse[9]; ///< column major
-    double weight;     ///< decomposition weight times target volume, over the sum of all
+    double weight;     ///< decomposition weight times target volume; the mean over all is 1
     double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
   };
   std::vector<Index> start; ///< #cells + 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FoldoverEnergy.h"
+#include "FoldoverDensity.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -20,6 +20,19 @@ Eigen::Matrix3d cofactor(const Eigen::Matrix3d& J)
   result.col(1) = J.col(2).cross(J.col(0));
   result.col(2) = J.col(0).cross(J.col(1));
   return result;
+}
+
+/// Sets negative eigenvalues to 0.
+void makeSemiDefinite(Eigen::Matrix3d& A)
+{
+  // Most matrices are definite, which a Cholesky factorisation tells sooner.
+  const double pivot = A(1, 1) - A(1, 0) * A(1, 0) / A(0, 0);
+  if (A(0, 0) > 0 && pivot > 0 && A.determinant() > 0)
+  {
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
+  A = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
 /// chi and its derivatives by the determinant D.
@@ -98,7 +111,7 @@ double FoldoverDensity::gradient(const Eigen::Matrix3d& J, Eigen::Matrix3d& deri
 SignedSingularValues::SignedSingularValues(const Eigen::Matrix3d& J)
 {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.compute(J.transpose() * J);
+  eigen.computeDirect(J.transpose() * J);
   this->V = eigen.eigenvectors().rowwise().reverse();
   if (this->V.determinant() < 0)
   {
@@ -116,42 +129,50 @@ SignedSingularValues::SignedSingularValues(const Eigen::Matrix3d& J)
   this->S << this->U.col(0).dot(first), this->U.col(1).dot(J * this->V.col(1)), this->U.col(2).dot(J * this->V.col(2));
 }
 
-void FoldoverDensity::hessian(const Eigen::Matrix3d& J, Hessian& result) const
+void FoldoverDensity::hessian(
+  const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const
 {
   const SignedSingularValues svd(J);
   const Eigen::Vector3d& s = svd.S;
   const Eigen::Vector3d c(s[1] * s[2], s[0] * s[2], s[0] * s[1]); // d(det)/ds
   const Derivatives d = this->derivatives(s.squaredNorm(), s[0] * s[1] * s[2]);
-  const auto mode = [&svd](int i, int j) -> Eigen::Matrix3d { return svd.U.col(i) * svd.V.col(j).transpose(); };
 
-  // Rotations and shears between two axes.
-  for (int k = 0; k < 3; ++k)
-  {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Eigen::Matrix3d ij = mode(i, j), ji = mode(j, i);
-    result.weight[2 * k] = std::max(0., 2 * d.I + d.D * s[k]);
-    result.mode[2 * k] = (ij - ji) / std::sqrt(2.);
-    result.weight[2 * k + 1] = std::max(0., 2 * d.I - d.D * s[k]);
-    result.mode[2 * k + 1] = (ij + ji) / std::sqrt(2.);
-  }
-
-  // Stretches along the axes, coupled.
+  // Stretches along the axes, coupled with each other.
   Eigen::Matrix3d A;
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
     {
-      A(i, j) = 4 * d.II * s[i] * s[j] + 2 * d.ID * (s[i] * c[j] + s[j] * c[i]) + d.DD * c[i] * c[j] +
-        (i == j ? 2 * d.I : d.D * s[3 - i - j]);
+      A(i, j) = 4 * d.II * s[i] * s[j] + 2 * d.ID * (s[i] * c[j] + s[j] * c[i]) +
+        d.DD * c[i] * c[j] + (i == j ? 2 * d.I : d.D * s[3 - i - j]);
     }
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stretch;
-  stretch.compute(A);
-  for (int m = 0; m < 3; ++m)
+  makeSemiDefinite(A);
+  // Rotations and shears between two axes: half the sum and half the difference of their eigenvalues.
+  Eigen::Vector3d sum, difference;
+  for (int k = 0; k < 3; ++k)
   {
-    const Eigen::Vector3d e = stretch.eigenvectors().col(m);
-    result.weight[6 + m] = std::max(0., stretch.eigenvalues()[m]);
-    result.mode[6 + m] = e[0] * mode(0, 0) + e[1] * mode(1, 1) + e[2] * mode(2, 2);
+    const double twist = std::max(0., 2 * d.I + d.D * s[k]);
+    const double shear = std::max(0., 2 * d.I - d.D * s[k]);
+    sum[k] = (shear + twist) / 2;
+    difference[k] = (shear - twist) / 2;
+  }
+
+  const Eigen::Matrix3d h = svd.V.transpose() * g;
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int b = a; b < 3; ++b)
+    {
+      Eigen::Matrix3d K;
+      for (int i = 0; i < 3; ++i)
+      {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        K(i, i) = A(i, i) * h(i, a) * h(i, b) + sum[k] * h(j, a) * h(j, b) + sum[j] * h(k, a) * h(k, b);
+        K(i, j) = A(i, j) * h(i, a) * h(j, b) + difference[k] * h(j, a) * h(i, b);
+        K(j, i) = A(j, i) * h(j, a) * h(i, b) + difference[k] * h(i, a) * h(j, b);
+      }
+      block[a][b].noalias() = svd.U * K * svd.U.transpose();
+    }
   }
 }
 }

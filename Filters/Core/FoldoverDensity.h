@@ -28,14 +28,10 @@ struct FoldoverDensity
   /// d(density)/dJ as well.
   double gradient(const Eigen::Matrix3d& J, Eigen::Matrix3d& derivative) const;
 
-  /// The second derivative with its negative eigenvalues left out: the sum over m of weight[m] mode[m] (x) mode[m]. Closed form
-  /// by the singular values (Smith, de Goes, Kim, ACM Trans. Graph. 38(1) (2019) 12).
-  struct Hessian
-  {
-    std::array<double, 9> weight;
-    std::array<Eigen::Matrix3d, 9> mode;
-  };
-  void hessian(const Eigen::Matrix3d& J, Hessian& result) const;
+  /// The second derivative with its negative eigenvalues left out, for displacements of a tetrahedron's corners 1 to 3:
+  /// `block`[a][b] is 3 x 3, for the corners whose shape function gradients are columns a <= b of `g`. Closed form by the singular
+  /// values (Smith, de Goes, Kim, ACM Trans. Graph. 38(1) (2019) 12), accurate to some 1e-7: it gives directions of search.
+  void hessian(const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const;
 
 private:
   struct Derivatives
@@ -45,7 +41,7 @@ private:
   Derivatives derivatives(double squaredNorm, double determinant) const;
 };
 
-/// J = U S V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.
+/// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.
 struct SignedSingularValues
 {
   explicit SignedSingularValues(const Eigen::Matrix3d& J);
