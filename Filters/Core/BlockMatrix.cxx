@@ -35,47 +35,56 @@ void BlockMatrix::open(
 void BlockMatrix::multiply(const Points& x, Points& y, Monitor& monitor) const
 {
   y.resize(this->rows(), 3);
-  monitor.parallelFor(this->rows(), Grain, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(this->rows(), Grain,
+    [&](Index first, Index last)
     {
-      const float* block = this->blocks(row);
-      double sum[3] = { 0, 0, 0 };
-      for (Index k = this->offsets_[row]; k < this->offsets_[row + 1]; ++k, block += 9)
+      for (Index row = first; row < last; ++row)
       {
-        const double* v = x.data() + 3 * static_cast<Index>(this->columns_[k]);
-        sum[0] += block[0] * v[0] + block[1] * v[1] + block[2] * v[2];
-        sum[1] += block[3] * v[0] + block[4] * v[1] + block[5] * v[2];
-        sum[2] += block[6] * v[0] + block[7] * v[1] + block[8] * v[2];
+        const float* block = this->blocks(row);
+        double sum[3] = { 0, 0, 0 };
+        for (Index k = this->offsets_[row]; k < this->offsets_[row + 1]; ++k, block += 9)
+        {
+          const double* v = x.data() + 3 * static_cast<Index>(this->columns_[k]);
+          sum[0] += block[0] * v[0] + block[1] * v[1] + block[2] * v[2];
+          sum[1] += block[3] * v[0] + block[4] * v[1] + block[5] * v[2];
+          sum[2] += block[6] * v[0] + block[7] * v[1] + block[8] * v[2];
+        }
+        std::copy(sum, sum + 3, y.data() + 3 * row);
       }
-      std::copy(sum, sum + 3, y.data() + 3 * row);
-    }
-  });
+    });
 }
 
-int BlockMatrix::solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const
+int BlockMatrix::solve(
+  const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const
 {
   const Index n = this->rows();
   std::vector<Eigen::Matrix3d> inverse(n);
-  monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
     {
-      const auto begin = this->columns_.begin() + this->offsets_[row];
-      const auto end = this->columns_.begin() + this->offsets_[row + 1];
-      const Index k = std::lower_bound(begin, end, static_cast<std::int32_t>(row)) - begin;
-      Eigen::Matrix3d D =
-        Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(this->blocks(row) + 9 * k).cast<double>();
-      D.diagonal().array() += Shift * D.trace();
-      inverse[row] = D.trace() > 0 ? Eigen::Matrix3d(D.ldlt().solve(Eigen::Matrix3d::Identity()))
-                                   : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
-    }
-  });
-  const auto precondition = [&](const Points& from, Points& to) {
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
       for (Index row = first; row < last; ++row)
       {
-        to.row(row) = from.row(row) * inverse[row];
+        const auto begin = this->columns_.begin() + this->offsets_[row];
+        const auto end = this->columns_.begin() + this->offsets_[row + 1];
+        const Index k = std::lower_bound(begin, end, static_cast<std::int32_t>(row)) - begin;
+        Eigen::Matrix3d D =
+          Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(this->blocks(row) + 9 * k)
+            .cast<double>();
+        D.diagonal().array() += Shift * D.trace();
+        inverse[row] = D.trace() > 0 ? Eigen::Matrix3d(D.ldlt().solve(Eigen::Matrix3d::Identity()))
+                                     : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
       }
     });
+  const auto precondition = [&](const Points& from, Points& to)
+  {
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index row = first; row < last; ++row)
+        {
+          to.row(row) = from.row(row) * inverse[row];
+        }
+      });
   };
 
   x.setZero(n, 3);
@@ -96,11 +105,13 @@ int BlockMatrix::solve(const Points& b, Points& x, double tolerance, int most, M
     }
     ++iteration;
     const double alpha = rz / curvature;
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      const Index rows = last - first;
-      x.middleRows(first, rows) += alpha * p.middleRows(first, rows);
-      r.middleRows(first, rows) -= alpha * Ap.middleRows(first, rows);
-    });
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        const Index rows = last - first;
+        x.middleRows(first, rows) += alpha * p.middleRows(first, rows);
+        r.middleRows(first, rows) -= alpha * Ap.middleRows(first, rows);
+      });
     if (dot(r, r, monitor) <= goal)
     {
       break;
@@ -109,10 +120,12 @@ int BlockMatrix::solve(const Points& b, Points& x, double tolerance, int most, M
     const double next = dot(r, z, monitor);
     const double beta = next / rz;
     rz = next;
-    monitor.parallelFor(n, Grain, [&](Index first, Index last) {
-      const Index rows = last - first;
-      p.middleRows(first, rows) = z.middleRows(first, rows) + beta * p.middleRows(first, rows);
-    });
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        const Index rows = last - first;
+        p.middleRows(first, rows) = z.middleRows(first, rows) + beta * p.middleRows(first, rows);
+      });
   }
   if (iteration == 0)
   {
@@ -123,6 +136,7 @@ int BlockMatrix::solve(const Points& b, Points& x, double tolerance, int most, M
 
 std::size_t BlockMatrix::memory() const
 {
-  return sizeof(Index) * this->offsets_.size() + this->columns_.size() * (sizeof(std::int32_t) + 9 * sizeof(float));
+  return sizeof(Index) * this->offsets_.size() +
+         this->columns_.size() * (sizeof(std::int32_t) + 9 * sizeof(float));
 }
 }

@@ -20,7 +20,10 @@ public:
 
   Index rows() const { return static_cast<Index>(this->offsets_.size()) - 1; }
   const std::vector<Index>& offsets() const { return this->offsets_; }
-  const std::int32_t* columns(Index row) const { return this->columns_.data() + this->offsets_[row]; }
+  const std::int32_t* columns(Index row) const
+  {
+    return this->columns_.data() + this->offsets_[row];
+  }
   /// Nine values a block, row major, in the order of the columns; each row is for one thread to write.
   float* blocks(Index row) { return this->values_.data() + 9 * this->offsets_[row]; }
   const float* blocks(Index row) const { return this->values_.data() + 9 * this->offsets_[row]; }

@@ -32,7 +32,8 @@ void makeSemiDefinite(Eigen::Matrix3d& A)
     return;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
-  A = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() * eigen.eigenvectors().transpose();
+  A = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
+      eigen.eigenvectors().transpose();
 }
 
 /// chi and its derivatives by the determinant D.
@@ -65,7 +66,7 @@ FoldoverDensity::Derivatives FoldoverDensity::derivatives(double I, double D) co
   d.II = 0;
   d.ID = -2. / 3 * a * p * u;
   d.DD = a * I * p * (10. / 9 * u * u - 2. / 3 * v) +
-    b * (2 / r.chi - 4 * D / r.chi * u - square * v + 2 * square * u * u);
+         b * (2 / r.chi - 4 * D / r.chi * u - square * v + 2 * square * u * u);
   if (this->stiffness > 0)
   {
     const double gap = 1 - this->stiffness * d.value;
@@ -90,7 +91,7 @@ double FoldoverDensity::distortion(const Eigen::Matrix3d& J) const
   const double D = J.determinant();
   const Regularised r(D, this->epsilon);
   return (1 - this->theta) / 3 * J.squaredNorm() / std::cbrt(r.chi * r.chi) +
-    this->theta / 2 * (1 + D * D) / r.chi;
+         this->theta / 2 * (1 + D * D) / r.chi;
 }
 
 double FoldoverDensity::value(const Eigen::Matrix3d& J) const
@@ -124,9 +125,11 @@ SignedSingularValues::SignedSingularValues(const Eigen::Matrix3d& J)
   this->U.col(0) = length > 0 ? Eigen::Vector3d(first / length) : this->V.col(0);
   second -= second.dot(this->U.col(0)) * this->U.col(0);
   const double across = second.norm();
-  this->U.col(1) = across > 1e-14 * length ? Eigen::Vector3d(second / across) : this->U.col(0).unitOrthogonal();
+  this->U.col(1) =
+    across > 1e-14 * length ? Eigen::Vector3d(second / across) : this->U.col(0).unitOrthogonal();
   this->U.col(2) = this->U.col(0).cross(this->U.col(1));
-  this->S << this->U.col(0).dot(first), this->U.col(1).dot(J * this->V.col(1)), this->U.col(2).dot(J * this->V.col(2));
+  this->S << this->U.col(0).dot(first), this->U.col(1).dot(J * this->V.col(1)),
+    this->U.col(2).dot(J * this->V.col(2));
 }
 
 void FoldoverDensity::hessian(
@@ -144,7 +147,7 @@ void FoldoverDensity::hessian(
     for (int j = 0; j < 3; ++j)
     {
       A(i, j) = 4 * d.II * s[i] * s[j] + 2 * d.ID * (s[i] * c[j] + s[j] * c[i]) +
-        d.DD * c[i] * c[j] + (i == j ? 2 * d.I : d.D * s[3 - i - j]);
+                d.DD * c[i] * c[j] + (i == j ? 2 * d.I : d.D * s[3 - i - j]);
     }
   }
   makeSemiDefinite(A);
@@ -167,7 +170,8 @@ void FoldoverDensity::hessian(
       for (int i = 0; i < 3; ++i)
       {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        K(i, i) = A(i, i) * h(i, a) * h(i, b) + sum[k] * h(j, a) * h(j, b) + sum[j] * h(k, a) * h(k, b);
+        K(i, i) =
+          A(i, i) * h(i, a) * h(i, b) + sum[k] * h(j, a) * h(j, b) + sum[j] * h(k, a) * h(k, b);
         K(i, j) = A(i, j) * h(i, a) * h(j, b) + difference[k] * h(j, a) * h(i, b);
         K(j, i) = A(j, i) * h(j, a) * h(i, b) + difference[k] * h(i, a) * h(j, b);
       }

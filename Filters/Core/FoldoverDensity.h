@@ -31,7 +31,8 @@ struct FoldoverDensity
   /// The second derivative with its negative eigenvalues left out, for displacements of a tetrahedron's corners 1 to 3:
   /// `block`[a][b] is 3 x 3, for the corners whose shape function gradients are columns a <= b of `g`. Closed form by the singular
   /// values (Smith, de Goes, Kim, ACM Trans. Graph. 38(1) (2019) 12), accurate to some 1e-7: it gives directions of search.
-  void hessian(const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const;
+  void hessian(
+    const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const;
 
 private:
   struct Derivatives

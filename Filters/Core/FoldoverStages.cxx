@@ -12,8 +12,11 @@ namespace
 constexpr double Valid = 1e-10; // the regularisation of a valid mesh: none, but for rounding
 constexpr int MostStages = 60;
 constexpr int MostSteps = 30;
+constexpr int RegularisedSteps =
+  4;                            // more are wasted on a mesh that the next regularisation changes
 constexpr int StepsOfBfgs = 20; // that are worth one of Newton's
 constexpr double Settled = 1e-5;
+constexpr double LeastRatio = 0.3; // of one stage's regularisation to that before
 
 double chi(double D, double epsilon)
 {
@@ -43,7 +46,8 @@ public:
     this->careful_ = this->careful_ || this->idle_ >= 3;
     if (!this->careful_)
     {
-      return fast(least);
+      // Steps too large leave the minimiser in a worse mesh than before.
+      return std::max(fast(least), LeastRatio * epsilon);
     }
     // The rule with the proof.
     const double mu = (1 - std::max(decrease, 0.1)) * chi(least, epsilon);
@@ -101,10 +105,11 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor)
   {
     this->setDensity(epsilon);
     const double start = this->evaluate(points, monitor).energy;
-    state = this->minimize(points, MostSteps, monitor);
+    state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
     if (epsilon <= Valid)
     {
-      if (std::abs(settled - state.energy) < Settled * state.energy || std::abs(start - state.energy) < Settled * state.energy)
+      if (std::abs(settled - state.energy) < Settled * state.energy ||
+          std::abs(start - state.energy) < Settled * state.energy)
       {
         break;
       }

@@ -44,12 +44,13 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(rest))));
   this->mesh_.points *= this->scale_;
   MeshEnergy energy(this->mesh_, this->partition().free);
-  energy.setTargets(targetShapes(
-    this->mesh_, this->orientation_, this->mesh_.points, Target::Initial, monitor));
+  energy.setTargets(
+    targetShapes(this->mesh_, this->orientation_, this->mesh_.points, Target::Initial, monitor));
   this->validAtRest_ = energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
 }
 
-Points InversionFree::warped(const Points& prescribed, EvaluateReport& report, Monitor& monitor) const
+Points InversionFree::warped(
+  const Points& prescribed, EvaluateReport& report, Monitor& monitor) const
 {
   const std::vector<Index>& ids = this->partition().prescribed;
   Points boundary(prescribed.rows(), 3), result;
@@ -62,7 +63,8 @@ Points InversionFree::warped(const Points& prescribed, EvaluateReport& report, M
   return result;
 }
 
-void InversionFree::minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+void InversionFree::minimize(
+  MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
   if (!stages.untangle(points, monitor))
   {
@@ -72,8 +74,7 @@ void InversionFree::minimize(MeshEnergy& energy, FoldoverStages& stages, Points&
   for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
   {
     const Points guide = points;
-    energy.setTargets(
-      targetShapes(this->mesh_, this->orientation_, guide, this->target_, monitor));
+    energy.setTargets(targetShapes(this->mesh_, this->orientation_, guide, this->target_, monitor));
     stages.improve(points, 3, monitor);
   }
   monitor.progress(0.8);
@@ -120,8 +121,10 @@ EvaluateReport InversionFree::displace(
   const std::vector<Index> infeasible = energy.infeasibleCells(targets, points);
   if (!infeasible.empty())
   {
-    monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " +
-      listIds(infeasible) + ". No method can repair them; move the boundary less, or leave some of their nodes free.");
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
+      listIds(infeasible) +
+      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }
   FoldoverStages stages(energy, this->minimizer_);
   this->minimize(energy, stages, points, monitor);
@@ -136,8 +139,8 @@ EvaluateReport InversionFree::displace(
   }
   const MinimizerEffort& effort = stages.effort();
   report.iterations += static_cast<int>(effort.steps);
-  report.counts = { { "NewtonSteps", effort.steps }, { "LinearIterations", effort.linearIterations },
-    { "EnergyEvaluations", effort.evaluations },
+  report.counts = { { "NewtonSteps", effort.steps },
+    { "LinearIterations", effort.linearIterations }, { "EnergyEvaluations", effort.evaluations },
     { "InfeasibleCells", static_cast<Index>(infeasible.size()) }, { "KeptFEMWARP", keep ? 1 : 0 } };
   return report;
 }

@@ -48,8 +48,7 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
   /// FEMWARP's mesh, times scale_.

@@ -97,8 +97,8 @@ MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
 bool MeshEnergy::isMovable(
   const std::int32_t* corners, const TargetShapes::Tetrahedron& tetrahedron) const
 {
-  return std::any_of(tetrahedron.corner, tetrahedron.corner + 4,
-    [&](int a) { return this->row_[corners[a]] >= 0; });
+  return std::any_of(
+    tetrahedron.corner, tetrahedron.corner + 4, [&](int a) { return this->row_[corners[a]] >= 0; });
 }
 
 void MeshEnergy::setTargets(const TargetShapes& targets)
@@ -140,7 +140,8 @@ FoldoverDensity MeshEnergy::densityOf(const TargetShapes::Tetrahedron& tetrahedr
   return own;
 }
 
-std::vector<Index> MeshEnergy::infeasibleCells(const TargetShapes& targets, const Points& points) const
+std::vector<Index> MeshEnergy::infeasibleCells(
+  const TargetShapes& targets, const Points& points) const
 {
   std::vector<Index> result;
   for (Index c = 0; c < this->cells(); ++c)
@@ -152,7 +153,7 @@ std::vector<Index> MeshEnergy::infeasibleCells(const TargetShapes& targets, cons
       [&](const TargetShapes::Tetrahedron& tetrahedron)
       {
         return !this->isMovable(this->corners(c), tetrahedron) &&
-          !(jacobian(x, tetrahedron).determinant() > 0);
+               !(jacobian(x, tetrahedron).determinant() > 0);
       });
     if (infeasible)
     {
@@ -176,8 +177,8 @@ MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) c
         const FoldoverDensity own = this->densityOf(tetrahedron);
         const double phi = own.distortion(J);
         const double gap = 1 - own.stiffness * phi;
-        result.energy += tetrahedron.weight *
-          (gap > 0 ? phi / gap : std::numeric_limits<double>::infinity());
+        result.energy +=
+          tetrahedron.weight * (gap > 0 ? phi / gap : std::numeric_limits<double>::infinity());
         result.least = std::min(result.least, J.determinant());
         result.most = tetrahedron.theta > StiffenedTheta ? result.most : std::max(result.most, phi);
       }
@@ -210,7 +211,8 @@ void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor
           Eigen::Matrix3d P;
           this->densityOf(tetrahedron).gradient(jacobian(x, tetrahedron), P);
           const Eigen::Matrix3d force =
-            tetrahedron.weight * P * Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse).transpose();
+            tetrahedron.weight * P *
+            Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse).transpose();
           own.row(tetrahedron.corner[0]) -= force.rowwise().sum().transpose();
           for (int k = 0; k < 3; ++k)
           {

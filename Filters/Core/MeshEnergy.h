@@ -31,7 +31,7 @@ public:
   {
     double energy = 0;
     double leastDeterminant = 0; ///< relative to the targets; positive: no tetrahedron is inverted
-    double mostDistortion = 0;   ///< largest phi where the stiffness counts: not in tetrahedral cells
+    double mostDistortion = 0; ///< largest phi where the stiffness counts: not in tetrahedral cells
   };
   State evaluate(const Points& points, Monitor& monitor) const;
 
@@ -48,22 +48,25 @@ private:
   {
     return static_cast<int>(this->cornerStart_[cell + 1] - this->cornerStart_[cell]);
   }
-  const std::int32_t* corners(Index cell) const { return this->corner_.data() + this->cornerStart_[cell]; }
+  const std::int32_t* corners(Index cell) const
+  {
+    return this->corner_.data() + this->cornerStart_[cell];
+  }
   Corners positions(Index cell, const Points& points) const;
   FoldoverDensity densityOf(const TargetShapes::Tetrahedron& tetrahedron) const;
   bool isMovable(const std::int32_t* corners, const TargetShapes::Tetrahedron& tetrahedron) const;
   void openMatrix(BlockMatrix& matrix) const;
   void cellHessian(Index cell, const Points& points, float* blocks) const;
-  void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start, BlockMatrix& result,
-    Monitor& monitor) const;
+  void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
+    BlockMatrix& result, Monitor& monitor) const;
 
   std::vector<Index> free_;
-  std::vector<std::int32_t> row_;    ///< #nodes, place in `free`, or -1
-  std::vector<Index> ofCell_;        ///< volume cells by their ids
-  std::vector<Index> cornerStart_;   ///< #volume cells + 1
-  std::vector<std::int32_t> corner_; ///< node ids
-  Adjacency uses_;                   ///< #free: places in `corner_`
-  std::vector<Index> start_;         ///< #volume cells + 1, into `tetrahedra_`
+  std::vector<std::int32_t> row_;                     ///< #nodes, place in `free`, or -1
+  std::vector<Index> ofCell_;                         ///< volume cells by their ids
+  std::vector<Index> cornerStart_;                    ///< #volume cells + 1
+  std::vector<std::int32_t> corner_;                  ///< node ids
+  Adjacency uses_;                                    ///< #free: places in `corner_`
+  std::vector<Index> start_;                          ///< #volume cells + 1, into `tetrahedra_`
   std::vector<TargetShapes::Tetrahedron> tetrahedra_; ///< those with a free node
   FoldoverDensity density_;
 };

@@ -42,7 +42,8 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix) const
   std::vector<Index> cellOf(this->corner_.size());
   for (Index c = 0; c < this->cells(); ++c)
   {
-    std::fill(cellOf.begin() + this->cornerStart_[c], cellOf.begin() + this->cornerStart_[c + 1], c);
+    std::fill(
+      cellOf.begin() + this->cornerStart_[c], cellOf.begin() + this->cornerStart_[c + 1], c);
   }
   std::vector<Index> offsets{ 0 };
   std::vector<std::int32_t> columns, row;
@@ -157,7 +158,8 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
         for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
         {
           const Index c = cellOf[*use];
-          const int n = this->numberOfCorners(c), own = static_cast<int>(*use - this->cornerStart_[c]);
+          const int n = this->numberOfCorners(c),
+                    own = static_cast<int>(*use - this->cornerStart_[c]);
           for (int other = 0; other < n; ++other)
           {
             const std::int32_t column = this->row_[this->corners(c)[other]];

@@ -13,10 +13,10 @@ namespace
 constexpr Index Grain = 4096;
 constexpr int MostHalvings = 40;
 constexpr double SufficientDecrease = 1e-4;
-constexpr double LinearTolerance = 1e-2;
-constexpr int MostLinearIterations = 500;
+constexpr double LinearTolerance = 0.03;
+constexpr int MostLinearIterations = 100;
 constexpr std::size_t Memory = 10; // of L-BFGS, in steps
-constexpr double FirstStep = 1e-3;  // of the mesh's size
+constexpr double FirstStep = 1e-3; // of the mesh's size
 
 double dot(const Points& a, const Points& b, Monitor& monitor)
 {
@@ -28,9 +28,7 @@ void add(double factor, const Points& from, Points& to, Monitor& monitor)
 {
   monitor.parallelFor(to.rows(), Grain,
     [&](Index first, Index last)
-    {
-      to.middleRows(first, last - first) += factor * from.middleRows(first, last - first);
-    });
+    { to.middleRows(first, last - first) += factor * from.middleRows(first, last - first); });
 }
 
 /// Walks down along `direction`, a full step first. Returns false, leaving everything, where no step of sufficient decrease was found.
@@ -76,8 +74,8 @@ public:
     this->first_ = this->first_ < 0 ? norm : this->first_;
     const double decrease = before - after;
     return decrease <= this->limits_.decrease * std::abs(after) ||
-      (decrease <= this->limits_.slowDecrease * std::abs(after) &&
-        norm <= this->limits_.gradientDecrease * this->first_);
+           (decrease <= this->limits_.slowDecrease * std::abs(after) &&
+             norm <= this->limits_.gradientDecrease * this->first_);
   }
 
 private:
@@ -220,7 +218,8 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     double slope = dot(gradient, direction, monitor);
     const Points start = rowsOf(points, objective.free());
     const double before = value.energy;
-    bool found = slope < 0 && lineSearch(objective, direction, slope, points, value, effort, monitor);
+    bool found =
+      slope < 0 && lineSearch(objective, direction, slope, points, value, effort, monitor);
     if (!found && !inverse.empty())
     {
       inverse.forget();

@@ -16,9 +16,10 @@ struct MinimizerEffort
 struct MinimizerLimits
 {
   int steps = 30;
-  double decrease = 1e-6;       ///< stop once a step lowers the energy by less than this part of it,
-  double slowDecrease = 1e-4;   ///< or by less than this
-  double gradientDecrease = 1e-2; ///< and the gradient's norm has come down to this part of the first
+  double decrease = 1e-6;     ///< stop once a step lowers the energy by less than this part of it,
+  double slowDecrease = 1e-4; ///< or by less than this
+  double gradientDecrease =
+    1e-2; ///< and the gradient's norm has come down to this part of the first
 };
 
 /// Newton's method with conjugate gradients and a backtracking line search (Armijo). `points`: #nodes x 3, the start in, the
@@ -29,6 +30,6 @@ Objective::Value newton(const Objective& objective, Points& points, const Minimi
 
 /// The limited-memory BFGS method (Liu, Nocedal, Math. Program. 45 (1989) 503-528) with the last ten steps: no matrix, 0.5 kB a
 /// free node. Otherwise as newton().
-Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points, const MinimizerLimits& limits,
-  MinimizerEffort& effort, Monitor& monitor);
+Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
+  const MinimizerLimits& limits, MinimizerEffort& effort, Monitor& monitor);
 }

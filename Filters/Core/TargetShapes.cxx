@@ -113,7 +113,7 @@ Corners idealShape(Shape shape, const Lengths& length)
       break;
     case Shape::Wedge:
       // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive decomposition.
-      x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2, //
+      x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2,          //
         0, 0, a * std::sqrt(.75), 0, 0, a * std::sqrt(.75), //
         0, 0, 0, c, c, c;
       break;
@@ -126,7 +126,7 @@ Corners idealShape(Shape shape, const Lengths& length)
       break;
     }
     default:
-      x.leftCols<4>() << 0, a, a / 2, a / 2, //
+      x.leftCols<4>() << 0, a, a / 2, a / 2,              //
         0, 0, a * std::sqrt(.75), a * std::sqrt(1. / 12), //
         0, 0, 0, a * std::sqrt(2. / 3);
   }
@@ -187,24 +187,27 @@ std::vector<char> validCells(
       return *this;
     }
   };
-  const Mean mean = blockSum(cells, monitor, Mean{}, [&](Index c) {
-    if (!isVolume(rest, c))
+  const Mean mean = blockSum(cells, monitor, Mean{},
+    [&](Index c)
     {
-      return Mean{};
-    }
-    const Shape shape = cellShape(rest.types[c])->shape;
-    const Corners x = cornersOf(rest, c, rest.points);
-    least[c] = leastVolume(shape, x, orientation[c]);
-    Mean result;
-    const SimplicialDecomposition parts = simplicialDecomposition(shape);
-    for (int t = 0; t < parts.count; ++t)
-    {
-      result.volume += std::abs(edges(parts.tets[t], x).determinant()) / 6;
-      ++result.tetrahedra;
-    }
-    return result;
-  });
-  const double bound = LeastVolume * mean.volume / static_cast<double>(std::max<Index>(1, mean.tetrahedra));
+      if (!isVolume(rest, c))
+      {
+        return Mean{};
+      }
+      const Shape shape = cellShape(rest.types[c])->shape;
+      const Corners x = cornersOf(rest, c, rest.points);
+      least[c] = leastVolume(shape, x, orientation[c]);
+      Mean result;
+      const SimplicialDecomposition parts = simplicialDecomposition(shape);
+      for (int t = 0; t < parts.count; ++t)
+      {
+        result.volume += std::abs(edges(parts.tets[t], x).determinant()) / 6;
+        ++result.tetrahedra;
+      }
+      return result;
+    });
+  const double bound =
+    LeastVolume * mean.volume / static_cast<double>(std::max<Index>(1, mean.tetrahedra));
   std::vector<char> valid(cells);
   for (Index c = 0; c < cells; ++c)
   {
@@ -214,7 +217,8 @@ std::vector<char> validCells(
 }
 
 /// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or its own.
-Lengths lengthsAround(const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
+Lengths lengthsAround(
+  const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
 {
   const CellShape& shape = *cellShape(rest.types[cell]);
   double sum = 0;
@@ -226,7 +230,8 @@ Lengths lengthsAround(const Mesh& rest, const Adjacency& around, const std::vect
     {
       if (valid[*next])
       {
-        sum += lengths(cellShape(rest.types[*next])->shape, cornersOf(rest, *next, rest.points)).mean();
+        sum +=
+          lengths(cellShape(rest.types[*next])->shape, cornersOf(rest, *next, rest.points)).mean();
         ++count;
       }
     }
@@ -249,23 +254,26 @@ Corners targetOf(Shape shape, const Corners& rest, const Corners& guide, double 
   }
   const Lengths ratio = lengths(shape, guide).cwiseQuotient(lengths(shape, rest));
   const Eigen::Matrix3d J = frame(shape, rest);
-  return J * ratio.cwiseMax(1 / MostStretch).cwiseMin(MostStretch).asDiagonal() * J.inverse() * rest;
+  return J * ratio.cwiseMax(1 / MostStretch).cwiseMin(MostStretch).asDiagonal() * J.inverse() *
+         rest;
 }
 }
 
-TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation, const Points& guide,
-  Target target, Monitor& monitor)
+TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, Target target, Monitor& monitor)
 {
   const Index cells = rest.numberOfCells();
   TargetShapes result;
   result.start.assign(cells + 1, 0);
   for (Index c = 0; c < cells; ++c)
   {
-    result.start[c + 1] = result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
+    result.start[c + 1] =
+      result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
   }
   result.tetrahedra.resize(result.start.back());
   const std::vector<char> valid = validCells(rest, orientation, monitor);
-  const bool allValid = [&] {
+  const bool allValid = [&]
+  {
     for (Index c = 0; c < cells; ++c)
     {
       if (!valid[c] && isVolume(rest, c))
@@ -277,47 +285,52 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
   }();
   const Adjacency around = allValid ? Adjacency() : nodeToCells(rest);
 
-  monitor.parallelFor(cells, Grain, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
     {
-      if (!isVolume(rest, c))
+      for (Index c = first; c < last; ++c)
       {
-        continue;
+        if (!isVolume(rest, c))
+        {
+          continue;
+        }
+        const Shape shape = cellShape(rest.types[c])->shape;
+        const double sign = orientation[c];
+        Corners x;
+        if (valid[c])
+        {
+          x = targetOf(
+            shape, cornersOf(rest, c, rest.points), cornersOf(rest, c, guide), sign, target);
+        }
+        else
+        {
+          x = idealShape(shape, lengthsAround(rest, around, valid, c));
+          x.row(0) *= sign;
+        }
+        const SimplicialDecomposition parts = simplicialDecomposition(shape);
+        for (int t = 0; t < parts.count; ++t)
+        {
+          TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
+          const Eigen::Matrix3d D = edges(parts.tets[t], x);
+          Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
+          std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
+          tetrahedron.theta = shape == Shape::Tet ? 0.5 : 0.1;
+          tetrahedron.weight = parts.tets[t].weight * std::abs(D.determinant()) / 6;
+        }
       }
-      const Shape shape = cellShape(rest.types[c])->shape;
-      const double sign = orientation[c];
-      Corners x;
-      if (valid[c])
-      {
-        x = targetOf(shape, cornersOf(rest, c, rest.points), cornersOf(rest, c, guide), sign, target);
-      }
-      else
-      {
-        x = idealShape(shape, lengthsAround(rest, around, valid, c));
-        x.row(0) *= sign;
-      }
-      const SimplicialDecomposition parts = simplicialDecomposition(shape);
-      for (int t = 0; t < parts.count; ++t)
-      {
-        TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
-        const Eigen::Matrix3d D = edges(parts.tets[t], x);
-        Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
-        std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
-        tetrahedron.theta = shape == Shape::Tet ? 0.5 : 0.1;
-        tetrahedron.weight = parts.tets[t].weight * std::abs(D.determinant()) / 6;
-      }
-    }
-  });
+    });
 
   const double total = blockSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
     [&](Index t) { return result.tetrahedra[t].weight; });
   const auto count = static_cast<double>(result.tetrahedra.size());
-  monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain, [&](Index first, Index last) {
-    for (Index t = first; t < last; ++t)
+  monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain,
+    [&](Index first, Index last)
     {
-      result.tetrahedra[t].weight *= count / total;
-    }
-  });
+      for (Index t = first; t < last; ++t)
+      {
+        result.tetrahedra[t].weight *= count / total;
+      }
+    });
   return result;
 }
 }

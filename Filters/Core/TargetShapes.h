@@ -13,9 +13,9 @@ namespace morph
 /// What a cell should look like in the morphed mesh, up to a rotation.
 enum class Target
 {
-  Initial,  ///< the cell at rest
+  Initial,   ///< the cell at rest
   Stretched, ///< the cell at rest, stretched along its own axes to the edge lengths of a guide: keeps angles, accepts sizes
-  Ideal     ///< right angles, or a regular tetrahedron, with the mean edge lengths along each axis of the guide
+  Ideal ///< right angles, or a regular tetrahedron, with the mean edge lengths along each axis of the guide
 };
 
 /// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their target and their weight.
@@ -25,9 +25,9 @@ struct TargetShapes
   struct Tetrahedron
   {
     std::int8_t corner[4]; ///< of the cell
-    double inverse[9]; ///< column major
-    double weight;     ///< decomposition weight times target volume; the mean over all is 1
-    double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
+    double inverse[9];     ///< column major
+    double weight;         ///< decomposition weight times target volume; the mean over all is 1
+    double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
   };
   std::vector<Index> start; ///< #cells + 1
   std::vector<Tetrahedron> tetrahedra;
@@ -37,6 +37,6 @@ struct TargetShapes
 /// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest with a
 /// tetrahedron at or below 1e-3 of the mean volume, which Initial and Stretched would divide by, takes the Ideal shape with
 /// the edge lengths of its valid neighbors at rest. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
-TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation, const Points& guide,
-  Target target, Monitor& monitor);
+TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, Target target, Monitor& monitor);
 }
