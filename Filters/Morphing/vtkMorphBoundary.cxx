@@ -334,7 +334,7 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     monitor.SetRange(0.7, 0.9);
     const morph::Points moved = motion.moved();
     place->Assign(geometry, moved);
-    place->Orient(moved, morph::surfaceNodeNormals(moved, faces, geometry));
+    place->Orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
