@@ -55,11 +55,19 @@ class MovedSurfaces:
         if relative:
             curves.GetPointData().RemoveArray("RestPosition")  # that of S_0
             self._set(self.rest, self.mesh.to_vtk(self.moved))
+        self.give(curves)
+
+    def give(self, curves):
+        """Moves the surfaces after vertices and curves at these points (vtkPolyData). Raises as move_to."""
         self._set(self.curves, curves)
+        self.update()
+
+    def update(self):
+        """After a property of `filter` was set. Raises as move_to."""
         self.filter.UpdatePipeline()
         surface = output(self.filter)
         if surface.GetNumberOfPoints() != len(self.mesh.nodes):
-            raise RuntimeError(f"Morph Boundary gave no boundary at t = {t}")
+            raise RuntimeError(f"{self.mesh.model.name}: Morph Boundary gave no boundary")
         self.moved = self.mesh.points.copy()
         ids = vtk_to_numpy(surface.GetPointData().GetArray("MorphPointId"))
         self.moved[ids] = vtk_to_numpy(surface.GetPoints().GetData())
@@ -97,6 +105,21 @@ def first_fold(counts):
     return int(steps[0]) if len(steps) else None
 
 
+def table_head(size):
+    titles = [f"{method}, {stepping}" for method in METHODS for stepping in STEPPINGS]
+    return f"| {size} mesh | boundary faces | {' | '.join(titles).lower()} |\n|---|---|{'---|' * len(titles)}"
+
+
+def table_row(mesh, kind):
+    cells = []
+    for method in METHODS:
+        for stepping in STEPPINGS:
+            counts = fold_counts(mesh, method, stepping)
+            first = first_fold(counts)
+            cells.append("none" if first is None else f"step {first}; {counts[-1]:,} at S_F")
+    return f"| {mesh.model.name} {kind} | {len(mesh.faces):,} | {' | '.join(cells)} |"
+
+
 def load_plugin(given):
     path = Path(given) if given else next(iter(sorted((ROOT / "build" / "paraview").glob("**/MeshMorphing.so"))), None)
     if path is None:
@@ -122,20 +145,12 @@ def main():
     arguments = parse_arguments()
     load_plugin(arguments.plugin)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # the filter warns of folded faces at each step
-    print(f"| {arguments.size} mesh | boundary faces | " + " | ".join(
-        f"{method}, {stepping}" for method in METHODS for stepping in STEPPINGS) + " |")
-    print("|---|---|" + "---|" * (len(METHODS) * len(STEPPINGS)))
+    print(table_head(arguments.size))
     for name in arguments.models or Models.NAMES:
+        model = Models.get(name)
         for kind in ("hex", "tet"):
-            model = Models.get(name)
             mesh = model.read_small(kind) if arguments.size == "small" else model.make(kind)
-            cells = []
-            for method in METHODS:
-                for stepping in STEPPINGS:
-                    counts = fold_counts(mesh, method, stepping)
-                    first = first_fold(counts)
-                    cells.append("none" if first is None else f"step {first}; {counts[-1]:,} at S_F")
-            print(f"| {name} {kind} | {len(mesh.faces):,} | " + " | ".join(cells) + " |", flush=True)
+            print(table_row(mesh, kind), flush=True)
 
 
 if __name__ == "__main__":
