@@ -44,10 +44,11 @@ def faces_by_nodes(surface):
 
 
 class BoundaryChecks:
-    """`pieces`: into how many each edge of the target's faces is cut."""
+    """`pieces`: into how many each edge of the target's faces is cut. `angle`: a feature angle that parts the mesh's surfaces."""
 
     model, kind, small = "", "", True
     pieces = 4
+    angle = 25
 
     @classmethod
     def setUpClass(cls):
@@ -157,9 +158,14 @@ class SmallBoundaryChecks(BoundaryChecks):
         expected = {tuple(sorted(face)): surface for face, surface in zip(mesh.faces, mesh.face_surface)}
         self.assertEqual(found, expected)
 
-    def test_surfaces_by_feature_angle(self):
-        found = faces_by_nodes(output(self.classified(UseGeometryArrays=0), 1))
+    def test_geometry_by_feature_angle(self):
+        filter_ = self.classified(UseGeometryArrays=0, FeatureAngle=self.angle)
+        found = faces_by_nodes(output(filter_, 1))
         merged = {s: group[0] for group in SMOOTH.get(self.model, []) for s in group}
+        sharp = [curve for curve in self.mesh.model.curves
+                 if len({merged.get(s, s) for s in curve.surfaces}) == 2]
+        self.assertEqual(number(filter_, "NumberOfCurves"), len(sharp))
+        self.assertEqual(number(filter_, "NumberOfVertices"), len(self.mesh.model.corners))
         pairs = {(found[tuple(sorted(face))], merged.get(surface, surface))
                  for face, surface in zip(self.mesh.faces, self.mesh.face_surface.tolist())}
         expected = {merged.get(surface, surface) for surface in self.mesh.face_surface.tolist()}
@@ -171,7 +177,7 @@ class SmallBoundaryChecks(BoundaryChecks):
         """The paper's order on a mesh: find the geometry, move its curves, let surfaces and then the volume follow."""
         t, mesh = 0.25, self.mesh
         for by_angle in (False, True):
-            classified = self.classified(UseGeometryArrays=0 if by_angle else 1)
+            classified = self.classified(UseGeometryArrays=0 if by_angle else 1, FeatureAngle=self.angle)
             surface = output(classified, 1).NewInstance()
             surface.ShallowCopy(output(classified, 1))
             ids = point_array(surface, "MorphPointId")
