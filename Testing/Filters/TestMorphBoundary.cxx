@@ -400,12 +400,13 @@ TEST(MorphBoundary, NonManifoldBoundaries)
   // Boxes that share an edge, boxes that share a node, and a box with a hole through it.
   const morph::Mesh box = meshes::hexes(4, 4, 4);
   const auto low = [](double x) { return x < 2; };
-  for (const morph::Mesh& mesh : {
-         shapes::cut(box, [&](const Row& x) { return low(x[0]) == low(x[1]); }),
-         shapes::cut(
-           box, [&](const Row& x) { return low(x[0]) == low(x[1]) && low(x[1]) == low(x[2]); }),
-         shapes::cut(box, [](const Row& x) { return (x.head(2).array() - 2).abs().maxCoeff() > 1; }),
-       })
+  for (const morph::Mesh& mesh :
+    {
+      shapes::cut(box, [&](const Row& x) { return low(x[0]) == low(x[1]); }),
+      shapes::cut(
+        box, [&](const Row& x) { return low(x[0]) == low(x[1]) && low(x[1]) == low(x[2]); }),
+      shapes::cut(box, [](const Row& x) { return (x.head(2).array() - 2).abs().maxCoeff() > 1; }),
+    })
   {
     auto grid = grids::make(mesh);
     for (int method = 0; method < 2; ++method)
@@ -448,10 +449,12 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
   const morph::Points x = grids::points(filter->GetOutput());
   EXPECT_EQ((x.col(2).array() > 2).count(), 3 * 5);
   EXPECT_EQ((x.col(2).array() == 2.1).count(), 3 * 5);
-  EXPECT_EQ(worst(filter->GetOutput(), [](const Row& p)
-              { return p[2] == 2 && p[0] > 0 && p[0] < 3.5 && p[1] > 0 && p[1] < 6
-                  ? Row(p[0], p[1], 2.1)
-                  : p; }),
+  EXPECT_EQ(worst(filter->GetOutput(),
+              [](const Row& p) {
+                return p[2] == 2 && p[0] > 0 && p[0] < 3.5 && p[1] > 0 && p[1] < 6
+                         ? Row(p[0], p[1], 2.1)
+                         : p;
+              }),
     0);
 }
 
@@ -469,7 +472,7 @@ TEST(MorphBoundary, ArraysOfTheWrongTypeOrLength)
     data->AddArray(array);
   };
   using Change =
-    std::function<void(vtkMorphBoundary*, vtkUnstructuredGrid* grid, vtkPolyData* moved)>;
+    std::function<void(vtkMorphBoundary*, vtkUnstructuredGrid * grid, vtkPolyData * moved)>;
   const std::vector<std::pair<std::string, Change>> cases = {
     { "no cell array", [](auto* filter, auto*, auto*) { filter->SetSurfaceIdArray("Absent"); } },
     { "7 values for 8 cells",
