@@ -57,7 +57,6 @@ std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
   morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
 {
   return timeConfigured<Method>(
-    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times,
-    moved);
+    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times, moved);
 }
 }
