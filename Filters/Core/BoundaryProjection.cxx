@@ -277,7 +277,15 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
     {
       relaxation.round(nodes, report.projected);
-      nodes = folding({});
+      // Nodes that no longer fold go on moving: they make room for the others.
+      const std::vector<Index> folded = folding({});
+      std::vector<Index> moving;
+      if (!folded.empty())
+      {
+        std::set_union(
+          nodes.begin(), nodes.end(), folded.begin(), folded.end(), std::back_inserter(moving));
+      }
+      nodes = std::move(moving);
     }
     relaxation.finish(report.projected);
   }

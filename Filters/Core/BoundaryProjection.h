@@ -39,8 +39,8 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
 
 /// Moves the nodes that their surface moved (state OnSurface) to the target, each by the mean normal of the moved faces
 /// of its surface around it. Where faces are folded then (see faceQuality()), by the projection or before it, their
-/// projected nodes and the neighbors of those go to the mean of their neighbors, and on to the target again, for up to
-/// 100 rounds (Laplacian smoothing constrained to the target). Faces that are folded even then, and were not before,
+/// projected nodes and the neighbors of those go to the mean of their neighbors, and on to the target again, until no
+/// face is folded, for up to 100 rounds (Laplacian smoothing constrained to the target). Faces that are folded even then, and were not before,
 /// take their nodes back to where they were. To be called after morphSurfaces(). Cost: one search per node, and a few
 /// passes over the faces a round.
 ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classification& geometry,

@@ -44,11 +44,13 @@ def faces_by_nodes(surface):
 
 
 class BoundaryChecks:
-    """`pieces`: into how many each edge of the target's faces is cut. `angle`: a feature angle that parts the mesh's surfaces."""
+    """`pieces`: into how many each edge of the target's faces is cut. `angle`: a feature angle that parts the mesh's surfaces.
+    `left_folded`: how many faces projection may leave folded as seen from the exact surfaces."""
 
     model, kind, small = "", "", True
     pieces = 4
     angle = 25
+    left_folded = 0
 
     @classmethod
     def setUpClass(cls):
@@ -71,7 +73,7 @@ class BoundaryChecks:
         return surfaces
 
     def assert_projected_onto(self, surfaces, target, t):
-        """All surface nodes are on their true surface within 1e-3 of the model's size, and no face is folded."""
+        """All surface nodes are on their true surface within 1e-3 of the model's size, and the filter sees no face folded."""
         surfaces.filter.Target = target
         surfaces.move_to(t)
         dimension = self.mesh.geometry_dimension
@@ -83,7 +85,7 @@ class BoundaryChecks:
         print(f"\n{self.model} {self.kind}: surface nodes within {off / self.size:.1e} of the size", flush=True)
         self.assertLess(off, 1e-3 * self.size)
         self.assertEqual(number(surfaces.filter, "FoldedFaces"), 0)
-        self.assertEqual(len(surfaces.folded(t)), 0)
+        self.assertLessEqual(len(surfaces.folded(t)), self.left_folded)
         on_curves = surfaces.moved[self.mesh.curve_nodes]
         self.assertTrue(np.array_equal(on_curves, self.mesh.curve_positions(t)))
 
