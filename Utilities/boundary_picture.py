@@ -48,7 +48,8 @@ def classified(name, kind, title, look, **options):
 
 
 def classify_picture(path):
-    look = Look(28, 38, False, 1, "Classify Boundary: surfaces (colors), curves (lines) and vertices (dots)")
+    look = Look(28, 38, False, 1,
+                "Classify Boundary: surfaces (colors), curves (lines) and vertices (dots)")
     save_picture(path, look, [[
         # By more than 25 degrees the small mesh turns within its bores, too.
         classified("courier", "tet", "Courier-like part, by feature angle", look,
@@ -58,7 +59,8 @@ def classify_picture(path):
 
 
 def moved(mesh, title, look, method, target=None):
-    """A panel of the boundary that Morph Boundary makes of exact final curves, folded faces in red."""
+    """A panel of the boundary that Morph Boundary makes of exact final curves, folded faces in
+    red."""
     surfaces = MovedSurfaces(mesh, method)
     if target:
         surfaces.filter.Target = target
@@ -79,7 +81,8 @@ def folds_panel(title, faces, curves, look):
 
 
 def morph_picture(path):
-    look = Look(0, 52, False, 1, "Morph Boundary: surfaces follow the curves of the canister's hole (red: folded)")
+    look = Look(0, 52, False, 1,
+                "Morph Boundary: surfaces follow the curves of the canister's hole (red: folded)")
     mesh = Models.get("canister").read_small("hex")
     target = producer(mesh.boundary_to_vtk(1))
     save_picture(path, look, [[

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""At which of the paper's 20 steps the models' surfaces fold where Morph Boundary moves them after their exact vertices and curves.
+"""At which of the paper's 20 steps the models' surfaces fold where Morph Boundary moves them after
+their exact vertices and curves.
 
     pvpython Utilities/models_folds.py                  # the small meshes, in Data/Models/small
-    pvpython Utilities/models_folds.py --size paper     # those of the paper's size: needs Gmsh, some minutes
+    pvpython Utilities/models_folds.py --size paper     # of the paper's size: Gmsh, 15 minutes
 
-Prints a table: for each mesh, from the mesh at S_0 at each step (absolute) and from that of the step before (relative),
-by weighted residual, as in the paper, and by smoothing, the first step at which a boundary face is folded, and how many are at S_F. A
-face is folded where one of its corners turns against the true surface's normal."""
+Prints a table: for each mesh, from the mesh at S_0 at each step (absolute) and from that of the
+step before (relative), by weighted residual, as in the paper, and by smoothing, the first step at
+which a boundary face is folded, and how many are at S_F. A face is folded where one of its corners
+turns against that corner on the exact surfaces."""
 
 import argparse
 import os
@@ -40,17 +42,19 @@ def corner_normals(corners):
 
 
 class MovedSurfaces:
-    """A model's mesh (ClassifiedMesh) whose boundary Morph Boundary moves after its vertices and curves. `filter`: the proxy, whose
-    properties may be set; `moved`: (#nodes, 3) as of the last step, interior nodes at rest."""
+    """A model's mesh (ClassifiedMesh) whose boundary Morph Boundary moves after its vertices and
+    curves. `filter`: the proxy, whose properties may be set; `moved`: (#nodes, 3) as of the last
+    step, interior nodes at rest."""
 
     def __init__(self, mesh, method=METHODS[0]):
         self.mesh, self.moved = mesh, mesh.points
         self.rest, self.curves = producer(mesh.to_vtk()), producer(mesh.curves_to_vtk(0))
-        self.filter = simple.MorphBoundary(Input=self.rest, Boundary=self.curves, SurfaceMethod=method)
+        self.filter = simple.MorphBoundary(
+            Input=self.rest, Boundary=self.curves, SurfaceMethod=method)
 
     def move_to(self, t, relative=False):
-        """Gives vertices and curves their place at S_t, and moves the surfaces: from S_0, or with `relative` from where they are. Raises
-        RuntimeError where the filter gives no result."""
+        """Gives vertices and curves their place at S_t, and moves the surfaces: from S_0, or with
+        `relative` from where they are. Raises RuntimeError where the filter gives no result."""
         curves = self.mesh.curves_to_vtk(t)
         if relative:
             curves.GetPointData().RemoveArray("RestPosition")  # that of S_0
@@ -58,7 +62,8 @@ class MovedSurfaces:
         self.give(curves)
 
     def give(self, curves):
-        """Moves the surfaces after vertices and curves at these points (vtkPolyData). Raises as move_to."""
+        """Moves the surfaces after vertices and curves at these points (vtkPolyData). Raises as
+        move_to."""
         self._set(self.curves, curves)
         self.update()
 
@@ -78,8 +83,10 @@ class MovedSurfaces:
         source.MarkModified(source)
 
     def folded(self, t):
-        """Rows in mesh.faces of the faces with a corner that turns against that of the face's place on the exact surface of S_t."""
-        here, exact = (corner_normals(points[self.mesh.faces]) for points in (self.moved, self.mesh.moved(t)))
+        """Rows in mesh.faces of the faces with a corner that turns against that of the face's place
+        on the exact surface of S_t."""
+        here, exact = (corner_normals(points[self.mesh.faces])
+                       for points in (self.moved, self.mesh.moved(t)))
         return np.flatnonzero(np.min(np.sum(here * exact, axis=2), axis=1) <= 0)
 
     def remove(self):
@@ -107,7 +114,8 @@ def first_fold(counts):
 
 def table_head(size):
     titles = [f"{method}, {stepping}" for method in METHODS for stepping in STEPPINGS]
-    return f"| {size} mesh | boundary faces | {' | '.join(titles).lower()} |\n|---|---|{'---|' * len(titles)}"
+    return (f"| {size} mesh | boundary faces | {' | '.join(titles).lower()} |\n"
+            f"|---|---|{'---|' * len(titles)}")
 
 
 def table_row(mesh, kind):
@@ -121,16 +129,17 @@ def table_row(mesh, kind):
 
 
 def load_plugin(given):
-    path = Path(given) if given else next(iter(sorted((ROOT / "build" / "paraview").glob("**/MeshMorphing.so"))), None)
-    if path is None:
-        sys.exit("models_folds: no MeshMorphing.so under build/paraview: build it, or use --plugin")
-    simple.LoadPlugin(str(path), remote=False, ns=vars(simple))
+    built = sorted((ROOT / "build" / "paraview").glob("**/MeshMorphing.so"))
+    if not given and not built:
+        sys.exit("no MeshMorphing.so under build/paraview: build it, or use --plugin")
+    simple.LoadPlugin(str(given or built[0]), remote=False, ns=vars(simple))
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("models", nargs="*", metavar="MODEL", help="default: all four")
-    parser.add_argument("--size", choices=("small", "paper"), default="small", help="default: %(default)s")
+    parser.add_argument("--size", choices=("small", "paper"), default="small",
+                        help="default: %(default)s")
     parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
                         help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
     arguments = parser.parse_args()
@@ -144,7 +153,8 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     load_plugin(arguments.plugin)
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # the filter warns of folded faces at each step
+    # The filter warns of folded faces at each step.
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     print(table_head(arguments.size))
     for name in arguments.models or Models.NAMES:
         model = Models.get(name)

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boundaries of the small models: found, moved after their vertices and curves, and projected onto the true surface.
+"""Boundaries of the small models: found, moved after their vertices and curves, and projected onto
+the true surface.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython models_boundary.py
 """
 
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,8 +14,10 @@ from pathlib import Path
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 
-from boundary_checks import Models, SmallBoundaryChecks, number, output, point_array, producer
+from boundary_checks import (
+    ROOT, Models, SmallBoundaryChecks, number, output, point_array, producer)
 from Models.model_mesh import add_array
 
 
@@ -52,8 +56,8 @@ class CourierTet(SmallBoundaryChecks, unittest.TestCase):
 
 
 def merged_with_sides(kind):
-    """The pipe's volume cells and a face cell for each boundary face, in blocks as the readers of Exodus and Gmsh files make them: the
-    cell array Entity numbers the volume and each surface."""
+    """The pipe's volume cells and a face cell for each boundary face, in blocks as the readers of
+    Exodus and Gmsh files make them: the cell array Entity numbers the volume and each surface."""
     mesh = Models.get("pipe").read_small(kind)
     volume = mesh.to_vtk()
     for name in ("GeometryDimension", "GeometryId", "CurveParameter"):
@@ -62,7 +66,12 @@ def merged_with_sides(kind):
     sides = mesh.boundary_to_vtk(0)
     add_array(sides.GetCellData(), "Entity", 10 * mesh.face_surface + 7)
     blocks = simple.GroupDatasets(Input=[producer(volume), producer(sides)])
-    return mesh, simple.MergeBlocks(Input=blocks, MergePoints=1, OutputDataSetType="Unstructured Grid")
+    return mesh, simple.MergeBlocks(
+        Input=blocks, MergePoints=1, OutputDataSetType="Unstructured Grid")
+
+
+def counts(classified):
+    return [number(classified, f"NumberOf{what}") for what in ("Vertices", "Curves", "Surfaces")]
 
 
 class IdsOfSides(unittest.TestCase):
@@ -72,11 +81,10 @@ class IdsOfSides(unittest.TestCase):
         for kind in ("hex", "tet"):
             mesh, merged = merged_with_sides(kind)
             classified = simple.ClassifyBoundary(Input=merged, SurfaceIdArray="Entity")
-            self.assertEqual(
-                [number(classified, f"NumberOf{what}") for what in ("Vertices", "Curves", "Surfaces")],
-                [0, 8, 8])
+            self.assertEqual(counts(classified), [0, 8, 8])
             ids = vtk_to_numpy(output(classified, 1).GetCellData().GetArray("GeometryId"))
-            self.assertEqual(np.bincount(ids)[7::10].tolist(), np.bincount(mesh.face_surface).tolist())
+            expected = np.bincount(mesh.face_surface).tolist()
+            self.assertEqual(np.bincount(ids)[7::10].tolist(), expected)
             self.assertEqual(len(ids), len(mesh.faces))
 
     def test_from_a_gmsh_file(self):
@@ -98,9 +106,7 @@ class IdsOfSides(unittest.TestCase):
                 gmsh.finalize()
             reader = simple.LegacyVTKReader(FileNames=[file])
             classified = simple.ClassifyBoundary(Input=reader, SurfaceIdArray="CellEntityIds")
-            self.assertEqual(
-                [number(classified, f"NumberOf{what}") for what in ("Vertices", "Curves", "Surfaces")],
-                [0, 2, 3])
+            self.assertEqual(counts(classified), [0, 2, 3])
             surface = output(classified, 1)
             ids = vtk_to_numpy(surface.GetCellData().GetArray("GeometryId"))
             self.assertEqual(np.unique(ids).tolist(), [101, 102, 103])
@@ -110,6 +116,25 @@ class IdsOfSides(unittest.TestCase):
             self.assertEqual(number(boundary, "FoldedFaces"), 0)
             self.assertEqual(number(boundary, "GivenPoints"), np.count_nonzero(
                 point_array(surface, "GeometryDimension") == 1))
+
+
+class Pictures(unittest.TestCase):
+    def test_are_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process = subprocess.run(
+                ["pvpython", "--force-offscreen-rendering",
+                 str(ROOT / "Utilities" / "boundary_picture.py"), "--output", folder],
+                capture_output=True, text=True, timeout=200)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            for name in ("classify-boundary.png", "morph-boundary.png"):
+                reader = vtkPNGReader()
+                reader.SetFileName(str(Path(folder) / name))
+                reader.Update()
+                image = reader.GetOutput()
+                self.assertEqual(image.GetDimensions()[0], 1600)
+                pixels = vtk_to_numpy(image.GetPointData().GetScalars()).astype(int)
+                painted = np.count_nonzero(np.ptp(pixels, axis=1) > 30) / len(pixels)
+                self.assertGreater(painted, 0.1)
 
 
 if __name__ == "__main__":

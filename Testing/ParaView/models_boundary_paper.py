@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boundaries of the models at the size of the paper, moved after their vertices and curves and projected onto the true surface. Slow: needs Gmsh.
+"""Boundaries of the models at the size of the paper, moved after their vertices and curves and
+projected onto the true surface. Slow: needs Gmsh.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython models_boundary_paper.py
 """
@@ -28,7 +29,6 @@ class PipeHex(PaperBoundaryChecks, unittest.TestCase):
 
 class PipeTet(PaperBoundaryChecks, unittest.TestCase):
     model, kind = "pipe", "tet"
-    left_folded = 1  # across the elbow's inner wall
 
 
 class CanisterHex(PaperBoundaryChecks, unittest.TestCase):

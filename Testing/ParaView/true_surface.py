@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model's true surface as fine triangles: a target to project onto. Between the mesh's nodes its points are found from the surface's
-equations (model_equations), not from the model's own maps."""
+"""A model's true surface as fine triangles: a target to project onto. Between the mesh's nodes its
+points are found from the surface's equations (model_equations), not from the model's own maps."""
 
 import numpy as np
 
@@ -12,8 +12,8 @@ from Models.model_mesh import vtk_points
 
 
 def _lattice(corners, pieces):
-    """Weights (n, corners) of the points that cut a face into pieces x pieces, on which edge each is (its number, -1 inside and at the
-    corners), and the triangles between them."""
+    """Weights (n, corners) of the points that cut a face into pieces x pieces, on which edge each
+    is (its number, -1 inside and at the corners), and the triangles between them."""
     step = np.arange(pieces + 1)
     j, i = np.meshgrid(step, step)
     if corners == 3:
@@ -42,18 +42,20 @@ def _lattice(corners, pieces):
 
 
 def _onto_surfaces(equations, shape, points, first, second):
-    """Newton's method, by least norm, onto the surfaces `first` and `second` of each point; these may be one."""
+    """Newton's method, by least norm, onto the surfaces `first` and `second` of each point; these
+    may be one."""
     which = np.arange(len(points))
     for _ in range(8):
         distance = np.empty((len(points), 2))
         gradient = np.empty((len(points), 2, 3))
         at = equations(shape, points)
-        steps = [(equations(shape, points + 1e-6 * axis) - equations(shape, points - 1e-6 * axis)) / 2e-6
-                 for axis in np.eye(3)]
+        ahead, behind = ([equations(shape, points + step * axis) for axis in np.eye(3)]
+                         for step in (1e-6, -1e-6))
         for k, surface in enumerate((first, second)):
             distance[:, k] = at[surface, which]
             for axis in range(3):
-                gradient[:, k, axis] = steps[axis][surface, which]
+                difference = ahead[axis][surface, which] - behind[axis][surface, which]
+                gradient[:, k, axis] = difference / 2e-6
         # Where the two surfaces are one, or touch, only their common normal counts.
         matrix = gradient @ np.moveaxis(gradient, 1, 2) + 1e-12 * np.eye(2)
         points = points - np.einsum(
@@ -62,9 +64,10 @@ def _onto_surfaces(equations, shape, points, first, second):
 
 
 def true_surface(mesh, equations, t, pieces):
-    """vtkPolyData: each boundary face of a ClassifiedMesh at S_t cut into pieces x pieces, in triangles that share no points, and its new
-    points taken onto its surface, on edges between surfaces onto both. Raises ValueError where that does not succeed to 1e-9 of the
-    model's size."""
+    """vtkPolyData: each boundary face of a ClassifiedMesh at S_t cut into pieces x pieces, in
+    triangles that share no points, and its new points taken onto its surface, on edges between
+    surfaces onto both. Raises ValueError where that does not succeed to 1e-9 of the model's
+    size."""
     shape = mesh.model.parameters(t)
     faces, surface = mesh.faces, mesh.face_surface
     count, corners = faces.shape
