@@ -11,6 +11,7 @@
 #include "vtkMorphOutput.h"
 #include "vtkMorphQuality.h"
 #include "vtkMorphTime.h"
+#include "vtkMorphValidity.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
@@ -42,6 +43,7 @@ struct vtkMorphAlgorithm::vtkInternals
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
   std::string Options;
   std::vector<morph::Count> Counts; ///< as of the last execution
+  std::string Status;               ///< as of the last execution
   vtkMorphTime Time;
 
   /// Takes the grid over unless it is what is kept already.
@@ -143,6 +145,7 @@ int vtkMorphAlgorithm::RequestData(
   this->ResetResults();
 
   vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  std::string partial;
   const auto morphGrid = [&]
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
@@ -150,19 +153,30 @@ int vtkMorphAlgorithm::RequestData(
     grid = vtkMorphInput::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {
-      this->Morph(grid, boundary, output, monitor);
+      partial = this->Morph(grid, boundary, output, monitor);
     }
   };
   const auto clear = [&]
   {
     output->Initialize();
     this->ResetResults();
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    if (grid && monitor.cancelled())
+    {
+      output->ShallowCopy(grid);
+      this->Internals->Status = "Cancelled";
+      vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
+    }
   };
   const int done = vtkMorphExecution::Run(this, "morph this mesh", morphGrid, clear);
   // With an error too: they may explain it.
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningMacro(<< warning);
+  }
+  if (!partial.empty())
+  {
+    vtkErrorMacro(<< partial);
   }
   if (done)
   {
@@ -171,7 +185,7 @@ int vtkMorphAlgorithm::RequestData(
   return done;
 }
 
-void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
@@ -192,7 +206,18 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   }
   monitor.check();
 
-  monitor.SetRange(0.05, 0.5);
+  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
+  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
+    kept.Orientation, match.Targets,
+    [this]
+    {
+      auto morpher = this->CreateMorpher();
+      this->SetEvaluateOptions(*morpher);
+      return morpher;
+    } };
+  validity.RequireFeasible();
+
+  monitor.SetRange(0.05, 0.4);
   const std::string prepareOptions = this->PrepareOptions();
   if (!kept.Morpher || kept.Options != prepareOptions ||
       kept.Morpher->partition().prescribed != match.Ids)
@@ -200,20 +225,25 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
     const auto start = Clock::now();
     kept.Morpher.reset();
     std::unique_ptr<morph::Morpher> morpher = this->CreateMorpher();
-    morpher->prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
+    morpher->prepare(kept.Mesh, partition, monitor);
     kept.Morpher = std::move(morpher);
     kept.Options = prepareOptions;
     ++this->PrepareCount;
     this->PrepareSeconds = secondsSince(start);
   }
 
-  monitor.SetRange(0.5, 0.9);
+  monitor.SetRange(0.4, 0.7);
   this->SetEvaluateOptions(*kept.Morpher);
   const auto start = Clock::now();
   morph::Points moved;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
+  monitor.SetRange(0.7, 0.9);
+  const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
   this->SolverIterations = report.iterations;
+  this->LargestValidStep = valid.LargestValidStep;
+  this->SubSteps = static_cast<vtkIdType>(valid.SubSteps);
+  kept.Status = valid.Status;
   kept.Counts = report.counts;
   this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
   this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
@@ -235,6 +265,14 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   {
     vtkMorphOutput::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
   }
+  vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
+  vtkMorphOutput::AddField(output, "LargestValidStep", this->LargestValidStep);
+  return valid.Error;
+}
+
+const char* vtkMorphAlgorithm::GetMorphStatus() const
+{
+  return this->Internals->Status.c_str();
 }
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
@@ -259,6 +297,9 @@ void vtkMorphAlgorithm::ResetResults()
   this->WorstCellId = -1;
   this->PrepareSeconds = 0;
   this->EvaluateSeconds = 0;
+  this->Internals->Status = "None";
+  this->LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  this->SubSteps = 0;
   this->SolverIterations = 0;
   this->PrescribedPoints = 0;
   this->UnmatchedPoints = 0;
@@ -273,6 +314,8 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
@@ -283,6 +326,9 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
   os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
+  os << indent << "MorphStatus: " << this->GetMorphStatus() << "\n";
+  os << indent << "LargestValidStep: " << this->LargestValidStep << "\n";
+  os << indent << "SubSteps: " << this->SubSteps << "\n";
   os << indent << "SolverIterations: " << this->SolverIterations << "\n";
   os << indent << "PrepareCount: " << this->PrepareCount << "\n";
   os << indent << "PrescribedPoints: " << this->PrescribedPoints << "\n";
