@@ -65,8 +65,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   }
   const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(targetShapes(
-    this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
+  energy.setTargets(
+    targetShapes(this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
 }
 
@@ -133,7 +133,8 @@ EvaluateReport InversionFree::report(
 {
   if (!determined.empty())
   {
-    monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " +
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
       listIds(determined) +
       ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }
