@@ -271,6 +271,13 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
       result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
   }
   result.tetrahedra.resize(result.start.back());
+  const bool tetrahedraAlone = std::all_of(rest.types.begin(), rest.types.end(),
+    [](std::uint8_t type)
+    {
+      const Shape shape = cellShape(type)->shape;
+      return shape == Shape::Tet || numberOfCorners(shape) == 0;
+    });
+  const double theta = tetrahedraAlone ? 0.5 : 0.1;
   const std::vector<char> valid = validCells(rest, orientation, monitor);
   const bool allValid = [&]
   {
@@ -314,7 +321,8 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
           const Eigen::Matrix3d D = edges(parts.tets[t], x);
           Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
           std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
-          tetrahedron.theta = shape == Shape::Tet ? 0.5 : 0.1;
+          tetrahedron.theta = theta;
+          tetrahedron.stiffened = shape != Shape::Tet;
           tetrahedron.weight = parts.tets[t].weight * std::abs(D.determinant()) / 6;
         }
       }

@@ -25,6 +25,7 @@ struct TargetShapes
   struct Tetrahedron
   {
     std::int8_t corner[4]; ///< of the cell
+    bool stiffened;        ///< not in tetrahedral cells: it lowers their scaled Jacobian
     double inverse[9];     ///< column major
     double weight;         ///< decomposition weight times target volume; the mean over all is 1
     double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
