@@ -87,7 +87,7 @@ Matrix9 projectedDifference(const morph::FoldoverDensity& density, const Matrix&
   }
   const Eigen::SelfAdjointEigenSolver<Matrix9> eigen(Matrix9(H + H.transpose()) / 2);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
-    eigen.eigenvectors().transpose();
+         eigen.eigenvectors().transpose();
 }
 
 /// With the unit matrix for shape functions block[a][b] is d2/(dJ_a dJ_b) by columns.
@@ -109,7 +109,8 @@ Matrix9 assembled(const morph::FoldoverDensity& density, const Matrix& J)
 
 TEST(FoldoverDensity, OneForRotationsAndMoreForAllElse)
 {
-  const Matrix R = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const Matrix R =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   for (const Case& c : Cases)
   {
     SCOPED_TRACE(c.name);
@@ -163,7 +164,8 @@ TEST(FoldoverDensity, SignedSingularValues)
   for (const Matrix& J : all)
   {
     const morph::SignedSingularValues svd(J);
-    EXPECT_LT((svd.U * svd.S.asDiagonal() * svd.V.transpose() - J).norm(), 1e-6 * (1 + J.norm())) << J;
+    EXPECT_LT((svd.U * svd.S.asDiagonal() * svd.V.transpose() - J).norm(), 1e-6 * (1 + J.norm()))
+      << J;
     EXPECT_NEAR(svd.U.determinant(), 1, 1e-10);
     EXPECT_NEAR(svd.V.determinant(), 1, 1e-10);
     EXPECT_GE(svd.S[0], svd.S[1] - 1e-7);

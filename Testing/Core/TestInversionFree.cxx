@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InversionFree.h"
 #include "BoundaryDetermined.h"
+#include "InversionFree.h"
 #include "Meshes.h"
 #include "Motions.h"
 #include "ScaledJacobian.h"
@@ -103,14 +103,14 @@ TEST(InversionFree, EveryKindOfMeshComesOutValidWhereFemWarpDoesNot)
     femWarp.evaluate(boundary, warped, monitor);
     const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
     helped += morph::invertedCells(mesh, warped, orientation, monitor).empty() ? 0 : 1;
-    ASSERT_TRUE(morph::boundaryDeterminedInversions(
-      mesh, femWarp.partition(), orientation, warped).empty());
+    ASSERT_TRUE(
+      morph::boundaryDeterminedInversions(mesh, femWarp.partition(), orientation, warped).empty());
     InversionFree method;
     const Morphed result = run(method, mesh, boundary);
     EXPECT_EQ(result.inverted, 0) << result.minimum;
     EXPECT_EQ(count(result.report, "Untangled"), 1);
-    EXPECT_TRUE(motions::identical(
-      meshes::rows(result.moved, method.partition().prescribed), boundary));
+    EXPECT_TRUE(
+      motions::identical(meshes::rows(result.moved, method.partition().prescribed), boundary));
   }
   EXPECT_GT(helped, 4);
 }
@@ -194,8 +194,8 @@ TEST(InversionFree, CellsThatTheBoundaryInvertsAreNamedAndTheOthersMorphed)
   EXPECT_EQ(count(report, "BoundaryDeterminedCells"), 1);
   ASSERT_EQ(monitor.warnings.size(), 1u);
   EXPECT_NE(monitor.warnings[0].find("cell ids 0."), std::string::npos) << monitor.warnings[0];
-  const std::vector<Index> inverted = morph::invertedCells(
-    mesh, moved, std::vector<std::int8_t>(mesh.numberOfCells(), 1), monitor);
+  const std::vector<Index> inverted =
+    morph::invertedCells(mesh, moved, std::vector<std::int8_t>(mesh.numberOfCells(), 1), monitor);
   EXPECT_EQ(inverted, std::vector<Index>{ 0 });
 }
 
@@ -237,9 +237,8 @@ TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)
   const double angle = 0.6, scale = 300;
   const motions::Map turn = [&](const motions::Row& x) -> motions::Row
   {
-    return scale *
-      motions::Row(x[0] * std::cos(angle) - x[1] * std::sin(angle) + 5,
-        x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2] - 3);
+    return scale * motions::Row(x[0] * std::cos(angle) - x[1] * std::sin(angle) + 5,
+                     x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2] - 3);
   };
   Mesh turned = mesh;
   turned.points = motions::mapped(mesh.points, turn);
@@ -296,8 +295,8 @@ TEST(SubSteps, RestMeshesWithInvertedCellsAreRefused)
   EXPECT_EQ(motions::kindOf(
               [&]
               {
-                morph::followInSubSteps(mesh, partition,
-                  std::vector<std::int8_t>(mesh.numberOfCells(), 1),
+                morph::followInSubSteps(
+                  mesh, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
                   morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
                   [] { return std::make_unique<morph::FemWarp>(); }, {}, monitor);
               },

@@ -77,7 +77,7 @@ TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
           b(setting.partition.free[i], j) -= h;
           const double difference = (setting.energy.evaluate(a, setting.monitor).energy -
                                       setting.energy.evaluate(b, setting.monitor).energy) /
-            (2 * h);
+                                    (2 * h);
           EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
 
           // The projection only adds curvature.
@@ -143,7 +143,8 @@ TEST(MeshEnergy, ThreadsDoNotShow)
   const Mesh mesh = meshes::hexesAndPyramids(7, 7, 7);
   Setting one(mesh, morph::Target::Stretched, 0.5), three(mesh, morph::Target::Stretched, 0.5, 3);
   const Points x = displaced(mesh, 0.8);
-  EXPECT_EQ(one.energy.evaluate(x, one.monitor).energy, three.energy.evaluate(x, three.monitor).energy);
+  EXPECT_EQ(
+    one.energy.evaluate(x, one.monitor).energy, three.energy.evaluate(x, three.monitor).energy);
   Points a, b;
   one.energy.gradient(x, a, one.monitor);
   three.energy.gradient(x, b, three.monitor);
