@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAlgorithm.h"
 
+#include "Error.h"
 #include "Morpher.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphCrewMonitor.h"
 #include "vtkMorphExecution.h"
+#include "vtkMorphGradient.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphOutput.h"
@@ -15,8 +17,10 @@
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
 #include <vtkDemandDrivenPipeline.h>
+#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkPointSet.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <chrono>
@@ -171,8 +175,8 @@ int vtkMorphAlgorithm::RequestData(
   return done;
 }
 
-void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Prepare(
+  vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
@@ -184,7 +188,7 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   options.ScaleFactor = this->ScaleFactor;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
-  const vtkMorphBoundaryMatch::Result match =
+  vtkMorphBoundaryMatch::Result match =
     vtkMorphBoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
   for (const std::string& warning : match.Warnings)
   {
@@ -206,6 +210,14 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
     ++this->PrepareCount;
     this->PrepareSeconds = secondsSince(start);
   }
+  return match;
+}
+
+void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+{
+  const vtkMorphBoundaryMatch::Result match = this->Prepare(grid, boundary, monitor);
+  vtkInternals& kept = *this->Internals;
 
   monitor.SetRange(0.5, 0.9);
   this->SetEvaluateOptions(*kept.Morpher);
@@ -235,6 +247,45 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   {
     vtkMorphOutput::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
   }
+}
+
+bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
+{
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const int done = vtkMorphExecution::Run(
+    this, "apply the adjoint",
+    [&]
+    {
+      this->Transpose(vtkMorphInput::RequireGrid(rest, "The mesh"), boundary, gradient,
+        boundaryGradient, monitor);
+    },
+    [&] { boundaryGradient->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done != 0;
+}
+
+void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
+{
+  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
+  const vtkMorphBoundaryMatch::Result match = this->Prepare(rest, boundary, monitor);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Internals->Morpher.get());
+  if (!linear)
+  {
+    throw morph::Error(std::string(this->GetClassName()) +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
+  monitor.SetRange(0.5, 1);
+  this->SetEvaluateOptions(*linear);
+  morph::Points prescribed;
+  linear->applyTranspose(nodes, prescribed, monitor);
+  vtkMorphGradient::Gather(this->ScaleFactor * prescribed, match.Sources,
+    vtkPointSet::SafeDownCast(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphAdjoint.h"
+
+#include "Error.h"
+#include "vtkMorphAlgorithm.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphInput.h"
+
+#include <vtkAlgorithmOutput.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <string>
+
+vtkStandardNewMacro(vtkMorphAdjoint);
+
+namespace
+{
+vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
+{
+  if (name.empty())
+  {
+    throw morph::Error(
+      "GradientArray is not set: name the point array that holds the derivatives of the "
+      "objective with respect to the nodes.");
+  }
+  vtkPointSet* points = vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
+  vtkDataArray* array = points->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    throw morph::Error("GradientArray names '" + name +
+                       "', which is no numeric point array of the gradient's " +
+                       "data set. Give it on port 2, or with the mesh on port 0.");
+  }
+  return array;
+}
+}
+
+vtkMorphAdjoint::vtkMorphAdjoint()
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkMorphAdjoint::~vtkMorphAdjoint()
+{
+  this->SetGradientArray(nullptr);
+}
+
+void vtkMorphAdjoint::SetBoundaryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkMorphAdjoint::SetBoundaryData(vtkDataObject* boundary)
+{
+  this->SetInputDataObject(1, boundary);
+}
+
+void vtkMorphAdjoint::SetGradientConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkMorphAdjoint::SetGradientData(vtkDataObject* gradient)
+{
+  this->SetInputDataObject(2, gradient);
+}
+
+void vtkMorphAdjoint::SetMorph(vtkMorphAlgorithm* morph)
+{
+  if (this->Morph != morph)
+  {
+    this->Morph = morph;
+    this->Modified();
+  }
+}
+
+vtkMorphAlgorithm* vtkMorphAdjoint::GetMorph()
+{
+  return this->Morph;
+}
+
+vtkMTimeType vtkMorphAdjoint::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Morph ? std::max(own, this->Morph->GetMTime()) : own;
+}
+
+int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port > 0)
+  {
+    // A boundary that is missing is named better by Execute() than by the executive.
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMorphAdjoint::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPointSet* boundary = vtkPointSet::GetData(inputVector[1]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const int type = boundary ? boundary->GetDataObjectType() : VTK_POLY_DATA;
+  if (!output || output->GetDataObjectType() != type)
+  {
+    const auto fresh = boundary ? vtkSmartPointer<vtkDataObject>::Take(boundary->NewInstance())
+                                : vtkSmartPointer<vtkDataObject>(vtkNew<vtkPolyData>());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+int vtkMorphAdjoint::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+  vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
+  vtkPointSet* output = vtkPointSet::GetData(outputVector);
+
+  vtkMorphCrewMonitor monitor(this, this->Morph ? this->Morph->GetNumberOfThreads() : 0);
+  const auto transpose = [&]
+  {
+    auto* rest = vtkUnstructuredGrid::SafeDownCast(input);
+    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(rest);
+    rest = vtkMorphInput::RequireGrid(input, "The input");
+    if (ranksWithCells == 0 || rest->GetNumberOfCells() > 0)
+    {
+      this->Execute(rest, boundary, carrier ? carrier : input, output, monitor);
+    }
+  };
+  const int done =
+    vtkMorphExecution::Run(this, "apply the adjoint", transpose, [&] { output->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done;
+}
+
+void vtkMorphAdjoint::Execute(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor)
+{
+  if (!this->Morph)
+  {
+    throw morph::Error("There is no method: set Morph to the filter that morphs the mesh.");
+  }
+  vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
+  vtkNew<vtkDoubleArray> result;
+  result->SetName("MorphGradient");
+  this->Morph->Transpose(rest, points, gradient, result, monitor);
+  output->ShallowCopy(points);
+  output->GetPointData()->AddArray(result);
+  output->GetPointData()->SetActiveVectors("MorphGradient");
+}
+
+void vtkMorphAdjoint::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Morph: " << (this->Morph ? this->Morph->GetClassName() : "(none)") << "\n";
+  os << indent << "GradientArray: " << (this->GradientArray ? this->GradientArray : "(none)")
+     << "\n";
+}
