@@ -43,3 +43,21 @@ install(FILES
   DESTINATION "${package_destination}"
   COMPONENT   development)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+
+if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
+  # Debian's ParaView looks for plugins in the folder "plugins" beside its programs and nowhere else (PV_PLUGIN_PATH apart), though
+  # its own plugins lie in the library folder: where this is installed beside ParaView, a link makes it listed and loaded.
+  find_program(MESHMORPHING_PVPYTHON pvpython)
+  get_filename_component(paraview_programs "${MESHMORPHING_PVPYTHON}" DIRECTORY)
+  install(CODE "
+    if (\"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\" STREQUAL \"${paraview_programs}\")
+      set(link \"${paraview_programs}/plugins/MeshMorphing/MeshMorphing.so\")
+      file(RELATIVE_PATH target \"${paraview_programs}/plugins/MeshMorphing\"
+        \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/paraview-5.11/plugins/MeshMorphing/MeshMorphing.so\")
+      message(STATUS \"Linking: \${link}\")
+      file(MAKE_DIRECTORY \"\$ENV{DESTDIR}${paraview_programs}/plugins/MeshMorphing\")
+      file(CREATE_LINK \"\${target}\" \"\$ENV{DESTDIR}\${link}\" SYMBOLIC)
+      list(APPEND CMAKE_INSTALL_MANIFEST_FILES \"\${link}\")
+    endif ()"
+    COMPONENT plugin)
+endif ()
