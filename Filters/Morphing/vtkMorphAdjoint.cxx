@@ -20,11 +20,41 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkMorphAdjoint);
 
 namespace
 {
+/// The first vtkMorphAlgorithm from `algorithm` on upstream, level by level; null where there is none.
+vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
+{
+  std::vector<vtkAlgorithm*> found;
+  const auto add = [&](vtkAlgorithm* next)
+  {
+    if (next && std::find(found.begin(), found.end(), next) == found.end())
+    {
+      found.push_back(next);
+    }
+  };
+  add(algorithm);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (auto* morph = vtkMorphAlgorithm::SafeDownCast(found[i]))
+    {
+      return morph;
+    }
+    for (int port = 0; port < found[i]->GetNumberOfInputPorts(); ++port)
+    {
+      for (int c = 0; c < found[i]->GetNumberOfInputConnections(port); ++c)
+      {
+        add(found[i]->GetInputAlgorithm(port, c));
+      }
+    }
+  }
+  return nullptr;
+}
+
 vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
 {
   if (name.empty())
@@ -130,7 +160,8 @@ int vtkMorphAdjoint::RequestData(
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
 
-  vtkMorphCrewMonitor monitor(this, this->Morph ? this->Morph->GetNumberOfThreads() : 0);
+  vtkMorphAlgorithm* morph = this->FindMorph();
+  vtkMorphCrewMonitor monitor(this, morph ? morph->GetNumberOfThreads() : 0);
   const auto transpose = [&]
   {
     auto* rest = vtkUnstructuredGrid::SafeDownCast(input);
@@ -138,7 +169,7 @@ int vtkMorphAdjoint::RequestData(
     rest = vtkMorphInput::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || rest->GetNumberOfCells() > 0)
     {
-      this->Execute(rest, boundary, carrier ? carrier : input, output, monitor);
+      this->Execute(morph, rest, boundary, carrier ? carrier : input, output, monitor);
     }
   };
   const int done =
@@ -150,18 +181,24 @@ int vtkMorphAdjoint::RequestData(
   return done;
 }
 
-void vtkMorphAdjoint::Execute(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-  vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor)
+vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
 {
-  if (!this->Morph)
+  return this->Morph ? this->Morph.Get() : nearestMorph(this->GetInputAlgorithm(2, 0));
+}
+
+void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
+  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor)
+{
+  if (!morph)
   {
-    throw morph::Error("There is no method: set Morph to the filter that morphs the mesh.");
+    throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
+                       "the gradient on port 2 by a pipeline with that filter in it.");
   }
   vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
   vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");
-  this->Morph->Transpose(rest, points, gradient, result, monitor);
+  morph->Transpose(rest, points, gradient, result, monitor);
   output->ShallowCopy(points);
   output->GetPointData()->AddArray(result);
   output->GetPointData()->SetActiveVectors("MorphGradient");

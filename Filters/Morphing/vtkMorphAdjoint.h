@@ -17,8 +17,9 @@
  * of them too. Nodes that are held pass nothing on. A point that stands for no node gets 0, and so does
  * each but the first of several points that stand for one node.
  *
- * The method and its options are those of the filter Morph, which may be the one that morphed the mesh:
- * then what it prepared is used again. It need not be connected to anything.
+ * The method and its options are those of the filter Morph or, where that is not set, of the nearest
+ * vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used again. Morph
+ * need not be connected to anything.
  *
  * Time: every port is asked for the time that the output is; the mesh has to be at rest at that time.
  *
@@ -70,8 +71,8 @@ public:
 
   ///@{
   /**
-   * The morphing filter whose method, options and array names are taken. Default: none, which is an
-   * error.
+   * The morphing filter whose method, options and array names are taken. Default: none, that is the
+   * nearest one in the pipeline behind port 2; an error where there is none.
    */
   void SetMorph(vtkMorphAlgorithm* morph);
   vtkMorphAlgorithm* GetMorph();
@@ -105,8 +106,9 @@ private:
   vtkMorphAdjoint(const vtkMorphAdjoint&) = delete;
   void operator=(const vtkMorphAdjoint&) = delete;
 
-  void Execute(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataObject* carrier,
-    vtkPointSet* output, vtkMorphMonitor& monitor);
+  vtkMorphAlgorithm* FindMorph();
+  void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+    vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor);
 
   vtkSmartPointer<vtkMorphAlgorithm> Morph;
   char* GradientArray = nullptr;

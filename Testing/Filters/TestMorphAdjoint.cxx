@@ -10,6 +10,8 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkTransform.h>
+#include <vtkTransformFilter.h>
 
 #include <gtest/gtest.h>
 
@@ -287,6 +289,23 @@ TEST_F(AdjointInputs, AChangedOptionOfTheMethodRunsAgain)
   adjoint->Print(text);
   EXPECT_NE(text.str().find("Morph: vtkFEMWarpMorph"), std::string::npos);
   EXPECT_NE(text.str().find("GradientArray: Gradient"), std::string::npos);
+}
+
+TEST_F(AdjointInputs, TheMethodIsFoundBehindTheGradient)
+{
+  auto expected = adjointOf(this->Morph, this->Grid, this->Boundary, nullptr);
+  expected->Update();
+  this->Morph->SetInputData(this->Grid);
+  this->Morph->SetBoundaryData(this->Boundary);
+  vtkNew<vtkTransform> identity;
+  vtkNew<vtkTransformFilter> between; // stands for the filters that evaluate the objective
+  between->SetTransform(identity);
+  between->SetInputConnection(this->Morph->GetOutputPort());
+  auto adjoint = adjointOf(nullptr, this->Grid, this->Boundary, nullptr);
+  adjoint->SetGradientConnection(between->GetOutputPort());
+  adjoint->Update();
+  EXPECT_TRUE(gradients(adjoint->GetOutput()) == gradients(expected->GetOutput()));
+  EXPECT_EQ(this->Morph->GetPrepareCount(), 1);
 }
 
 TEST_F(AdjointInputs, ApplyTransposeWithoutAPipeline)
