@@ -111,6 +111,7 @@ int run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  installConsole();
   try
   {
     return run(argc, argv);

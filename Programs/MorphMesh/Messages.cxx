@@ -6,6 +6,10 @@
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+
+#include <iostream>
 
 namespace morph_mesh
 {
@@ -29,9 +33,24 @@ void keep(vtkObject*, unsigned long, void* list, void* message)
   static_cast<std::vector<std::string>*>(list)->push_back(bare(static_cast<const char*>(message)));
 }
 
+class Console : public vtkOutputWindow
+{
+public:
+  static Console* New();
+  vtkTypeMacro(Console, vtkOutputWindow);
+  void DisplayText(const char* text) override { std::cerr << "morph-mesh: " << bare(text) << "\n"; }
+};
+
+vtkStandardNewMacro(Console);
+
 void ignore(vtkObject*, unsigned long, void*, void*)
 {
 }
+}
+
+void installConsole()
+{
+  vtkOutputWindow::SetInstance(vtkNew<Console>());
 }
 
 Messages::Messages(vtkAlgorithm* algorithm)

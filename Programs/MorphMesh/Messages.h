@@ -15,6 +15,9 @@ struct Failure : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/// From now on what VTK's objects say that nobody listens to (a parser inside a reader) goes to standard error, in this program's form.
+void installConsole();
+
 /// Takes the errors and warnings of a VTK algorithm while it lives, instead of VTK's console.
 class Messages
 {
