@@ -5,6 +5,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -51,6 +52,7 @@ void ignore(vtkObject*, unsigned long, void*, void*)
 void installConsole()
 {
   vtkOutputWindow::SetInstance(vtkNew<Console>());
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would say it once more
 }
 
 Messages::Messages(vtkAlgorithm* algorithm)
