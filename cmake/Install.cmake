@@ -6,27 +6,27 @@ set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
 set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
 
 file(GLOB core_headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core/*.h")
-install(FILES ${core_headers} DESTINATION "${headers_destination}/Core" COMPONENT development)
+install(FILES ${core_headers} DESTINATION "${headers_destination}/Core" COMPONENT sdk)
 set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
 target_include_directories(morph_core
   PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing/Core>)
 install(TARGETS morph_core
   EXPORT  MeshMorphing
-  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
 
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
   # ParaView's build installs the plugin alone; with plain VTK vtk_module_build() does what follows.
   get_target_property(filter_headers FiltersMorphing INTERFACE_vtk_module_headers)
-  install(FILES ${filter_headers} DESTINATION "${headers_destination}" COMPONENT development)
+  install(FILES ${filter_headers} DESTINATION "${headers_destination}" COMPONENT sdk)
   target_include_directories(FiltersMorphing PUBLIC $<INSTALL_INTERFACE:${headers_destination}>)
   install(TARGETS FiltersMorphing
     EXPORT  MeshMorphing
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
   install(EXPORT MeshMorphing
     NAMESPACE   MeshMorphing::
     FILE        MeshMorphing-targets.cmake
     DESTINATION "${package_destination}"
-    COMPONENT   development)
+    COMPONENT   sdk)
 endif ()
 
 configure_package_config_file(
@@ -41,7 +41,7 @@ install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
   DESTINATION "${package_destination}"
-  COMPONENT   development)
+  COMPONENT   sdk)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)

@@ -11,17 +11,13 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# What the libraries need is read off them; ParaView's package tells nobody its libraries' versions.
+# What the libraries need is read off them, ParaView's very series included.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev, libgmp-dev, libmpfr-dev")
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
-  string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" paraview_series "${ParaView_VERSION}")
-  math(EXPR next_minor "${CMAKE_MATCH_2} + 1")
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "paraview (>= ${paraview_series}), paraview (<< ${CMAKE_MATCH_1}.${next_minor})")
-  # ParaView's own rules put an archive that only ParaView's build can use into other components.
+  # ParaView's own rules put an archive that only its own build can use into the component development.
   set(CPACK_INSTALL_CMAKE_PROJECTS "")
-  foreach (component development plugin runtime)
+  foreach (component plugin runtime sdk)
     list(APPEND CPACK_INSTALL_CMAKE_PROJECTS
       "${CMAKE_BINARY_DIR}" "${PROJECT_NAME}" "${component}" "/")
   endforeach ()
