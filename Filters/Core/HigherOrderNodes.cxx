@@ -12,7 +12,8 @@ namespace morph
 namespace
 {
 /// The least change of the weights N of the corners X after which they reproduce `target`; none where the corners lie in a plane.
-void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target, Eigen::Ref<Eigen::VectorXd> N)
+void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target,
+  Eigen::Ref<Eigen::VectorXd> N)
 {
   Eigen::Matrix<double, Eigen::Dynamic, 4> A(X.rows(), 4);
   A << Eigen::VectorXd::Ones(X.rows()), X;

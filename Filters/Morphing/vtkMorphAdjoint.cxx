@@ -3,9 +3,8 @@
 
 #include "Error.h"
 #include "vtkMorphAlgorithm.h"
-#include "vtkMorphCrewMonitor.h"
-#include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
+#include "vtkMorphPorts.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataArray.h>
@@ -76,6 +75,7 @@ vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
 }
 
 vtkMorphAdjoint::vtkMorphAdjoint()
+  : Ports(new vtkMorphPorts(this))
 {
   this->SetNumberOfInputPorts(3);
 }
@@ -127,14 +127,21 @@ vtkMTimeType vtkMorphAdjoint::GetMTime()
 
 int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port > 0)
-  {
-    // A boundary that is missing is named better by Execute() than by the executive.
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return vtkMorphPorts::FillInformation(port, info);
+}
+
+int vtkMorphAdjoint::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+}
+
+int vtkMorphAdjoint::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMorphAlgorithm* morph = this->FindMorph();
+  return this->Ports->RequestUpdateExtent(
+    morph ? morph->GetRestTime() : VTK_DOUBLE_MIN, inputVector, outputVector);
 }
 
 int vtkMorphAdjoint::RequestDataObject(
@@ -153,32 +160,16 @@ int vtkMorphAdjoint::RequestDataObject(
 }
 
 int vtkMorphAdjoint::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+  vtkMorphAlgorithm* morph = this->FindMorph();
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
-
-  vtkMorphAlgorithm* morph = this->FindMorph();
-  vtkMorphCrewMonitor monitor(this, morph ? morph->GetNumberOfThreads() : 0);
-  const auto transpose = [&]
-  {
-    auto* rest = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(rest);
-    rest = vtkMorphInput::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || rest->GetNumberOfCells() > 0)
-    {
-      this->Execute(morph, rest, boundary, carrier ? carrier : input, output, monitor);
-    }
-  };
-  const int done =
-    vtkMorphExecution::Run(this, "apply the adjoint", transpose, [&] { output->Initialize(); });
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
-  return done;
+  const vtkMorphPorts::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
+    [] {},
+    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
+  return this->Ports->RequestData(task, request, inputVector, outputVector);
 }
 
 vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()

@@ -21,7 +21,7 @@
  * vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used again. Morph
  * need not be connected to anything.
  *
- * Time: every port is asked for the time that the output is; the mesh has to be at rest at that time.
+ * Time: as vtkMorphAlgorithm's; port 2 is asked for the time that the output is.
  *
  * Errors give no result: one message, and an empty output. Among them: no method, one that is not linear, no
  * gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.
@@ -39,8 +39,11 @@
 #include <vtkPointSetAlgorithm.h>
 #include <vtkSmartPointer.h> // for vtkSmartPointer
 
+#include <memory> // for std::unique_ptr
+
 class vtkMorphAlgorithm;
 class vtkMorphMonitor;
+class vtkMorphPorts;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
@@ -99,6 +102,10 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -110,6 +117,7 @@ private:
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
     vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor);
 
+  std::unique_ptr<vtkMorphPorts> Ports;
   vtkSmartPointer<vtkMorphAlgorithm> Morph;
   char* GradientArray = nullptr;
 };

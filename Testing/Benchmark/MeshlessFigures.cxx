@@ -49,7 +49,8 @@ private:
 double Run::bandwidth() const
 {
   say("memory bandwidth");
-  return measureBandwidth(this->options_.quick ? 100000000 : 1000000000, *makeMonitor(this->cores_)).best();
+  return measureBandwidth(this->options_.quick ? 100000000 : 1000000000, *makeMonitor(this->cores_))
+    .best();
 }
 
 void Run::addStreaming(
@@ -86,10 +87,11 @@ void Run::againstSibson(const Problem& problem, const morph::PrescribedSites& si
     }
     difference = std::max(difference, (x - moved.row(node)).norm());
   }
-  this->check(problem, "natural neighbor: difference from CGAL's, of the size", difference / problem.size,
-    SibsonDifference);
+  this->check(problem, "natural neighbor: difference from CGAL's, of the size",
+    difference / problem.size, SibsonDifference);
   this->add(problem, "CGAL's Sibson coordinates of a node, 1 thread", seconds / Samples, "s");
-  this->add(problem, "natural neighbor: cold a node" + withThreads(this->cores_), cold / static_cast<double>(n), "s");
+  this->add(problem, "natural neighbor: cold a node" + withThreads(this->cores_),
+    cold / static_cast<double>(n), "s");
   this->add(problem, "natural neighbor: CGAL's time a node / cold time a node",
     seconds / Samples * static_cast<double>(n) / cold, "", Target::atLeast(500));
 }
@@ -100,7 +102,8 @@ void Run::cube(const Problem& problem)
   morph::Points moved, movedByNatural;
   std::vector<double> delaunay, locate;
   const morph::PrescribedSites sites(problem.mesh.points, problem.partition.prescribed);
-  const std::vector<morph::Index> order = morph::spatialOrder(problem.mesh.points, problem.partition.free);
+  const std::vector<morph::Index> order =
+    morph::spatialOrder(problem.mesh.points, problem.partition.free);
   morph::Points places(static_cast<morph::Index>(order.size()), 3);
   for (morph::Index i = 0; i < places.rows(); ++i)
   {
@@ -138,7 +141,8 @@ template <typename Method>
 void Run::series(const std::string& name, const std::vector<Problem>& problems)
 {
   std::vector<MethodTimes> times(problems.size());
-  const int repeat = std::is_same<Method, morph::SimplexNaturalNeighbor>::value ? 1 : this->options_.repeat;
+  const int repeat =
+    std::is_same<Method, morph::SimplexNaturalNeighbor>::value ? 1 : this->options_.repeat;
   for (int i = 0; i < repeat; ++i)
   {
     say("series, " + name + ", repetition " + std::to_string(i + 1));

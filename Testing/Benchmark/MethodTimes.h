@@ -17,7 +17,8 @@ struct MethodTimes
 {
   std::vector<double> prepare;
   std::vector<double> cold; ///< prepare and the first evaluate
-  std::vector<double> warm; ///< an evaluate after that
+  std::vector<double>
+    warm; ///< an evaluate after that: the median of several, as when a boundary is dragged
   int iterations = 0;
   double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
 };
@@ -39,9 +40,16 @@ std::unique_ptr<Method> timeConfigured(const Problem& problem, const Configure& 
   times.cold.push_back(cold.seconds());
 
   const morph::Points first = moved;
-  const Stopwatch warm;
-  const morph::EvaluateReport report = method->evaluate(problem.target, moved, monitor);
-  times.warm.push_back(warm.seconds());
+  constexpr int Evaluations = 5;
+  std::vector<double> seconds;
+  morph::EvaluateReport report;
+  for (int i = 0; i < Evaluations; ++i)
+  {
+    const Stopwatch warm;
+    report = method->evaluate(problem.target, moved, monitor);
+    seconds.push_back(warm.seconds());
+  }
+  times.warm.push_back(median(seconds));
   times.iterations = report.iterations;
   times.bytesMoved = report.bytesMoved;
   if (moved != first)
@@ -57,6 +65,7 @@ std::unique_ptr<Method> timeMethod(const Problem& problem, double tolerance,
   morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)
 {
   return timeConfigured<Method>(
-    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times, moved);
+    problem, [tolerance](Method& method) { method.setTolerance(tolerance); }, monitor, times,
+    moved);
 }
 }

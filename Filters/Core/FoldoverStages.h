@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "MeshEnergy.h"
+#include "Minimizers.h"
+
+namespace morph
+{
+/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans. Graph. 40(4) (2021) 154 and 43(1)
+/// (2024) 10). `points` in all: #nodes x 3, the start in, the result out.
+class FoldoverStages
+{
+public:
+  enum class Minimizer
+  {
+    Newton,
+    LimitedMemoryBfgs ///< several times slower; without a matrix
+  };
+
+  FoldoverStages(MeshEnergy& energy, Minimizer minimizer)
+    : energy_(energy)
+    , minimizer_(minimizer)
+  {
+  }
+
+  /// Lowers the regularisation step by step until no tetrahedron is inverted and the energy has settled. Returns whether all
+  /// tetrahedra are positive.
+  bool untangle(Points& points, Monitor& monitor);
+  /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays valid.
+  void improve(Points& points, int steps, Monitor& monitor);
+  /// From a valid mesh to one with a lower greatest distortion; the mesh stays valid.
+  void stiffen(Points& points, Monitor& monitor);
+
+  const MinimizerEffort& effort() const { return this->effort_; }
+
+private:
+  void setDensity(double epsilon, double stiffness = 0);
+  MeshEnergy::State evaluate(const Points& points, Monitor& monitor);
+  MeshEnergy::State minimize(Points& points, int steps, Monitor& monitor);
+
+  MeshEnergy& energy_;
+  Minimizer minimizer_;
+  BlockMatrix matrix_;
+  MinimizerEffort effort_;
+};
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellShape.h"
+#include "Mesh.h"
+#include "Monitor.h"
+#include "Topology.h"
+
+#include <vector>
+
+namespace morph
+{
+/// What a cell should look like in the morphed mesh, up to a rotation.
+enum class Target
+{
+  Initial,   ///< the cell at rest
+  Stretched, ///< the cell at rest, stretched along its own axes to the edge lengths of a guide: keeps angles, accepts sizes
+  Ideal ///< right angles, or a regular tetrahedron, with the mean edge lengths along each axis of the guide
+};
+
+/// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their target and their weight.
+struct TargetShapes
+{
+  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size.
+  struct Tetrahedron
+  {
+    std::int8_t corner[4]; ///< of the cell
+    double inverse[9];     ///< column major
+    double weight;         ///< decomposition weight times target volume; the mean over all is 1
+    double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
+  };
+  std::vector<Index> start; ///< #cells + 1
+  std::vector<Tetrahedron> tetrahedra;
+};
+
+/// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's orientation().
+/// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest with a
+/// tetrahedron at or below 1e-3 of the mean volume, which Initial and Stretched would divide by, takes the Ideal shape with
+/// the edge lengths of its valid neighbors at rest. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
+TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, Target target, Monitor& monitor);
+}
