@@ -15,6 +15,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -130,18 +131,20 @@ int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
   return vtkMorphPorts::FillInformation(port, info);
 }
 
-int vtkMorphAdjoint::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+vtkTypeBool vtkMorphAdjoint::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
-}
-
-int vtkMorphAdjoint::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkMorphAlgorithm* morph = this->FindMorph();
-  return this->Ports->RequestUpdateExtent(
-    morph ? morph->GetRestTime() : VTK_DOUBLE_MIN, inputVector, outputVector);
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    vtkMorphAlgorithm* morph = this->FindMorph();
+    return this->Ports->RequestUpdateExtent(
+      morph ? morph->GetRestTime() : 0, inputVector, outputVector);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
 int vtkMorphAdjoint::RequestDataObject(
