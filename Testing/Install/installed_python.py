@@ -4,16 +4,20 @@
 Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models> python3 installed_python.py
 """
 import os
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 import meshmorphing
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util import numpy_support
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
+README = Path(__file__).resolve().parents[2] / "README.md"
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
 METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph, meshmorphing.vtkSimplexLinearMorph,
            meshmorphing.vtkSimplexNaturalNeighborMorph, meshmorphing.vtkWeightedResidualMorph]
@@ -34,6 +38,25 @@ def boundary_of(grid):
 
 
 class InstalledPython(unittest.TestCase):
+    def test_readme_example(self):
+        blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 1)
+        lines = [line for line in blocks[0].splitlines() if line and not line.startswith(("import", "from"))]
+        self.assertEqual(len(lines), 12)
+        with tempfile.TemporaryDirectory() as folder:
+            writer = vtkXMLUnstructuredGridWriter()
+            writer.SetFileName(os.path.join(folder, "part.vtu"))
+            writer.SetInputData(read().VTKObject)
+            self.assertEqual(writer.Write(), 1)
+            result = subprocess.run([sys.executable, "-c", blocks[0]], cwd=folder,
+                                    capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        minimum, inverted = map(float, result.stdout.split())
+        # A shear by 0.1 costs the bore's best cells at most a tenth.
+        self.assertAlmostEqual(minimum, 0.8619, delta=0.1)
+        self.assertNotEqual(round(minimum, 4), 0.8619)
+        self.assertEqual(inverted, 0)
+
     def test_numpy_there_and_back(self):
         grid = read()
         shear = numpy.array([[1, 0.2, 0], [0, 1.1, 0], [0.1, 0, 1]])
