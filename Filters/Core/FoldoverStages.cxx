@@ -103,6 +103,7 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor)
   double settled = std::numeric_limits<double>::infinity();
   for (int stage = 0; stage < MostStages; ++stage)
   {
+    monitor.progress(0.7 - 0.6 * std::pow(0.8, stage));
     this->setDensity(epsilon);
     const double start = this->evaluate(points, monitor).energy;
     state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);

@@ -6,7 +6,7 @@
 
 namespace morph
 {
-/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans. Graph. 40(4) (2021) 154 and 43(1)
+/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069 and 43(1)
 /// (2024) 10). `points` in all: #nodes x 3, the start in, the result out.
 class FoldoverStages
 {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InversionFree.h"
 
+#include "BoundaryDetermined.h"
 #include "Error.h"
 #include "ScaledJacobian.h"
+#include "SubMonitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,8 @@ namespace morph
 {
 namespace
 {
+constexpr int RefreshSteps = 3;
+
 /// Of the volume cells, from node to node around them; 1 where there is none.
 double meanEdge(const Mesh& mesh)
 {
@@ -35,113 +39,190 @@ double meanEdge(const Mesh& mesh)
 }
 }
 
+void InversionFree::setMethod(std::unique_ptr<Morpher> method)
+{
+  this->method_ = std::move(method);
+  this->start_ = Start::Method;
+}
+
 void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const Bodies parts = bodies(rest);
-  this->orientation_ = orientation(rest, parts);
-  this->femWarp_.prepare(rest, this->partition(), monitor);
-  this->mesh_ = rest;
-  this->scale_ = std::exp2(-std::round(std::log2(meanEdge(rest))));
-  this->mesh_.points *= this->scale_;
-  MeshEnergy energy(this->mesh_, this->partition().free);
-  energy.setTargets(
-    targetShapes(this->mesh_, this->orientation_, this->mesh_.points, Target::Initial, monitor));
-  this->validAtRest_ = energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
-}
-
-Points InversionFree::warped(
-  const Points& prescribed, EvaluateReport& report, Monitor& monitor) const
-{
-  const std::vector<Index>& ids = this->partition().prescribed;
-  Points boundary(prescribed.rows(), 3), result;
-  for (Index i = 0; i < boundary.rows(); ++i)
+  this->referenceMesh_ = rest;
+  if (this->reference_.rows() > 0)
   {
-    boundary.row(i) = this->restPoints().row(ids[i]) + prescribed.row(i);
+    this->referenceMesh_.points = this->reference_;
+    validate(this->referenceMesh_);
   }
-  report.iterations += this->femWarp_.evaluate(boundary, result, monitor).iterations;
-  result *= this->scale_;
-  return result;
+  this->orientation_ = orientation(this->referenceMesh_, bodies(rest));
+  this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
+  this->referenceMesh_.points *= this->scale_;
+
+  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.8);
+  this->femWarp_.prepare(rest, this->partition(), first);
+  if (this->method_)
+  {
+    this->method_->prepare(rest, this->partition(), second);
+  }
+  const Points atRest = rest.points * this->scale_;
+  MeshEnergy energy(this->referenceMesh_, this->partition().free);
+  energy.setTargets(
+    targetShapes(this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
+  this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
 }
 
-void InversionFree::minimize(
+Points InversionFree::moved(
+  const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const
+{
+  Points result;
+  SubMonitor part(monitor, 0, 0.05);
+  report.iterations += method.evaluate(boundary, result, part).iterations;
+  return result * this->scale_;
+}
+
+bool InversionFree::minimize(
   MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
   if (!stages.untangle(points, monitor))
   {
-    return;
+    return false;
   }
-  monitor.progress(0.6);
+  monitor.progress(0.7);
   for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
   {
     const Points guide = points;
-    energy.setTargets(targetShapes(this->mesh_, this->orientation_, guide, this->target_, monitor));
-    stages.improve(points, 3, monitor);
+    energy.setTargets(
+      targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
+    stages.improve(points, RefreshSteps, monitor);
   }
   monitor.progress(0.8);
   if (this->stiffening_ && this->target_ != Target::Initial)
   {
     stages.stiffen(points, monitor);
   }
+  monitor.progress(0.95);
+  return true;
 }
 
 double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
 {
-  return measureQuality(this->mesh_, points, this->orientation_, {}, monitor).minimum;
+  return measureQuality(this->referenceMesh_, points, this->orientation_, {}, monitor).minimum;
+}
+
+InversionFree::Outcome InversionFree::improve(
+  Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
+{
+  MeshEnergy energy(this->referenceMesh_, this->partition().free);
+  energy.setTargets(
+    targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
+  FoldoverStages stages(energy, this->minimizer_);
+  Outcome outcome;
+  outcome.untangled = this->minimize(energy, stages, points, monitor);
+  outcome.effort = stages.effort();
+
+  const double known = this->leastScaledJacobian(alternative, monitor);
+  if (known > 0 && !(this->leastScaledJacobian(points, monitor) >= known))
+  {
+    points = alternative;
+    outcome.kept = outcome.untangled = true;
+  }
+  return outcome;
+}
+
+EvaluateReport InversionFree::report(
+  const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const
+{
+  if (!determined.empty())
+  {
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
+      listIds(determined) +
+      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
+  }
+  EvaluateReport report;
+  report.iterations = static_cast<int>(outcome.effort.steps);
+  report.counts = { { "NewtonSteps", outcome.effort.steps },
+    { "LinearIterations", outcome.effort.linearIterations },
+    { "EnergyEvaluations", outcome.effort.evaluations },
+    { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
+    { "KeptFEMWARP", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
+  return report;
 }
 
 EvaluateReport InversionFree::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
-  free.setZero();
-  EvaluateReport report;
-  report.counts = { { "NewtonSteps", 0 }, { "LinearIterations", 0 }, { "EnergyEvaluations", 0 },
-    { "InfeasibleCells", 0 }, { "KeptFEMWARP", 0 } };
   if (this->validAtRest_ && (prescribed.array() == 0).all())
   {
-    return report;
+    free.setZero();
+    Outcome nothing;
+    nothing.untangled = true;
+    return this->report(nothing, {}, monitor);
   }
+  Points boundary(prescribed.rows(), 3), points = this->restPoints() * this->scale_;
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    const Index node = partition.prescribed[i];
+    boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
+    points.row(node) = boundary.row(i) * this->scale_;
+  }
+  std::vector<Index> determined =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
-  const Points warped = this->warped(prescribed, report, monitor);
-  monitor.progress(0.1);
-  Points points = this->mesh_.points;
-  if (this->start_ == Start::FemWarp && this->validAtRest_)
+  EvaluateReport guesses;
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, monitor);
+  if (this->start_ == Start::Method && this->method_)
+  {
+    points = this->moved(*this->method_, boundary, guesses, monitor);
+  }
+  else if (this->start_ == Start::FemWarp && this->validAtRest_)
   {
     points = warped;
   }
-  for (Index node : partition.prescribed)
-  {
-    points.row(node) = warped.row(node);
-  }
-
-  MeshEnergy energy(this->mesh_, partition.free);
-  const TargetShapes targets =
-    targetShapes(this->mesh_, this->orientation_, warped, this->target_, monitor);
-  energy.setTargets(targets);
-  const std::vector<Index> infeasible = energy.infeasibleCells(targets, points);
-  if (!infeasible.empty())
-  {
-    monitor.warn(
-      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
-      listIds(infeasible) +
-      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
-  }
-  FoldoverStages stages(energy, this->minimizer_);
-  this->minimize(energy, stages, points, monitor);
-
-  const double ofWarped = this->leastScaledJacobian(warped, monitor);
-  const bool keep = ofWarped > 0 && !(this->leastScaledJacobian(points, monitor) >= ofWarped);
-  const Points& result = keep ? warped : points;
+  monitor.progress(0.1);
+  const Outcome outcome = this->improve(points, warped, warped, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];
-    free.row(i) = (result.row(node) - this->mesh_.points.row(node)) / this->scale_;
+    free.row(i) = points.row(node) / this->scale_ - this->restPoints().row(node);
   }
-  const MinimizerEffort& effort = stages.effort();
-  report.iterations += static_cast<int>(effort.steps);
-  report.counts = { { "NewtonSteps", effort.steps },
-    { "LinearIterations", effort.linearIterations }, { "EnergyEvaluations", effort.evaluations },
-    { "InfeasibleCells", static_cast<Index>(infeasible.size()) }, { "KeptFEMWARP", keep ? 1 : 0 } };
+  EvaluateReport report = this->report(outcome, std::move(determined), monitor);
+  report.iterations += guesses.iterations;
   return report;
+}
+
+EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
+{
+  this->requirePrepared();
+  const NodePartition& partition = this->partition();
+  Points boundary(static_cast<Index>(partition.prescribed.size()), 3);
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    boundary.row(i) = moved.row(partition.prescribed[i]);
+  }
+  EvaluateReport guesses;
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, monitor);
+  const Points before = moved * this->scale_;
+  Points points = before;
+  const Outcome outcome = this->improve(points, warped, before, monitor);
+  std::vector<Index> determined =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+
+  Points displacement = Points::Zero(moved.rows(), 3);
+  for (Index node : partition.prescribed)
+  {
+    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
+  }
+  for (Index node : partition.free)
+  {
+    moved.row(node) = points.row(node) / this->scale_;
+    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
+  }
+  this->followers_.apply(displacement);
+  for (Index node : partition.followers)
+  {
+    moved.row(node) = this->restPoints().row(node) + displacement.row(node);
+  }
+  return this->report(outcome, std::move(determined), monitor);
 }
 }

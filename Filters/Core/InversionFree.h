@@ -11,49 +11,72 @@
 
 namespace morph
 {
-/// The inversion-free morph: FEMWARP's mesh, or the mesh at rest with its boundary moved, is the start of a minimisation that drives
-/// inverted cells out and then improves the worst ones. The energy is that of Garanzha et al. (ACM Trans. Graph. 40(4) (2021) 154) on
-/// the averaged simplicial decompositions of all cells, so a positive minimum is the scaled Jacobian's corner test.
+/// The inversion-free morph: from a first guess, FEMWARP's mesh or any other, a minimisation drives inverted cells out and then
+/// improves the worst ones. The energy is that of Garanzha et al. (ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) on the averaged
+/// simplicial decompositions of all cells, so its minimum being positive implies the scaled Jacobian's corner test.
 /// Hexahedra, wedges and pyramids aim for their shape at rest, stretched to FEMWARP's edge lengths; tetrahedra for their shape at
-/// rest. Newton's method with the projected Hessian; once valid, stiffening (ACM Trans. Graph. 43(1) (2024) 10) lowers the worst
+/// rest. Newton's method with the projected Hessian; once valid, stiffening (ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112) lowers the worst
 /// distortion. Where FEMWARP's mesh is valid and its least scaled Jacobian higher, that is the result: never worse.
 ///
-/// A cell with a tetrahedron whose four nodes are all prescribed and which is not positive is out of reach of any method:
-/// it is named, and the rest of the mesh is morphed.
+/// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a warning names them, and
+/// the rest of the mesh is morphed. Where cells stay inverted that are not of these the count `Untangled` is 0.
 ///
-/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `InfeasibleCells`, `KeptFEMWARP` (1 or 0).
+/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`, `KeptFEMWARP` and `Untangled`
+/// (1 or 0).
 ///
-/// prepare(): FEMWARP's, and passes over the cells. evaluate(): 5 to 60 Newton steps of some 3 microseconds a tetrahedron (ten a
-/// hexahedron) each and a linear solution; 2.5 kB a hexahedron meanwhile. Not linear in the boundary: no adjoint.
+/// prepare(): FEMWARP's, and passes over the cells. evaluate(): 10 to 60 Newton steps of 1 to 2 microseconds of processor time a
+/// tetrahedron (ten a hexahedron), and a linear solution each; 3.5 kB a hexahedron meanwhile. Not linear in
+/// the boundary: no adjoint.
 class InversionFree : public Morpher
 {
 public:
   enum class Start
   {
     FemWarp,
-    Rest
+    Rest,  ///< the mesh at rest, with its boundary moved
+    Method ///< that of setMethod()
   };
-  /// Before evaluate(). A mesh that is inverted at rest always starts from rest. Default FemWarp.
+  /// Before evaluate(). A mesh that is inverted at rest starts from rest instead of FEMWARP. Default FemWarp.
   void setStart(Start start) { this->start_ = start; }
-  /// What cells other than tetrahedra aim for. Before evaluate(). Default Stretched.
+  /// The method that makes the first guess, not prepared yet; sets the start to Method. Before prepare().
+  void setMethod(std::unique_ptr<Morpher> method);
+  /// What cells other than tetrahedra aim for. Before evaluate(). Default Stretched; with Initial affine motions of the boundary are
+  /// reproduced exactly, since FEMWARP's mesh is stationary then.
   void setTarget(Target target) { this->target_ = target; }
-  /// Of FEMWARP, and of the energy's relative decrease at which a stage ends. Range (0, 1), default 1e-10 and 1e-5.
+  /// Of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverStages::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the worst distortion in the end. Default on.
+  /// Whether to lower the worst distortion in the end; never for Initial. Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
-  /// How often the targets are taken anew from the mesh as it has become. Default 2.
+  /// How often the stretched targets are taken anew from the mesh as it has become. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
+
+  void setReference(Points reference) override { this->reference_ = std::move(reference); }
+
+  /// Instead of evaluate(): repairs `moved` (#nodes x 3, the prescribed nodes where they have to be), which another method has made.
+  /// Never worse: a valid mesh whose least scaled Jacobian is higher than the repaired one's stays.
+  EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
-  /// FEMWARP's mesh, times scale_.
-  Points warped(const Points& prescribed, EvaluateReport& report, Monitor& monitor) const;
-  void minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  struct Outcome
+  {
+    bool untangled = false;
+    bool kept = false; ///< the alternative's positions
+    MinimizerEffort effort;
+  };
+  /// In coordinates times scale_. `guide`: see TargetShapes; `alternative`: a mesh that the result must not be worse than.
+  Outcome improve(
+    Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
+  bool minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  Points moved(
+    const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
+  EvaluateReport report(
+    const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const;
   double leastScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
@@ -62,10 +85,12 @@ private:
   bool stiffening_ = true;
   int refreshes_ = 2;
 
-  Mesh mesh_; ///< at rest, its coordinates times scale_
-  double scale_ = 1;
+  Points reference_;
+  Mesh referenceMesh_; ///< the reference, its coordinates times scale_
+  double scale_ = 1;   ///< a power of two that makes edges about 1 long
   std::vector<std::int8_t> orientation_;
   bool validAtRest_ = true;
   FemWarp femWarp_;
+  std::unique_ptr<Morpher> method_;
 };
 }

@@ -140,29 +140,6 @@ FoldoverDensity MeshEnergy::densityOf(const TargetShapes::Tetrahedron& tetrahedr
   return own;
 }
 
-std::vector<Index> MeshEnergy::infeasibleCells(
-  const TargetShapes& targets, const Points& points) const
-{
-  std::vector<Index> result;
-  for (Index c = 0; c < this->cells(); ++c)
-  {
-    const auto first = targets.tetrahedra.begin() + targets.start[this->ofCell_[c]];
-    const auto last = targets.tetrahedra.begin() + targets.start[this->ofCell_[c] + 1];
-    const Corners x = this->positions(c, points);
-    const bool infeasible = std::any_of(first, last,
-      [&](const TargetShapes::Tetrahedron& tetrahedron)
-      {
-        return !this->isMovable(this->corners(c), tetrahedron) &&
-               !(jacobian(x, tetrahedron).determinant() > 0);
-      });
-    if (infeasible)
-    {
-      result.push_back(this->ofCell_[c]);
-    }
-  }
-  return result;
-}
-
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
   const Sum sum = blockSum(this->cells(), monitor, Sum{},

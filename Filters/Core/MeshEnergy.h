@@ -24,9 +24,6 @@ public:
   void setDensity(const FoldoverDensity& density) { this->density_ = density; }
   const FoldoverDensity& density() const { return this->density_; }
 
-  /// Cells with a tetrahedron whose four nodes are all prescribed and that is not positive there, ascending: no method can repair them.
-  std::vector<Index> infeasibleCells(const TargetShapes& targets, const Points& points) const;
-
   struct State
   {
     double energy = 0;

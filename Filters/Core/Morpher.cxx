@@ -68,6 +68,10 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   monitor.progress(1);
 }
 
+void Morpher::setReference(Points)
+{
+}
+
 void Morpher::requirePrepared() const
 {
   if (!this->prepared_)

@@ -47,6 +47,10 @@ public:
   /// wrong number of rows, positions that are not finite, or where no prepare() has succeeded last.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
+  /// For methods that aim for the shapes the cells have in some mesh, where that is not the rest mesh: `reference`, #nodes x 3,
+  /// their nodes there. Before prepare(); no rows: the rest mesh. Ignored by methods that only follow the motion.
+  virtual void setReference(Points reference);
+
   const NodePartition& partition() const { return this->partition_; }
   const Points& restPoints() const { return this->rest_; }
 

@@ -14,6 +14,7 @@
 #include "vtkMorphOutput.h"
 #include "vtkMorphPorts.h"
 #include "vtkMorphQuality.h"
+#include "vtkMorphValidity.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
@@ -44,6 +45,7 @@ struct vtkMorphAlgorithm::vtkInternals
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
   std::string Options;
   std::vector<morph::Count> Counts; ///< as of the last execution
+  std::string Status;               ///< as of the last execution
   vtkMorphPorts Ports;
 
   explicit vtkInternals(vtkAlgorithm* filter)
@@ -119,14 +121,20 @@ int vtkMorphAlgorithm::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  std::string partial;
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { this->Morph(grid, boundary, output, monitor); } };
-  return this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
+    { partial = this->Morph(grid, boundary, output, monitor); } };
+  const int done = this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
+  if (!partial.empty())
+  {
+    vtkErrorMacro(<< partial);
+  }
+  return done;
 }
 
-vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Prepare(
+vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
   vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
@@ -146,37 +154,57 @@ vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Prepare(
     monitor.warn(warning);
   }
   monitor.check();
+  return match;
+}
 
-  monitor.SetRange(0.05, 0.5);
+void vtkMorphAlgorithm::Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
+  monitor.SetRange(0.05, 0.4);
   const std::string prepareOptions = this->PrepareOptions();
   if (!kept.Morpher || kept.Options != prepareOptions ||
-      kept.Morpher->partition().prescribed != match.Ids)
+      kept.Morpher->partition().prescribed != partition.prescribed)
   {
     const auto start = Clock::now();
     kept.Morpher.reset();
     std::unique_ptr<morph::Morpher> morpher = this->CreateMorpher();
-    morpher->prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
+    morpher->prepare(kept.Mesh, partition, monitor);
     kept.Morpher = std::move(morpher);
     kept.Options = prepareOptions;
     ++this->PrepareCount;
     this->PrepareSeconds = secondsSince(start);
   }
-  return match;
 }
 
-void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
 {
-  const vtkMorphBoundaryMatch::Result match = this->Prepare(grid, boundary, monitor);
+  const vtkMorphBoundaryMatch::Result match = this->Match(grid, boundary, monitor);
   vtkInternals& kept = *this->Internals;
+  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
+  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
+    kept.Orientation, match.Targets,
+    [this]
+    {
+      auto morpher = this->CreateMorpher();
+      this->SetEvaluateOptions(*morpher);
+      return morpher;
+    } };
+  validity.RequireFeasible();
+  this->Prepare(partition, monitor);
 
-  monitor.SetRange(0.5, 0.9);
+  monitor.SetRange(0.4, 0.7);
   this->SetEvaluateOptions(*kept.Morpher);
   const auto start = Clock::now();
   morph::Points moved;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
+  monitor.SetRange(0.7, 0.9);
+  const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
   this->SolverIterations = report.iterations;
+  this->LargestValidStep = valid.LargestValidStep;
+  this->SubSteps = static_cast<vtkIdType>(valid.SubSteps);
+  kept.Status = valid.Status;
   kept.Counts = report.counts;
   this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
   this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
@@ -198,6 +226,14 @@ void vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary
   {
     vtkMorphOutput::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
   }
+  vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
+  vtkMorphOutput::AddField(output, "LargestValidStep", this->LargestValidStep);
+  return valid.Error;
+}
+
+const char* vtkMorphAlgorithm::GetMorphStatus() const
+{
+  return this->Internals->Status.c_str();
 }
 
 bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
@@ -223,7 +259,8 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
 {
   const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
-  const vtkMorphBoundaryMatch::Result match = this->Prepare(rest, boundary, monitor);
+  const vtkMorphBoundaryMatch::Result match = this->Match(rest, boundary, monitor);
+  this->Prepare(morph::partitionNodes(this->Internals->Mesh, match.Ids), monitor);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Internals->Morpher.get());
   if (!linear)
   {
@@ -261,6 +298,9 @@ void vtkMorphAlgorithm::ResetResults()
   this->WorstCellId = -1;
   this->PrepareSeconds = 0;
   this->EvaluateSeconds = 0;
+  this->Internals->Status = "None";
+  this->LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  this->SubSteps = 0;
   this->SolverIterations = 0;
   this->PrescribedPoints = 0;
   this->UnmatchedPoints = 0;
@@ -275,6 +315,8 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
@@ -285,6 +327,9 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
   os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
+  os << indent << "MorphStatus: " << this->GetMorphStatus() << "\n";
+  os << indent << "LargestValidStep: " << this->LargestValidStep << "\n";
+  os << indent << "SubSteps: " << this->SubSteps << "\n";
   os << indent << "SolverIterations: " << this->SolverIterations << "\n";
   os << indent << "PrepareCount: " << this->PrepareCount << "\n";
   os << indent << "PrescribedPoints: " << this->PrescribedPoints << "\n";

@@ -30,7 +30,7 @@
  * The output has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
  * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
- * PrepareSeconds, EvaluateSeconds and SolverIterations. The same numbers are there as getters after
+ * PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers are there as getters after
  * an execution. Mid-side, face and body nodes of quadratic cells that are not prescribed keep their
  * place in the cell. Cells of lower dimension pass through.
  *
@@ -47,7 +47,7 @@
  * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
  * a node with two targets, ids that RestPosition contradicts, a ScaleFactor that is not finite,
  * cells on more than one MPI rank. An execution that is aborted gives an empty output and no
- * message.
+ * message, as VTK itself does. Inverted cells are no error by themselves: see Validity.
  *
  * With several MPI processes an execution is collective: it has to take place on all of them.
  *
@@ -69,6 +69,7 @@
 namespace morph
 {
 class Morpher;
+struct NodePartition;
 }
 
 namespace vtkMorphBoundaryMatch
@@ -147,6 +148,46 @@ public:
   vtkBooleanMacro(HoldUnnamedBoundary, bool);
   ///@}
 
+  enum ValidityType
+  {
+    VALIDITY_NONE = 0,
+    VALIDITY_REPORT = 1,
+    VALIDITY_SUB_STEP = 2,
+    VALIDITY_REPAIR = 3,
+    VALIDITY_REFUSE = 4
+  };
+
+  ///@{
+  /**
+   * What to do where the method leaves inverted or degenerate cells.
+   * None: nothing; InvertedCells counts them.
+   * Report: a warning names the ten worst of them.
+   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared anew at each step.
+   * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where that fails, sub-steps of
+   * vtkInversionFreeMorph.
+   * Refuse: an error that names them, and an empty output.
+   *
+   * With the last three a boundary that inverts cells by itself, at corners whose nodes it all prescribes, is refused at once, naming
+   * these cells. Where SubStep and Repair find no valid mesh for the whole motion there is an error, but the output is the
+   * valid mesh of the largest step that was reached; see MorphStatus. Default Report.
+   */
+  vtkSetClampMacro(Validity, int, VALIDITY_NONE, VALIDITY_REFUSE);
+  vtkGetMacro(Validity, int);
+  void SetValidityToNone() { this->SetValidity(VALIDITY_NONE); }
+  void SetValidityToReport() { this->SetValidity(VALIDITY_REPORT); }
+  void SetValidityToSubStep() { this->SetValidity(VALIDITY_SUB_STEP); }
+  void SetValidityToRepair() { this->SetValidity(VALIDITY_REPAIR); }
+  void SetValidityToRefuse() { this->SetValidity(VALIDITY_REFUSE); }
+  ///@}
+
+  ///@{
+  /**
+   * Most sub-steps to try, failed ones included. Default 64, range [1, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(MaximumSubSteps, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumSubSteps, int);
+  ///@}
+
   ///@{
   /**
    * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
@@ -195,6 +236,24 @@ public:
    */
   vtkGetMacro(PrepareSeconds, double);
   vtkGetMacro(EvaluateSeconds, double);
+  ///@}
+
+  ///@{
+  /**
+   * How the last execution ended: "Valid"; "Inverted", with cells that are; "SubStepped" or "Repaired", valid with the help of
+   * Validity; "Partial", valid but not all the way; "None" where there was no result. The field
+   * data MorphStatus holds it too.
+   */
+  const char* GetMorphStatus() const;
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: the part of the motion that the valid output has made, 1 for all of it, and NaN where it has
+   * inverted cells (field data LargestValidStep); and the sub-steps tried.
+   */
+  vtkGetMacro(LargestValidStep, double);
+  vtkGetMacro(SubSteps, vtkIdType);
   ///@}
 
   /**
@@ -268,6 +327,8 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
+  int Validity = VALIDITY_REPORT;
+
 private:
   vtkMorphAlgorithm(const vtkMorphAlgorithm&) = delete;
   void operator=(const vtkMorphAlgorithm&) = delete;
@@ -278,13 +339,16 @@ private:
   friend class vtkMorphAdjoint;
 
   void ResetResults();
-  /// Sees to it that the method is prepared for these.
-  vtkMorphBoundaryMatch::Result Prepare(
+  /// Keeps the mesh at rest, and finds which of its nodes go where.
+  vtkMorphBoundaryMatch::Result Match(
     vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor);
+  /// Sees to it that the method is prepared for the mesh that is kept.
+  void Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor);
   /// ApplyTranspose() that throws.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
     vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
-  void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
+  /// Returns an error that comes with a result, or nothing.
+  std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
 
   char* BoundaryIdArray = nullptr;
@@ -292,6 +356,7 @@ private:
   double ScaleFactor = 1;
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;
+  int MaximumSubSteps = 64;
   double RestTime = -1e300;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
@@ -303,6 +368,8 @@ private:
   vtkIdType WorstCellId;
   double PrepareSeconds;
   double EvaluateSeconds;
+  double LargestValidStep;
+  vtkIdType SubSteps;
   int SolverIterations;
   int PrepareCount = 0;
   vtkIdType PrescribedPoints;

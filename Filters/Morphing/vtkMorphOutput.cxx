@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 namespace
@@ -86,5 +87,10 @@ void AddField(vtkDataObject* output, const char* name, int value)
 void AddField(vtkDataObject* output, const char* name, vtkIdType value)
 {
   addField<vtkIdTypeArray>(output, name, value);
+}
+
+void AddField(vtkDataObject* output, const char* name, const char* value)
+{
+  addField<vtkStringArray>(output, name, value);
 }
 }

@@ -21,10 +21,11 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
 /// Whether points for `grid` are written as float at this precision.
 bool IsFloat(vtkUnstructuredGrid* grid, int precision);
 
-/// Field data of one number; replaces an array of that name.
+/// Field data of one number or text; replaces an array of that name.
 void AddField(vtkDataObject* output, const char* name, double value);
 void AddField(vtkDataObject* output, const char* name, int value);
 void AddField(vtkDataObject* output, const char* name, vtkIdType value);
+void AddField(vtkDataObject* output, const char* name, const char* value);
 }
 
 #endif

@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkSignedCharArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -27,6 +28,36 @@ void addField(vtkFieldData* fields, const char* name, Value value)
   array->InsertNextValue(value);
   fields->AddArray(array);
 }
+
+void skipGhosts(
+  const morph::Mesh& mesh, vtkUnstructuredGrid* output, std::vector<std::uint8_t>& skip)
+{
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    output->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!ghosts)
+  {
+    return;
+  }
+  skip.resize(mesh.numberOfCells(), 0);
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    skip[c] |= ghosts->GetValue(c) &
+               (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL);
+  }
+}
+
+/// Calls body with the grid's points, copied only where they are not double.
+template <typename Body>
+auto withPoints(vtkUnstructuredGrid* grid, Body&& body)
+{
+  vtkPoints* points = grid->GetPoints();
+  if (auto* doubles = points ? vtkDoubleArray::FastDownCast(points->GetData()) : nullptr)
+  {
+    return body(
+      Eigen::Map<const morph::Points>(doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3));
+  }
+  return body(vtkMorphMesh::FromPoints(points));
+}
 }
 
 namespace vtkMorphQuality
@@ -41,25 +72,18 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor)
 {
-  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
-    output->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
-  if (ghosts)
-  {
-    skip.resize(mesh.numberOfCells(), 0);
-    for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
-    {
-      skip[c] |= ghosts->GetValue(c) &
-                 (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL);
-    }
-  }
-  vtkPoints* points = output->GetPoints();
-  if (auto* doubles = points ? vtkDoubleArray::FastDownCast(points->GetData()) : nullptr)
-  {
-    const Eigen::Map<const morph::Points> written(
-      doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3);
-    return morph::measureQuality(mesh, written, orientation, skip, monitor);
-  }
-  return morph::measureQuality(mesh, vtkMorphMesh::FromPoints(points), orientation, skip, monitor);
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
+}
+
+morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  morph::Monitor& monitor)
+{
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::certify(mesh, written, orientation, skip, monitor); });
 }
 
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
@@ -79,5 +103,29 @@ void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
   addField<vtkIdTypeArray>(fields, "InvertedCells", quality.inverted);
   addField<vtkIdTypeArray>(fields, "DegenerateCells", quality.degenerate);
   addField<vtkIdTypeArray>(fields, "WorstCellId", quality.worstCell);
+}
+
+void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkSignedCharArray> values;
+  values->SetName("JacobianCertificate");
+  values->SetNumberOfValues(static_cast<vtkIdType>(report.cells.size()));
+  std::transform(report.cells.begin(), report.cells.end(), values->GetPointer(0),
+    [](morph::Certificate found) { return static_cast<signed char>(found); });
+  output->GetCellData()->AddArray(values);
+
+  vtkFieldData* fields = output->GetFieldData();
+  addField<vtkIdTypeArray>(fields, "CertifiedCells", report.certified);
+  addField<vtkIdTypeArray>(fields, "UncertifiedCells", report.inverted);
+  addField<vtkIdTypeArray>(fields, "UndecidedCells", report.undecided);
+}
+
+void RemoveCertificate(vtkUnstructuredGrid* output)
+{
+  output->GetCellData()->RemoveArray("JacobianCertificate");
+  for (const char* name : { "CertifiedCells", "UncertifiedCells", "UndecidedCells" })
+  {
+    output->GetFieldData()->RemoveArray(name);
+  }
 }
 }

@@ -2,6 +2,7 @@
 #ifndef vtkMorphQuality_h
 #define vtkMorphQuality_h
 
+#include "Certificate.h"
 #include "ScaledJacobian.h"
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 class vtkUnstructuredGrid;
 
-/// Scaled Jacobian as every filter of this module writes it.
+/// Scaled Jacobian and certificate as every filter of this module writes them.
 namespace vtkMorphQuality
 {
 /// Measures `output` on its points as written (the rounding to float included). `mesh`: the cells
@@ -30,6 +31,19 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 /// DegenerateCells and WorstCellId (ids, -1 if nothing was measured). Arrays of these names are
 /// replaced.
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output);
+
+/// Examines `output` on its points as written; parameters as for Measure().
+morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  morph::Monitor& monitor);
+
+/// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or not
+/// examined, -1 inverted) and the field data CertifiedCells, UncertifiedCells (the inverted ones) and
+/// UndecidedCells (ids). Arrays of these names are replaced.
+void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
+
+/// Removes what the above writes, so that an input's own arrays do not pass for this mesh's.
+void RemoveCertificate(vtkUnstructuredGrid* output);
 }
 
 #endif

@@ -100,6 +100,7 @@ int vtkScaledJacobian::RequestData(
     morph::Quality none;
     none.minimum = none.mean = vtkMath::Nan();
     this->Keep(none, 0, 0);
+    this->Keep(morph::CertificateReport());
   };
   clear();
   return vtkMorphExecution::Run(
@@ -124,6 +125,14 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
   output->ShallowCopy(input);
   const morph::Quality quality = vtkMorphQuality::Measure(mesh, output, orientation, skip, monitor);
   vtkMorphQuality::Write(quality, output);
+  vtkMorphQuality::RemoveCertificate(output);
+  if (this->Certify)
+  {
+    const morph::CertificateReport report = vtkMorphQuality::Certify(mesh, output, orientation,
+      highest == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
+    vtkMorphQuality::Write(report, output);
+    this->Keep(report);
+  }
 
   const vtkIdType mirrored = countMirroredBodies(bodies, orientation);
   vtkNew<vtkIdTypeArray> mirroredBodies;
@@ -171,10 +180,18 @@ void vtkScaledJacobian::Keep(
   this->MirroredBodies = mirrored;
 }
 
+void vtkScaledJacobian::Keep(const morph::CertificateReport& report)
+{
+  this->CertifiedCells = report.certified;
+  this->UncertifiedCells = report.inverted;
+  this->UndecidedCells = report.undecided;
+}
+
 void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Certify: " << this->Certify << "\n";
   os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
   os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
   os << indent << "MeasuredCells: " << this->MeasuredCells << "\n";
@@ -183,4 +200,7 @@ void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "UnmeasuredCells: " << this->UnmeasuredCells << "\n";
   os << indent << "MirroredBodies: " << this->MirroredBodies << "\n";
+  os << indent << "CertifiedCells: " << this->CertifiedCells << "\n";
+  os << indent << "UncertifiedCells: " << this->UncertifiedCells << "\n";
+  os << indent << "UndecidedCells: " << this->UndecidedCells << "\n";
 }

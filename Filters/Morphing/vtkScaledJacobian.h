@@ -23,6 +23,15 @@
  * (and reported as MirroredBodies), while a cell that is inverted among valid neighbors has a
  * negative value.
  *
+ * The scaled Jacobian looks at a few points of each cell only: a hexahedron or wedge that is positive there may still be
+ * inverted inside. With Certify on, the sign of the Jacobian determinant is proved for the whole of
+ * every volume cell (exactly for tetrahedra and pyramids, by bounds with subdivision for hexahedra), in
+ * the cell array `JacobianCertificate`: 1 where it is positive everywhere, -1 where it is zero or
+ * negative somewhere, corners included, 0 where neither was proved and for cells that were not
+ * examined (lower dimension, ghosts); quadratic cells by their corners. The field data
+ * CertifiedCells, UncertifiedCells (those with -1) and UndecidedCells count them. With Certify off, arrays of
+ * these names that came with the input are removed.
+ *
  * The output is the input with the cell array `ScaledJacobian` (double, active cell scalars) and
  * the field data MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId
  * and MirroredBodies. With several MPI ranks the numbers are those of each rank's own piece, so no
@@ -31,7 +40,7 @@
  *
  * Errors: composite data (use Merge Blocks first), no points, node ids or coordinates that are not
  * valid. The output is then empty, as it is, without a message, where the execution was aborted. Cost: one pass over the cells, about 0.1 microseconds each, and a copy of
- * the connectivity.
+ * the connectivity; with Certify 0.1 to 1.5 microseconds more.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.
@@ -49,6 +58,7 @@
 
 namespace morph
 {
+struct CertificateReport;
 struct Quality;
 }
 
@@ -66,6 +76,16 @@ public:
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to prove for each volume cell that its Jacobian determinant is positive everywhere.
+   * Default off.
+   */
+  vtkSetMacro(Certify, bool);
+  vtkGetMacro(Certify, bool);
+  vtkBooleanMacro(Certify, bool);
   ///@}
 
   ///@{
@@ -107,6 +127,16 @@ public:
    */
   vtkGetMacro(MirroredBodies, vtkIdType);
 
+  ///@{
+  /**
+   * Number of cells proved positive everywhere, of those found zero or negative somewhere, and of
+   * those where neither was proved. All 0 unless Certify is on.
+   */
+  vtkGetMacro(CertifiedCells, vtkIdType);
+  vtkGetMacro(UncertifiedCells, vtkIdType);
+  vtkGetMacro(UndecidedCells, vtkIdType);
+  ///@}
+
 protected:
   vtkScaledJacobian();
   ~vtkScaledJacobian() override;
@@ -120,9 +150,11 @@ private:
   void operator=(const vtkScaledJacobian&) = delete;
 
   void Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
+  void Keep(const morph::CertificateReport& report);
   void Keep(const morph::Quality& quality, vtkIdType unmeasured, vtkIdType mirrored);
 
   int NumberOfThreads = 0;
+  bool Certify = false;
   double MinScaledJacobian = vtkMath::Nan();
   double MeanScaledJacobian = vtkMath::Nan();
   vtkIdType MeasuredCells = 0;
@@ -131,6 +163,9 @@ private:
   vtkIdType WorstCellId = -1;
   vtkIdType UnmeasuredCells = 0;
   vtkIdType MirroredBodies = 0;
+  vtkIdType CertifiedCells = 0;
+  vtkIdType UncertifiedCells = 0;
+  vtkIdType UndecidedCells = 0;
 };
 
 #endif

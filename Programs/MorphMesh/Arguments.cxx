@@ -114,6 +114,10 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--free-unnamed-boundary", nullptr,
       "let outer nodes move that the boundary does not name; by default they stay",
       flag(result.freeUnnamedBoundary) },
+    { "--validity", "<name>",
+      "what to do about inverted cells, by default Report:\nNone, Report (warn), SubStep, Repair, "
+      "Refuse (an error)",
+      text(result.validity) },
     { "--require-valid", nullptr, "exit status 3 if a cell is inverted or collapsed",
       flag(result.requireValid) },
     { "--threads", "<number>", "threads to compute with; by default 0, all cores",

@@ -22,7 +22,8 @@ struct Arguments
   std::string grid, boundary, output; ///< files; ExtractBoundary takes no boundary
   std::string method = "FEMWARP";
   std::vector<std::pair<std::string, std::string>> options; ///< of the method, by name
-  std::string boundaryIdArray, displacementArray;           ///< empty: none
+  std::string validity = "Report";
+  std::string boundaryIdArray, displacementArray; ///< empty: none
   double scaleFactor = 1;
   bool freeUnnamedBoundary = false;
   bool requireValid = false;

@@ -54,6 +54,7 @@ vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
   {
     setOption(filter, name, value);
   }
+  setValidity(filter, arguments.validity);
   filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
   filter->SetDisplacementArray(arguments.displacementArray.c_str());
   filter->SetScaleFactor(arguments.scaleFactor);
@@ -70,11 +71,16 @@ int morphMesh(const Arguments& arguments)
   filter->SetInputData(grid);
   filter->SetBoundaryData(readPoints(arguments.boundary));
   Messages messages(filter);
+  std::string partial;
   {
     const ProgressBar bar(filter, arguments.method, arguments.progress && !arguments.quiet);
-    messages.update("Cannot morph " + arguments.grid);
+    partial = messages.updatePartly("Cannot morph " + arguments.grid);
   }
   printWarnings(messages);
+  if (!partial.empty())
+  {
+    std::cerr << "morph-mesh: " << partial << "\n";
+  }
   writeGrid(filter->GetOutput(), arguments.output);
   if (!arguments.quiet)
   {
@@ -85,7 +91,7 @@ int morphMesh(const Arguments& arguments)
     printReport(before, filter);
   }
   const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
-  return arguments.requireValid && !valid ? 3 : 0;
+  return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
 }
 
 int run(int argc, char* argv[])

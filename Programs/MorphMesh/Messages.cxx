@@ -9,6 +9,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkPointSet.h>
 
 #include <iostream>
 
@@ -89,5 +90,21 @@ void Messages::update(const std::string& task)
   {
     throw Failure(task + ": " + this->errors_.front());
   }
+}
+
+std::string Messages::updatePartly(const std::string& task)
+{
+  this->algorithm_->Update();
+  auto* output = vtkPointSet::SafeDownCast(this->algorithm_->GetOutputDataObject(0));
+  if (!this->errors_.empty() && (!output || output->GetNumberOfPoints() == 0))
+  {
+    throw Failure(task + ": " + this->errors_.front());
+  }
+  std::string text;
+  for (const std::string& error : this->errors_)
+  {
+    text += (text.empty() ? "" : "\n") + error;
+  }
+  return text;
 }
 }

@@ -29,6 +29,8 @@ public:
 
   /// Runs the algorithm. Throws Failure with what it reported, `task` first ("Cannot read x.vtu").
   void update(const std::string& task);
+  /// As update(), but errors that come with an output of some points are returned, one to a line.
+  std::string updatePartly(const std::string& task);
   const std::vector<std::string>& warnings() const { return this->warnings_; }
 
 private:

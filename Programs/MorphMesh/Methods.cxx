@@ -4,6 +4,7 @@
 #include "Arguments.h"
 
 #include <vtkFEMWarpMorph.h>
+#include <vtkInversionFreeMorph.h>
 #include <vtkLBWarpMorph.h>
 #include <vtkSimplexLinearMorph.h>
 #include <vtkSimplexNaturalNeighborMorph.h>
@@ -56,11 +57,23 @@ Option tolerance()
 
 const std::vector<Method>& methods()
 {
+  using Free = vtkInversionFreeMorph;
   using LBWarp = vtkLBWarpMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<Method> all = {
     { "FEMWARP", make<vtkFEMWarpMorph>, { tolerance<vtkFEMWarpMorph>() } },
+    { "InversionFree", make<Free>,
+      { { "InitialGuess",
+          { "FEMWARP", "Rest", "LBWARP", "WeightedResidual", "SimplexLinear",
+            "SimplexNaturalNeighbor" },
+          0, 5, setter<Free>([](Free* f, double v) { f->SetInitialGuess(static_cast<int>(v)); }) },
+        { "TargetShape", { "Initial", "Stretched", "Ideal" }, 0, 2,
+          setter<Free>([](Free* f, double v) { f->SetTargetShape(static_cast<int>(v)); }) },
+        { "ImproveWorst", { "Off", "On" }, 0, 1,
+          setter<Free>([](Free* f, double v) { f->SetImproveWorst(v != 0); }) },
+        { "LowMemory", { "Off", "On" }, 0, 1,
+          setter<Free>([](Free* f, double v) { f->SetLowMemory(v != 0); }) } } },
     { "LBWARP", make<LBWarp>,
       { tolerance<LBWarp>(),
         { "OutsideHull", { "Error", "Relax" }, 0, 1,
@@ -170,6 +183,14 @@ void setOption(vtkMorphAlgorithm* method, const std::string& name, const std::st
                      (own->options.empty() ? "." : "; it has " + names(own->options) + "."));
   }
   option->set(method, valueOf(*option, value));
+}
+
+void setValidity(vtkMorphAlgorithm* method, const std::string& name)
+{
+  const Option validity = { "--validity", { "None", "Report", "SubStep", "Repair", "Refuse" }, 0, 4,
+    setter<vtkMorphAlgorithm>(
+      [](vtkMorphAlgorithm* f, double v) { f->SetValidity(static_cast<int>(v)); }) };
+  validity.set(method, valueOf(validity, name));
 }
 
 std::string methodNames()

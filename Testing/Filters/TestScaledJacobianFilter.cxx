@@ -474,3 +474,56 @@ TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
   EXPECT_EQ(filter->GetWorstCellId(), -1);
   EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
 }
+
+TEST(ScaledJacobianFilter, CertifiesOnRequest)
+{
+  auto grid = emptyGrid(VTK_FLOAT);
+  Corners inverted = RightTet;
+  std::swap(inverted[0], inverted[1]);
+  // Every corner and the centre positive, the inside not.
+  const Corners hidden = { { -.5, .4, .5 }, { 1.1, .4, .1 }, { 1.2, .6, .2 }, { -.4, 1, -.7 },
+    { -.2, .5, 1.2 }, { .7, -.6, .6 }, { 1.5, .7, 1.7 }, { .3, 1.4, 1.2 } };
+  add(grid, VTK_HEXAHEDRON, Cube);
+  add(grid, VTK_HEXAHEDRON, hidden, 10);
+  add(grid, VTK_TETRA, inverted, 20);
+  add(grid, VTK_TRIANGLE, UnitTriangle, 30);
+  add(grid, VTK_PYRAMID, PyramidCorners, 40);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (unsigned char ghost : { 0, 0, 0, 0, int(vtkDataSetAttributes::DUPLICATECELL) })
+  {
+    ghosts->InsertNextValue(ghost);
+  }
+  grid->GetCellData()->AddArray(ghosts);
+
+  vtkNew<vtkScaledJacobian> filter;
+  EXPECT_FALSE(filter->GetCertify());
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("JacobianCertificate"), nullptr);
+  EXPECT_EQ(filter->GetCertifiedCells(), 0);
+  EXPECT_GT(quality(filter->GetOutput())->GetTuple1(1), .01);
+
+  filter->CertifyOn();
+  filter->Update();
+  vtkDataArray* values = filter->GetOutput()->GetCellData()->GetArray("JacobianCertificate");
+  ASSERT_NE(values, nullptr);
+  const int expected[] = { 1, -1, -1, 0, 0 };
+  for (int c = 0; c < 5; ++c)
+  {
+    EXPECT_EQ(values->GetTuple1(c), expected[c]) << c;
+  }
+  EXPECT_EQ(filter->GetCertifiedCells(), 1);
+  EXPECT_EQ(filter->GetUncertifiedCells(), 2);
+  EXPECT_EQ(filter->GetUndecidedCells(), 0);
+  EXPECT_EQ(field(filter->GetOutput(), "CertifiedCells"), 1);
+  EXPECT_EQ(field(filter->GetOutput(), "UncertifiedCells"), 2);
+  EXPECT_EQ(field(filter->GetOutput(), "UndecidedCells"), 0);
+
+  // Once more without: the arrays that came with the input are not this mesh's.
+  vtkNew<vtkScaledJacobian> second;
+  second->SetInputData(filter->GetOutput());
+  second->Update();
+  EXPECT_EQ(second->GetOutput()->GetCellData()->GetArray("JacobianCertificate"), nullptr);
+  EXPECT_EQ(second->GetOutput()->GetFieldData()->GetArray("CertifiedCells"), nullptr);
+}

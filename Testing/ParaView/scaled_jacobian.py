@@ -77,6 +77,22 @@ class ScaledJacobianTest(unittest.TestCase):
             self.assertEqual(output.GetFieldData().GetArray(name).GetTuple1(0),
                              getattr(quality, name), name)
 
+    def test_certificate(self):
+        quality = ScaledJacobian(Input=source(hexes(1.0, True)))
+        self.assertEqual(quality.Certify, 0)
+        quality.UpdatePipeline()
+        self.assertIsNone(servermanager.Fetch(quality).GetCellData().GetArray("JacobianCertificate"))
+        quality.Certify = 1
+        quality.UpdatePipeline()
+        quality.UpdatePropertyInformation()
+        output = servermanager.Fetch(quality)
+        values = output.GetCellData().GetArray("JacobianCertificate")
+        self.assertEqual([values.GetTuple1(c) for c in range(4)], [1, -1, 1, 1])
+        self.assertEqual(output.GetCellData().GetScalars().GetName(), "ScaledJacobian")
+        for name, count in (("CertifiedCells", 3), ("UncertifiedCells", 1), ("UndecidedCells", 0)):
+            self.assertEqual(output.GetFieldData().GetArray(name).GetTuple1(0), count, name)
+            self.assertEqual(getattr(quality, name), count, name)
+
     def test_number_of_threads_is_set_and_read_back(self):
         quality = ScaledJacobian(Input=source(hexes(0.5, False)))
         self.assertEqual(quality.NumberOfThreads, 0)

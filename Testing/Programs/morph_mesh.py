@@ -13,7 +13,7 @@ from pathlib import Path
 PROGRAM = os.environ["MORPH_MESH"]
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 BORE = str(MODELS / "bore_hex_small.vtu")
-METHODS = ("FEMWARP", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "WeightedResidual")
+METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "WeightedResidual")
 
 
 def run(*arguments):
@@ -104,6 +104,16 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(self.morph("--scale-factor", "-5").returncode, 0)
         self.assertEqual(self.morph("--require-valid").returncode, 0)
 
+    def test_validity(self):
+        reported = self.morph("--scale-factor", "-5", "--validity=report")
+        self.assertIn("warning", reported.stderr)
+        silent = self.morph("--scale-factor", "-5", "--validity=none")
+        self.assertEqual((silent.returncode, silent.stderr), (0, ""))
+        os.remove(self.folder / "out.vtu")
+        refused = self.morph("--scale-factor", "-5", "--validity=refuse")
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertFalse((self.folder / "out.vtu").exists())
+
     def test_progress_and_quiet(self):
         result = self.morph("--progress")
         self.assertIn("100%", result.stderr)
@@ -131,6 +141,7 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "has no option 'Colour'", *files, "--set", "Colour=red")
         self.fails(2, "Tolerance is a number", *files, "--set", "Tolerance=high")
         self.fails(2, "one of Error, Relax", *files, "--method=LBWARP", "--set", "OutsideHull=Maybe")
+        self.fails(2, "--validity is one of", *files, "--validity", "Pray")
         self.fails(2, "--scale-factor needs a number", *files, "--scale-factor", "1x")
         self.fails(2, "--threads needs a whole number", *files, "--threads", "-1")
         self.assertFalse((self.folder / "out.vtu").exists())

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkInversionFreeMorph.h"
+
+#include "InversionFree.h"
+#include "LogBarrierWarp.h"
+#include "SimplexLinear.h"
+#include "SimplexNaturalNeighbor.h"
+#include "WeightedResidual.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkInversionFreeMorph);
+
+namespace
+{
+/// Null where the guess is not a method of its own.
+std::unique_ptr<morph::Morpher> guessMethod(int guess)
+{
+  switch (guess)
+  {
+    case vtkInversionFreeMorph::LBWARP:
+      return std::make_unique<morph::LogBarrierWarp>();
+    case vtkInversionFreeMorph::WEIGHTED_RESIDUAL:
+      return std::make_unique<morph::WeightedResidual>();
+    case vtkInversionFreeMorph::SIMPLEX_LINEAR:
+      return std::make_unique<morph::SimplexLinear>();
+    case vtkInversionFreeMorph::SIMPLEX_NATURAL_NEIGHBOR:
+      return std::make_unique<morph::SimplexNaturalNeighbor>();
+    default:
+      return nullptr;
+  }
+}
+}
+
+vtkInversionFreeMorph::vtkInversionFreeMorph()
+{
+  this->Validity = VALIDITY_SUB_STEP;
+}
+
+vtkInversionFreeMorph::~vtkInversionFreeMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkInversionFreeMorph::CreateMorpher()
+{
+  auto morpher = std::make_unique<morph::InversionFree>();
+  if (auto method = guessMethod(this->InitialGuess))
+  {
+    morpher->setMethod(std::move(method));
+  }
+  return morpher;
+}
+
+std::string vtkInversionFreeMorph::PrepareOptions()
+{
+  return guessMethod(this->InitialGuess) ? std::to_string(this->InitialGuess) : "";
+}
+
+void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
+{
+  using Morpher = morph::InversionFree;
+  auto& own = static_cast<Morpher&>(morpher);
+  if (!guessMethod(this->InitialGuess))
+  {
+    own.setStart(this->InitialGuess == REST ? Morpher::Start::Rest : Morpher::Start::FemWarp);
+  }
+  own.setTarget(this->TargetShape == INITIAL ? morph::Target::Initial
+                : this->TargetShape == IDEAL ? morph::Target::Ideal
+                                             : morph::Target::Stretched);
+  own.setStiffening(this->ImproveWorst);
+  own.setMinimizer(this->LowMemory ? morph::FoldoverStages::Minimizer::LimitedMemoryBfgs
+                                   : morph::FoldoverStages::Minimizer::Newton);
+}
+
+void vtkInversionFreeMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "InitialGuess: " << this->InitialGuess << "\n";
+  os << indent << "TargetShape: " << this->TargetShape << "\n";
+  os << indent << "ImproveWorst: " << this->ImproveWorst << "\n";
+  os << indent << "LowMemory: " << this->LowMemory << "\n";
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkInversionFreeMorph
+ * @brief   morphs a mesh so that no cell is inverted
+ *
+ * From a first guess, a minimisation of the foldover-free energy of all cells drives inverted cells
+ * out, and then improves the worst ones. Cells other than tetrahedra aim for their shape at rest,
+ * stretched to the sizes that the moved boundary asks for; tetrahedra for their shape at rest. The
+ * result is never worse than FEMWARP's: where FEMWARP's mesh is valid and its least scaled Jacobian
+ * is higher, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
+ * quadratic forms, whose corners move as the linear cell. Not linear in the boundary's motion: there
+ * is no adjoint.
+ *
+ * Validity is VALIDITY_SUB_STEP here unless it is set otherwise: a boundary that inverts cells by
+ * itself is refused, naming them; where no valid mesh is found for the whole motion there is an
+ * error, and the output is the valid mesh of the largest step that was reached. See
+ * vtkMorphAlgorithm.
+ *
+ * A mesh that is inverted at rest is untangled, starting from rest (also where nothing moves). Cells
+ * at rest that are inverted or flat aim for the ideal shape.
+ *
+ * Preparing is FEMWARP's; evaluating takes some 10 to 60 Newton steps of 1 to 2 microseconds of
+ * processor time for each tetrahedron, and a hexahedron counts as ten. Memory meanwhile: about 3.5
+ * kB a hexahedron.
+ *
+ * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
+ * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069; V. Garanzha, I. Kaporin, L. Kudryavtseva,
+ * F. Protais, D. Sokolov, "In the quest for scale-optimal mappings", ACM Trans. Graph. 43(1) (2024),
+ * arXiv 2201.12112.
+ *
+ * @sa vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
+ */
+#ifndef vtkInversionFreeMorph_h
+#define vtkInversionFreeMorph_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+#include "vtkMorphAlgorithm.h"
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkInversionFreeMorph : public vtkMorphAlgorithm
+{
+public:
+  static vtkInversionFreeMorph* New();
+  vtkTypeMacro(vtkInversionFreeMorph, vtkMorphAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum InitialGuessType
+  {
+    FEMWARP = 0,
+    REST = 1,
+    LBWARP = 2,
+    WEIGHTED_RESIDUAL = 3,
+    SIMPLEX_LINEAR = 4,
+    SIMPLEX_NATURAL_NEIGHBOR = 5
+  };
+
+  ///@{
+  /**
+   * The mesh that the minimisation starts from: that of a method with its default options, or the
+   * mesh at rest with its boundary moved. Default FEMWARP.
+   */
+  vtkSetClampMacro(InitialGuess, int, FEMWARP, SIMPLEX_NATURAL_NEIGHBOR);
+  vtkGetMacro(InitialGuess, int);
+  void SetInitialGuessToFEMWARP() { this->SetInitialGuess(FEMWARP); }
+  void SetInitialGuessToRest() { this->SetInitialGuess(REST); }
+  void SetInitialGuessToLBWARP() { this->SetInitialGuess(LBWARP); }
+  void SetInitialGuessToWeightedResidual() { this->SetInitialGuess(WEIGHTED_RESIDUAL); }
+  void SetInitialGuessToSimplexLinear() { this->SetInitialGuess(SIMPLEX_LINEAR); }
+  void SetInitialGuessToSimplexNaturalNeighbor()
+  {
+    this->SetInitialGuess(SIMPLEX_NATURAL_NEIGHBOR);
+  }
+  ///@}
+
+  enum TargetShapeType
+  {
+    INITIAL = 0,
+    STRETCHED = 1,
+    IDEAL = 2
+  };
+
+  ///@{
+  /**
+   * What cells aim for. Initial: their shape and size at rest; affine motions of the boundary come
+   * out exactly. Stretched: their angles at rest, with edge lengths that fit the moved boundary;
+   * tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever they were at rest, so
+   * that the mesh changes without any motion of its boundary. Default Stretched.
+   */
+  vtkSetClampMacro(TargetShape, int, INITIAL, IDEAL);
+  vtkGetMacro(TargetShape, int);
+  void SetTargetShapeToInitial() { this->SetTargetShape(INITIAL); }
+  void SetTargetShapeToStretched() { this->SetTargetShape(STRETCHED); }
+  void SetTargetShapeToIdeal() { this->SetTargetShape(IDEAL); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether, once the mesh is valid, the worst cells are improved at the expense of the average one. Without
+   * effect on tetrahedra and on TargetShape Initial. Default on.
+   */
+  vtkSetMacro(ImproveWorst, bool);
+  vtkGetMacro(ImproveWorst, bool);
+  vtkBooleanMacro(ImproveWorst, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Minimise by L-BFGS in place of Newton's method: several times slower, and without the matrix,
+   * so with a third of the memory. Default off.
+   */
+  vtkSetMacro(LowMemory, bool);
+  vtkGetMacro(LowMemory, bool);
+  vtkBooleanMacro(LowMemory, bool);
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: steps of the minimiser, iterations of its linear solver, evaluations
+   * of the energy; cells that the boundary itself inverts; and whether FEMWARP's mesh was the better
+   * one.
+   */
+  vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
+  vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
+  vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
+  vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
+  vtkIdType GetKeptFEMWARP() { return this->GetCount("KeptFEMWARP"); }
+  ///@}
+
+protected:
+  vtkInversionFreeMorph();
+  ~vtkInversionFreeMorph() override;
+
+  std::unique_ptr<morph::Morpher> CreateMorpher() override;
+  std::string PrepareOptions() override;
+  void SetEvaluateOptions(morph::Morpher& morpher) override;
+
+private:
+  vtkInversionFreeMorph(const vtkInversionFreeMorph&) = delete;
+  void operator=(const vtkInversionFreeMorph&) = delete;
+
+  int InitialGuess = FEMWARP;
+  int TargetShape = STRETCHED;
+  bool ImproveWorst = true;
+  bool LowMemory = false;
+};
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphValidity_h
+#define vtkMorphValidity_h
+
+#include "Morpher.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What vtkMorphAlgorithm does where a method leaves inverted cells.
+class vtkMorphValidity
+{
+public:
+  /// vtkMorphAlgorithm::ValidityType.
+  int Mode = 0;
+  morph::Index MaximumSubSteps = 0;
+  const morph::Mesh& Mesh; ///< at rest
+  const morph::NodePartition& Partition;
+  const std::vector<std::int8_t>& Orientation;
+  const morph::Points& Targets; ///< #prescribed x 3
+  /// A method with its options, not prepared yet.
+  std::function<std::unique_ptr<morph::Morpher>()> Make;
+
+  struct Outcome
+  {
+    std::string Status = "Valid"; ///< see vtkMorphAlgorithm::GetMorphStatus()
+    double LargestValidStep = 1;
+    morph::Index SubSteps = 0;
+    std::string Error; ///< not empty: the mesh is valid but has not gone all the way
+  };
+
+  /// Before the method is evaluated, where Mode asks for a valid mesh: throws morph::Error naming the cells that the targets
+  /// themselves invert.
+  void RequireFeasible() const;
+  /// After that: `moved`, #nodes x 3, becomes what Mode asks for. Throws morph::Error where it is refused.
+  Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
+
+private:
+  bool AsksForValidMesh() const;
+  std::string Describe(const std::vector<morph::Index>& inverted, const morph::Points& points,
+    morph::Monitor& monitor) const;
+  bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
+  Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
+    morph::Points& moved, morph::Monitor& monitor) const;
+};
+
+#endif
