@@ -85,6 +85,21 @@ class MorphMesh(unittest.TestCase):
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
                 self.assertGreater((self.folder / output).stat().st_size, 10000)
 
+    def test_a_grid_of_another_program(self):
+        # AVS UCD: a cube of eight hexahedra; ids from 1.
+        nodes = [(x / 2, y / 2, z / 2) for z in range(3) for y in range(3) for x in range(3)]
+        cells = [[first + corner for corner in (1, 2, 5, 4, 10, 11, 14, 13)] for first in (0, 1, 3, 4, 9, 10, 12, 13)]
+        lines = [f"{len(nodes)} {len(cells)} 0 0 0"]
+        lines += [f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)]
+        lines += [f"{i + 1} 0 hex " + " ".join(map(str, cell)) for i, cell in enumerate(cells)]
+        grid = self.folder / "cube.inp"
+        grid.write_text("\n".join(lines) + "\n")
+        result = run("--extract-boundary", grid, self.folder / "cube.vtp")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "26 points, 24 faces\n", ""))
+        result = run(grid, self.folder / "cube.vtp", self.folder / "cube.vtu")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(row(result.stdout, "least scaled Jacobian"), (1, 1))
+
     def test_threads_do_not_show_in_the_file(self):
         files = []
         for threads in (1, 2, 3):
