@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAlgorithm.h"
 
+#include "Error.h"
 #include "Morpher.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphGradient.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
@@ -14,6 +18,8 @@
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkPointSet.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <chrono>
@@ -128,8 +134,8 @@ int vtkMorphAlgorithm::RequestData(
   return done;
 }
 
-std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
+  vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
@@ -141,29 +147,23 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   options.ScaleFactor = this->ScaleFactor;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
-  const vtkMorphBoundaryMatch::Result match =
+  vtkMorphBoundaryMatch::Result match =
     vtkMorphBoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
   for (const std::string& warning : match.Warnings)
   {
     monitor.warn(warning);
   }
   monitor.check();
+  return match;
+}
 
-  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
-  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
-    kept.Orientation, match.Targets,
-    [this]
-    {
-      auto morpher = this->CreateMorpher();
-      this->SetEvaluateOptions(*morpher);
-      return morpher;
-    } };
-  validity.RequireFeasible();
-
+void vtkMorphAlgorithm::Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
   monitor.SetRange(0.05, 0.4);
   const std::string prepareOptions = this->PrepareOptions();
   if (!kept.Morpher || kept.Options != prepareOptions ||
-      kept.Morpher->partition().prescribed != match.Ids)
+      kept.Morpher->partition().prescribed != partition.prescribed)
   {
     const auto start = Clock::now();
     kept.Morpher.reset();
@@ -174,6 +174,24 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
     ++this->PrepareCount;
     this->PrepareSeconds = secondsSince(start);
   }
+}
+
+std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+{
+  const vtkMorphBoundaryMatch::Result match = this->Match(grid, boundary, monitor);
+  vtkInternals& kept = *this->Internals;
+  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
+  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
+    kept.Orientation, match.Targets,
+    [this]
+    {
+      auto morpher = this->CreateMorpher();
+      this->SetEvaluateOptions(*morpher);
+      return morpher;
+    } };
+  validity.RequireFeasible();
+  this->Prepare(partition, monitor);
 
   monitor.SetRange(0.4, 0.7);
   this->SetEvaluateOptions(*kept.Morpher);
@@ -216,6 +234,46 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
 const char* vtkMorphAlgorithm::GetMorphStatus() const
 {
   return this->Internals->Status.c_str();
+}
+
+bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
+{
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const int done = vtkMorphExecution::Run(
+    this, "apply the adjoint",
+    [&]
+    {
+      this->Transpose(vtkMorphInput::RequireGrid(rest, "The mesh"), boundary, gradient,
+        boundaryGradient, monitor);
+    },
+    [&] { boundaryGradient->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done != 0;
+}
+
+void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
+{
+  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
+  const vtkMorphBoundaryMatch::Result match = this->Match(rest, boundary, monitor);
+  this->Prepare(morph::partitionNodes(this->Internals->Mesh, match.Ids), monitor);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Internals->Morpher.get());
+  if (!linear)
+  {
+    throw morph::Error(std::string(this->GetClassName()) +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
+  monitor.SetRange(0.5, 1);
+  this->SetEvaluateOptions(*linear);
+  morph::Points prescribed;
+  linear->applyTranspose(nodes, prescribed, monitor);
+  vtkMorphGradient::Gather(this->ScaleFactor * prescribed, match.Sources,
+    vtkPointSet::SafeDownCast(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const

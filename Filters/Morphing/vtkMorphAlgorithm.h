@@ -69,9 +69,18 @@
 namespace morph
 {
 class Morpher;
+struct NodePartition;
 }
 
+namespace vtkMorphBoundaryMatch
+{
+struct Result;
+}
+
+class vtkDataArray;
+class vtkDoubleArray;
 class vtkMorphMonitor;
+class vtkPointSet;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAlgorithm : public vtkUnstructuredGridAlgorithm
 {
@@ -266,6 +275,22 @@ public:
   vtkGetMacro(UnmatchedPoints, vtkIdType);
   ///@}
 
+  /**
+   * The adjoint of a linear method, for shape optimisation: from the derivatives of an objective
+   * with respect to the position of each node of the morphed mesh to those with respect to the
+   * position (or displacement) of each point of the boundary. `rest` and `boundary`: as on the two
+   * ports, which are not looked at. `gradient`: #nodes tuples of 3. `boundaryGradient`: becomes
+   * #points of the boundary tuples of 3; a point that stands for no node gets 0, and so does each
+   * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
+   * used again, and the reverse, as between executions; the cost beyond that is that of an
+   * evaluation. False after an error, which is reported as in an execution: those of an execution,
+   * a gradient of the wrong size or not finite, a method that is not linear.
+   *
+   * @sa vtkMorphAdjoint
+   */
+  bool ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient);
+
 protected:
   vtkMorphAlgorithm();
   ~vtkMorphAlgorithm() override;
@@ -311,7 +336,17 @@ private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
+  friend class vtkMorphAdjoint;
+
   void ResetResults();
+  /// Keeps the mesh at rest, and finds which of its nodes go where.
+  vtkMorphBoundaryMatch::Result Match(
+    vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor);
+  /// Sees to it that the method is prepared for the mesh that is kept.
+  void Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor);
+  /// ApplyTranspose() that throws.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
