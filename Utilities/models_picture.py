@@ -165,6 +165,8 @@ def _show(view, panel, shift):
     curves.ColorArrayName = ["POINTS", ""]
     curves.AmbientColor = curves.DiffuseColor = INK
     curves.LineWidth = 3
+    curves.PointSize = 12
+    curves.RenderPointsAsSpheres = 1
     for shown in (faces, curves):
         shown.Position = list(shift)
 

@@ -248,18 +248,18 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
 {
   const Points displacement = motion.displacement, moved = motion.moved();
   const std::vector<Index> foldedBefore = faceQuality(motion.rest, moved, faces, geometry).folded;
-  const Points normals = surfaceNodeNormals(moved, faces, geometry);
+  const Points normals = surfaceNodeNormals(motion.rest, moved, faces, geometry);
   ProjectionReport report = moveTo(
     nodesIn(motion, BoundaryMotion::OnSurface),
     [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
     { return target.closestOnSurface(geometry.entity[node], x, normals.row(node), y); },
     motion, monitor);
-  const auto folding = [&]
+  const auto folding = [&](const std::vector<Index>& except)
   {
     std::vector<Index> nodes;
     for (Index f : faceQuality(motion.rest, motion.moved(), faces, geometry).folded)
     {
-      if (!std::binary_search(foldedBefore.begin(), foldedBefore.end(), f))
+      if (!std::binary_search(except.begin(), except.end(), f))
       {
         nodes.insert(nodes.end(), faces.connectivity.begin() + faces.offsets[f],
           faces.connectivity.begin() + faces.offsets[f + 1]);
@@ -270,34 +270,45 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     monitor.check();
     return nodes;
   };
-  std::vector<Index> nodes = folding();
+  std::vector<Index> nodes = folding({});
   if (!nodes.empty())
   {
     Relaxation relaxation(faces, geometry, target, normals, motion, monitor);
     for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
     {
       relaxation.round(nodes, report.projected);
-      nodes = folding();
+      // Nodes that no longer fold go on moving: they make room for the others.
+      const std::vector<Index> folded = folding({});
+      std::vector<Index> moving;
+      if (!folded.empty())
+      {
+        std::set_union(
+          nodes.begin(), nodes.end(), folded.begin(), folded.end(), std::back_inserter(moving));
+      }
+      nodes = std::move(moving);
     }
     relaxation.finish(report.projected);
   }
-  while (takeBack(nodes, displacement, report, motion))
+  while (takeBack(folding(foldedBefore), displacement, report, motion))
   {
-    nodes = folding();
   }
   return report;
 }
 
-Points surfaceNodeNormals(
-  const ConstPoints& points, const BoundaryFaces& faces, const Classification& geometry)
+Points surfaceNodeNormals(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const Classification& geometry)
 {
-  Points normal = Points::Zero(points.rows(), 3),
-         area(static_cast<Index>(faces.offsets.size()) - 1, 3);
+  const Points carried = faceQuality(rest, moved, faces, geometry).normal;
+  Points normal = Points::Zero(moved.rows(), 3), area(carried.rows(), 3);
   for (Index f = 0; f < area.rows(); ++f)
   {
     const Index* nodes = faces.connectivity.data() + faces.offsets[f];
     const Index size = faces.offsets[f + 1] - faces.offsets[f];
-    area.row(f) = vectorArea(points, nodes, size);
+    area.row(f) = vectorArea(moved, nodes, size);
+    if (area.row(f).dot(carried.row(f)) < 0)
+    {
+      area.row(f) *= -1;
+    }
     for (Index k = 0; k < size; ++k)
     {
       if (geometry.dimension[nodes[k]] == 2)

@@ -38,15 +38,17 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
   BoundaryMotion& motion, Monitor& monitor);
 
 /// Moves the nodes that their surface moved (state OnSurface) to the target, each by the mean normal of the moved faces
-/// of its surface around it. Where faces fold thereby (see faceQuality()), their projected nodes and the neighbors of
-/// those go to the mean of their neighbors, and on to the target again, for up to 100 rounds (Laplacian smoothing
-/// constrained to the target). Faces that are folded even then, and were not before, take their nodes back to where
-/// they were. To be called after morphSurfaces(). Cost: one search per node, and a few passes over the faces a round.
+/// of its surface around it. Where faces are folded then (see faceQuality()), by the projection or before it, their
+/// projected nodes and the neighbors of those go to the mean of their neighbors, and on to the target again, until no
+/// face is folded, for up to 100 rounds (Laplacian smoothing constrained to the target). Faces that are folded even then, and were not before,
+/// take their nodes back to where they were. To be called after morphSurfaces(). Cost: one search per node, and a few
+/// passes over the faces a round.
 ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget& target, BoundaryMotion& motion, Monitor& monitor);
 
-/// Unit normals at the nodes of dimension 2, #nodes x 3: of the faces of its surface around a corner, at the edge or
-/// face that a mid-side or face node is in, weighted by area. Zero for other nodes, and where the faces have no area.
-Points surfaceNodeNormals(
-  const ConstPoints& points, const BoundaryFaces& faces, const Classification& geometry);
+/// Unit normals at the nodes of dimension 2, #nodes x 3: of the moved faces of its surface around a corner, at the edge
+/// or face that a mid-side or face node is in, weighted by area; those of faces that are folded over are turned back.
+/// Zero for other nodes, and where the faces have no area. `rest`, `moved`: #nodes x 3.
+Points surfaceNodeNormals(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const Classification& geometry);
 }

@@ -77,6 +77,7 @@ FaceQuality faceQuality(const ConstPoints& rest, const ConstPoints& moved,
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;
   FaceQuality quality;
   quality.scaledJacobian.assign(count, std::numeric_limits<double>::quiet_NaN());
+  quality.normal = Points::Zero(count, 3);
   for (const GeometrySurface& surface : geometry.surfaces)
   {
     const Eigen::Matrix3d cofactor = normalMap(rest, moved, surface.nodes);
@@ -84,11 +85,10 @@ FaceQuality faceQuality(const ConstPoints& rest, const ConstPoints& moved,
     {
       const Index* nodes = faces.connectivity.data() + faces.offsets[f];
       const Index size = faces.offsets[f + 1] - faces.offsets[f];
-      const Eigen::RowVector3d normal =
-        (cofactor * vectorArea(rest, nodes, size).transpose()).transpose();
+      quality.normal.row(f) = vectorArea(rest, nodes, size) * cofactor.transpose();
       if (size == 3 || size == 4)
       {
-        quality.scaledJacobian[f] = leastCorner(moved, nodes, size, normal);
+        quality.scaledJacobian[f] = leastCorner(moved, nodes, size, quality.normal.row(f));
       }
     }
   }

@@ -12,7 +12,9 @@ namespace morph
 struct FaceQuality
 {
   std::vector<double>
-    scaledJacobian;          ///< #faces; NaN for a face that is neither triangle nor quadrilateral
+    scaledJacobian; ///< #faces; NaN for a face that is neither triangle nor quadrilateral
+  Points
+    normal; ///< #faces x 3: of the face at rest, carried along by its surface; its length means nothing
   double minimum = 0;        ///< NaN if there is no face
   double mean = 0;           ///< NaN if there is no face
   std::vector<Index> folded; ///< faces at or below 0, ascending

@@ -5,20 +5,16 @@
 #include "SmoothMesh.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
-#include "vtkMorphCrewMonitor.h"
-#include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
+#include "vtkMorphMonitor.h"
 #include "vtkMorphOutput.h"
+#include "vtkMorphPorts.h"
 #include "vtkMorphQuality.h"
-#include "vtkMorphTime.h"
 #include "vtkMorphValidity.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
-#include <vtkDemandDrivenPipeline.h>
-#include <vtkInformation.h>
-#include <vtkInformationVector.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <chrono>
@@ -62,7 +58,12 @@ struct vtkMorphAlgorithm::vtkInternals
   std::string Options;
   std::vector<morph::Count> Counts; ///< as of the last execution
   std::string Status;               ///< as of the last execution
-  vtkMorphTime Time;
+  vtkMorphPorts Ports;
+
+  explicit vtkInternals(vtkAlgorithm* filter)
+    : Ports(filter)
+  {
+  }
 
   /// Takes the grid over unless it is what is kept already.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
@@ -89,7 +90,7 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
 }
 
 vtkMorphAlgorithm::vtkMorphAlgorithm()
-  : Internals(new vtkInternals)
+  : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(2);
   this->ResetResults();
@@ -113,92 +114,40 @@ void vtkMorphAlgorithm::SetBoundaryData(vtkDataObject* boundary)
 
 int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port == 1)
-  {
-    // RequestData names a boundary that is missing better than the executive does. ParaView's
-    // dialog lets users forget it, and asks for the time steps before they can mend that.
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return vtkMorphPorts::FillInformation(port, info);
 }
 
 int vtkMorphAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
-  {
-    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
-  }
-  return 1;
+  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
 }
 
 int vtkMorphAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
-  {
-    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
-    this->Internals->Time.Request(this->RestTime, upstream ? upstream->GetPipelineMTime() : 0,
-      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
-  }
-  return 1;
+  return this->Internals->Ports.RequestUpdateExtent(this->RestTime, inputVector, outputVector);
 }
 
 int vtkMorphAlgorithm::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
-  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-  if (inputVector[1]->GetInformationObject(0))
-  {
-    input = this->Internals->Time.TakeRest(input, request);
-  }
-  if (!input)
-  {
-    return 1;
-  }
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  this->ResetResults();
-
-  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
   std::string partial;
-  const auto morphGrid = [&]
-  {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
-    grid = vtkMorphInput::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
-    {
-      partial = this->Morph(grid, boundary, output, monitor);
-    }
-  };
-  const auto clear = [&]
-  {
-    output->Initialize();
-    this->ResetResults();
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    if (grid && monitor.cancelled())
+  const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
+    [&] { this->ResetResults(); },
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    { partial = this->Morph(grid, boundary, output, monitor); },
+    [&](vtkUnstructuredGrid* grid)
     {
       output->ShallowCopy(grid);
       this->Internals->Status = "Cancelled";
       vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
-    }
-  };
-  const int done = vtkMorphExecution::Run(this, "morph this mesh", morphGrid, clear);
-  // With an error too: they may explain it.
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+    } };
+  const int done = this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
-  }
-  if (done)
-  {
-    vtkMorphTime::CopyDataTime(boundary, output);
   }
   return done;
 }

@@ -7,22 +7,18 @@
 #include "SurfaceMorph.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
-#include "vtkMorphCrewMonitor.h"
-#include "vtkMorphExecution.h"
 #include "vtkMorphGeometry.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
+#include "vtkMorphMonitor.h"
 #include "vtkMorphOutput.h"
+#include "vtkMorphPorts.h"
 #include "vtkMorphSurface.h"
 #include "vtkMorphTarget.h"
-#include "vtkMorphTime.h"
 
 #include <vtkCellData.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -39,7 +35,7 @@ vtkStandardNewMacro(vtkMorphBoundary);
 
 struct vtkMorphBoundary::vtkInternals
 {
-  vtkMorphTime Time;
+  vtkMorphPorts Ports;
 };
 
 namespace
@@ -160,7 +156,7 @@ void warnOfNodes(morph::Monitor& monitor, const std::vector<Index>& nodes, const
 }
 
 vtkMorphBoundary::vtkMorphBoundary()
-  : Internals(new vtkInternals)
+  : Internals(new vtkInternals{ vtkMorphPorts(this) })
 {
   this->SetNumberOfInputPorts(3);
   this->ResetResults();
@@ -195,81 +191,31 @@ void vtkMorphBoundary::SetTargetData(vtkDataObject* target)
 
 int vtkMorphBoundary::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port > 0)
-  {
-    // RequestData names moved nodes that are missing better than the executive does.
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return vtkMorphPorts::FillInformation(port, info);
 }
 
 int vtkMorphBoundary::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
-  {
-    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
-  }
-  return 1;
+  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
 }
 
 int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
-  {
-    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(0, 0));
-    this->Internals->Time.Request(this->RestTime, upstream ? upstream->GetPipelineMTime() : 0,
-      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
-  }
-  return 1;
+  return this->Internals->Ports.RequestUpdateExtent(this->RestTime, inputVector, outputVector);
 }
 
 int vtkMorphBoundary::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
-  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-  if (inputVector[1]->GetInformationObject(0))
-  {
-    input = this->Internals->Time.TakeRest(input, request);
-  }
-  if (!input)
-  {
-    return 1;
-  }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  this->ResetResults();
-  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
-  const auto morphBoundary = [&]
-  {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
-    grid = vtkMorphInput::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
-    {
-      this->Morph(grid, boundary, target, output, monitor);
-    }
-  };
-  const auto clear = [&]
-  {
-    output->Initialize();
-    this->ResetResults();
-  };
-  const int done = vtkMorphExecution::Run(this, "morph this mesh's boundary", morphBoundary, clear);
-  // With an error too: they may explain it.
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
-  if (done)
-  {
-    vtkMorphTime::CopyDataTime(boundary, output);
-  }
-  return done;
+  const vtkMorphPorts::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
+    [&] { this->ResetResults(); },
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    { this->Morph(grid, boundary, target, output, monitor); } };
+  return this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
 }
 
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
@@ -334,7 +280,7 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     monitor.SetRange(0.7, 0.9);
     const morph::Points moved = motion.moved();
     place->Assign(geometry, moved);
-    place->Orient(moved, morph::surfaceNodeNormals(moved, faces, geometry));
+    place->Orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }

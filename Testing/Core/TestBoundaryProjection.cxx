@@ -112,6 +112,45 @@ TEST(BoundaryProjection, FoldsAreSpreadOutOnTheTarget)
   }
 }
 
+TEST(BoundaryProjection, FoldsThatWereThereBeforeAreOpened)
+{
+  // Surfaces follow their curves so that one node of the top and one of a side lie beyond their neighbors.
+  Case c(meshes::hexes(6, 6, 6));
+  c.surfaces();
+  const auto nodeAt = [&](const Row& x)
+  {
+    Index node = 0;
+    (c.mesh.points.rowwise() - x).rowwise().norm().minCoeff(&node);
+    return node;
+  };
+  const Index onTop = nodeAt(Row(3, 3, 6)), onSide = nodeAt(Row(0, 3, 3));
+  c.motion.displacement.row(onTop) = Row(2.5, 0.2, 0);
+  c.motion.displacement.row(onSide) = Row(0, 0.1, -1.7);
+  EXPECT_GT(faceQuality(c.mesh.points, c.motion.moved(), c.faces, c.geometry).folded.size(), 3u);
+  Formula target;
+  target.surface = [](const Row& x, const Row& normal, Row& y)
+  {
+    y = x;
+    for (int k = 0; k < 3; ++k)
+    {
+      if (std::abs(normal[k]) > 0.9)
+      {
+        y[k] = normal[k] > 0 ? 6.01 : -0.01;
+        return true;
+      }
+    }
+    return false;
+  };
+  const ProjectionReport report = projectSurfaces(c.faces, c.geometry, target, c.motion, c.monitor);
+  const Points moved = c.motion.moved();
+  EXPECT_TRUE(faceQuality(c.mesh.points, moved, c.faces, c.geometry).folded.empty());
+  EXPECT_TRUE(report.kept.empty());
+  EXPECT_TRUE(report.missed.empty());
+  EXPECT_EQ(report.projected.size(), 6u * 25);
+  EXPECT_EQ(moved(onTop, 2), 6.01);
+  EXPECT_EQ(moved(onSide, 0), -0.01);
+}
+
 TEST(BoundaryProjection, NodesOfFacesThatWouldFoldAreKept)
 {
   Case c(meshes::hexes(6, 6, 2));

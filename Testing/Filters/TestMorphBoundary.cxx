@@ -8,6 +8,8 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -391,6 +393,140 @@ TEST(MorphBoundary, WhatATargetLacksIsNamed)
   EXPECT_GE(filter->GetUnprojectedPoints(), 36);
   EXPECT_GT(filter->GetProjectedPoints(), 0);
   EXPECT_EQ(filter->GetFoldedFaces(), 0);
+}
+
+TEST(MorphBoundary, NonManifoldBoundaries)
+{
+  // Boxes that share an edge, boxes that share a node, and a box with a hole through it.
+  const morph::Mesh box = meshes::hexes(4, 4, 4);
+  const auto low = [](double x) { return x < 2; };
+  for (const morph::Mesh& mesh :
+    {
+      shapes::cut(box, [&](const Row& x) { return low(x[0]) == low(x[1]); }),
+      shapes::cut(
+        box, [&](const Row& x) { return low(x[0]) == low(x[1]) && low(x[1]) == low(x[2]); }),
+      shapes::cut(box, [](const Row& x) { return (x.head(2).array() - 2).abs().maxCoeff() > 1; }),
+    })
+  {
+    auto grid = grids::make(mesh);
+    for (int method = 0; method < 2; ++method)
+    {
+      auto filter = morpher(grid, grids::boundary(grid, grids::affine));
+      grids::Listener listener(filter);
+      filter->SetSurfaceMethod(method);
+      filter->SetPrescribedDimension(0);
+      filter->Update();
+      EXPECT_TRUE(listener.Errors.empty() && listener.Warnings.empty());
+      EXPECT_LE(worst(filter->GetOutput(), grids::affine), 1e-10 * meshes::size(mesh.points));
+      EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+      EXPECT_EQ(filter->GetFoldedFaces(), 0);
+    }
+  }
+}
+
+TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
+{
+  // Half of the top has a target, 0.1 above it; the other nodes find none, stay and are named.
+  auto grid = grids::make(meshes::hexes(6, 6, 2));
+  morph::Points corners(4, 3);
+  corners << -1, -1, 2.1, 3.4, -1, 2.1, 3.4, 7, 2.1, -1, 7, 2.1;
+  auto target = grids::cloud(corners);
+  vtkNew<vtkCellArray> polygons;
+  const vtkIdType ids[] = { 0, 1, 2, 3 };
+  polygons->InsertNextCell(4, ids);
+  target->SetPolys(polygons);
+  auto filter = morpher(grid, grids::boundary(grid, same));
+  filter->SetTargetData(target);
+  filter->SetProjectionDistance(0.15 / std::sqrt(76.));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("no place within ProjectionDistance"), std::string::npos)
+    << listener.Warnings[0];
+  EXPECT_EQ(filter->GetProjectedPoints(), 3 * 5);
+  EXPECT_EQ(filter->GetUnprojectedPoints(), 2 * 5 + 25 + 4 * 5);
+  const morph::Points x = grids::points(filter->GetOutput());
+  EXPECT_EQ((x.col(2).array() > 2).count(), 3 * 5);
+  EXPECT_EQ((x.col(2).array() == 2.1).count(), 3 * 5);
+  EXPECT_EQ(worst(filter->GetOutput(),
+              [](const Row& p) {
+                return p[2] == 2 && p[0] > 0 && p[0] < 3.5 && p[1] > 0 && p[1] < 6
+                         ? Row(p[0], p[1], 2.1)
+                         : p;
+              }),
+    0);
+}
+
+TEST(MorphBoundary, ArraysOfTheWrongTypeOrLength)
+{
+  auto grid = grids::hexes(2);
+  const auto addNumbers =
+    [](vtkDataSetAttributes* data, const char* name, int components, vtkIdType n, double value)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(n);
+    array->Fill(value);
+    data->AddArray(array);
+  };
+  using Change =
+    std::function<void(vtkMorphBoundary*, vtkUnstructuredGrid * grid, vtkPolyData * moved)>;
+  const std::vector<std::pair<std::string, Change>> cases = {
+    { "no cell array", [](auto* filter, auto*, auto*) { filter->SetSurfaceIdArray("Absent"); } },
+    { "7 values for 8 cells",
+      [&](auto* filter, auto* g, auto*)
+      {
+        addNumbers(g->GetCellData(), "Side", 1, 7, 1);
+        filter->SetSurfaceIdArray("Side");
+      } },
+    { "components",
+      [&](auto* filter, auto* g, auto*)
+      {
+        addNumbers(g->GetCellData(), "Side", 3, 8, 1);
+        filter->SetSurfaceIdArray("Side");
+      } },
+    { "26 values for 27 points",
+      [&](auto*, auto* g, auto*)
+      {
+        addNumbers(g->GetPointData(), "GeometryDimension", 1, 26, 2);
+        addNumbers(g->GetPointData(), "GeometryId", 1, 27, 1);
+      } },
+    { "Gone", [](auto* filter, auto*, auto*) { filter->SetBoundaryIdArray("Gone"); } },
+    { "Gone", [](auto* filter, auto*, auto*) { filter->SetDisplacementArray("Gone"); } },
+    { "5 ",
+      [&](auto* filter, auto*, auto* moved)
+      {
+        addNumbers(moved->GetPointData(), "Move", 3, 5, 1);
+        filter->SetDisplacementArray("Move");
+      } },
+    { "components",
+      [&](auto* filter, auto*, auto* moved)
+      {
+        addNumbers(moved->GetPointData(), "Move", 2, 26, 1);
+        filter->SetDisplacementArray("Move");
+      } },
+    { "ScaleFactor", [](auto* filter, auto*, auto*) { filter->SetScaleFactor(NAN); } },
+  };
+  for (const auto& [telling, change] : cases)
+  {
+    SCOPED_TRACE(telling);
+    auto own = grids::copy(grid);
+    auto moved = grids::boundary(grid, grids::twist);
+    auto filter = morpher(own, moved);
+    filter->Update();
+    ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 26);
+    change(filter, own, moved);
+    filter->Modified();
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find(telling), std::string::npos) << listener.Errors[0];
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(own->GetNumberOfPoints(), 27);
+    EXPECT_EQ(moved->GetNumberOfPoints(), 26);
+  }
 }
 
 TEST(MorphBoundary, OneErrorAndNoOutput)

@@ -11,7 +11,8 @@ from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
 import model_equations
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "Data"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 
 STEPS = [step / 20 for step in range(21)]  # the paper's S_0 ... S_F

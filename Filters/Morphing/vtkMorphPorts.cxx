@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphPorts.h"
+
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphInput.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <string>
+
+int vtkMorphPorts::FillInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port > 0)
+  {
+    // RequestData names a boundary that is missing better than the executive does. ParaView's
+    // dialog lets users forget it, and asks for the time steps before they can mend that.
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkMorphPorts::RequestInformation(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphPorts::RequestUpdateExtent(
+  double restTime, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetInputExecutive(0, 0));
+    this->Time.Request(restTime, upstream ? upstream->GetPipelineMTime() : 0,
+      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  if (inputVector[1]->GetInformationObject(0))
+  {
+    input = this->Time.TakeRest(input, request);
+  }
+  if (!input)
+  {
+    return 1;
+  }
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  task.Reset();
+  vtkMorphCrewMonitor monitor(this->Filter, task.NumberOfThreads);
+  const auto work = [&]
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
+    grid = vtkMorphInput::RequireGrid(input, "The input");
+    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    {
+      task.Work(grid, boundary, monitor);
+    }
+  };
+  const auto clear = [&]
+  {
+    output->Initialize();
+    task.Reset();
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    if (task.Cancelled && grid && monitor.cancelled())
+    {
+      task.Cancelled(grid);
+    }
+  };
+  const int done = vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
+  // With an error too: they may explain it.
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningWithObjectMacro(this->Filter, << warning);
+  }
+  if (done)
+  {
+    vtkMorphTime::CopyDataTime(boundary, output);
+  }
+  return done;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphPorts_h
+#define vtkMorphPorts_h
+
+#include "vtkMorphTime.h"
+
+#include <functional>
+
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkInformation;
+class vtkInformationVector;
+class vtkMorphMonitor;
+class vtkUnstructuredGrid;
+
+/// The pipeline passes of a filter with the rest mesh on port 0 and the moved boundary on port 1:
+/// types, time, the frame round its work.
+class vtkMorphPorts
+{
+public:
+  /// `filter`: whose member this is.
+  explicit vtkMorphPorts(vtkAlgorithm* filter)
+    : Filter(filter)
+  {
+  }
+
+  static int FillInformation(int port, vtkInformation* info);
+  static int RequestInformation(
+    vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  /// `restTime`: see vtkMorphTime.
+  int RequestUpdateExtent(
+    double restTime, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+
+  struct Task
+  {
+    const char* Name; ///< what there may be too little memory for ("morph this mesh")
+    int NumberOfThreads;
+    /// Takes the filter's results back to those of no result.
+    std::function<void()> Reset;
+    /// Fills the output from the mesh at rest and the boundary, which may be null.
+    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor&)> Work;
+    /// Fills the output, which is empty, where Work was cancelled. Null leaves it so.
+    std::function<void(vtkUnstructuredGrid* grid)> Cancelled = nullptr;
+  };
+  /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
+  /// the output is empty; errors and warnings are the filter's.
+  int RequestData(const Task& task, vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+private:
+  vtkAlgorithm* Filter;
+  vtkMorphTime Time;
+};
+
+#endif
