@@ -208,8 +208,9 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   if (this->PostSmooth)
   {
     monitor.SetRange(0.7, 0.8);
-    kept.Counts.push_back({ "PostSmoothSteps",
-      smoothAfterwards(kept.Mesh, kept.Orientation, partition, this->PostSmoothIterations, moved, monitor) });
+    kept.Counts.push_back(
+      { "PostSmoothSteps", smoothAfterwards(kept.Mesh, kept.Orientation, partition,
+                             this->PostSmoothIterations, moved, monitor) });
   }
   monitor.SetRange(this->PostSmooth ? 0.8 : 0.7, 0.9);
   const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
