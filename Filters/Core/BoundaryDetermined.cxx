@@ -35,13 +35,12 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
         }
       }
       const Eigen::RowVector3d o = points.row(id[0]);
-      const Eigen::RowVector3d a = points.row(id[1]) - o, b = points.row(id[2]) - o, d = points.row(id[3]) - o;
+      const Eigen::RowVector3d a = points.row(id[1]) - o, b = points.row(id[2]) - o,
+                               d = points.row(id[3]) - o;
       return !(orientation[c] * a.dot(b.cross(d)) > 0);
     };
-    // The corners' tetrahedra come first; the others of a decomposition may be negative in a valid cell.
     const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
-    const int corners = shape.shape == Shape::Pyramid ? 4 : shape.shape == Shape::Tet ? 1 : numberOfCorners(shape.shape);
-    if (std::any_of(tets, tets + corners, inverted))
+    if (std::any_of(tets, tets + cornerTetrahedra(shape.shape), inverted))
     {
       result.push_back(c);
     }

@@ -14,6 +14,7 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
+constexpr double LeastGain = 1e-3; // of the least scaled Jacobian
 
 /// Of the volume cells, from node to node around them; 1 where there is none.
 double meanEdge(const Mesh& mesh)
@@ -65,8 +66,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   }
   const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(targetShapes(
-    this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
+  energy.setTargets(
+    targetShapes(this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
 }
 
@@ -97,7 +98,14 @@ bool InversionFree::minimize(
   monitor.progress(0.8);
   if (this->stiffening_ && this->target_ != Target::Initial)
   {
+    const Points before = points;
     stages.stiffen(points, monitor);
+    // It costs the average cell something: only worth it where the worst one gains.
+    if (!(this->leastScaledJacobian(points, monitor) >
+          (1 + LeastGain) * this->leastScaledJacobian(before, monitor)))
+    {
+      points = before;
+    }
   }
   monitor.progress(0.95);
   return true;
@@ -133,7 +141,8 @@ EvaluateReport InversionFree::report(
 {
   if (!determined.empty())
   {
-    monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " +
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
       listIds(determined) +
       ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }

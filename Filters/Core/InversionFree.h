@@ -60,8 +60,7 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
   struct Outcome
@@ -71,10 +70,13 @@ private:
     MinimizerEffort effort;
   };
   /// In coordinates times scale_. `guide`: see TargetShapes; `alternative`: a mesh that the result must not be worse than.
-  Outcome improve(Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
+  Outcome improve(
+    Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
   bool minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
-  Points moved(const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
-  EvaluateReport report(const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const;
+  Points moved(
+    const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
+  EvaluateReport report(
+    const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const;
   double leastScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
@@ -85,7 +87,7 @@ private:
 
   Points reference_;
   Mesh referenceMesh_; ///< the reference, its coordinates times scale_
-  double scale_ = 1; ///< a power of two that makes edges about 1 long
+  double scale_ = 1;   ///< a power of two that makes edges about 1 long
   std::vector<std::int8_t> orientation_;
   bool validAtRest_ = true;
   FemWarp femWarp_;

@@ -68,7 +68,9 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   monitor.progress(1);
 }
 
-void Morpher::setReference(Points) {}
+void Morpher::setReference(Points)
+{
+}
 
 void Morpher::requirePrepared() const
 {

@@ -40,13 +40,17 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
 
 SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const BoundaryPath& path,
-  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits, Monitor& monitor)
+  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
+  Monitor& monitor)
 {
   const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
   if (!atRest.empty())
   {
-    throw Error("The mesh at rest has inverted or degenerate cells, so there is no valid mesh to step from: cell ids " +
-      listIds(atRest) + ". Repair them first, for instance by the inversion-free morph of the mesh at rest.");
+    throw Error(
+      "The mesh at rest has inverted or degenerate cells, so there is no valid mesh to step from: "
+      "cell ids " +
+      listIds(atRest) +
+      ". Repair them first, for instance by the inversion-free morph of the mesh at rest.");
   }
   SubStepResult result;
   result.moved = rest.points;
@@ -54,7 +58,7 @@ SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
   double step = std::min(1., limits.first);
   int inARow = 0;
   while (result.reached < 1 && result.attempts < limits.attempts &&
-    (step >= limits.least || result.reached + step >= 1))
+         (step >= limits.least || result.reached + step >= 1))
   {
     monitor.check();
     SubMonitor part(monitor, result.reached, std::min(1., result.reached + step));

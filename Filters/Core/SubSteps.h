@@ -18,18 +18,19 @@ BoundaryPath straightPath(const Points& rest, const NodePartition& partition, co
 
 struct SubStepLimits
 {
-  double first = 0.5;        ///< the first step tried, of the whole motion
-  double least = 1. / 256;   ///< no step is shorter
-  Index attempts = 64;       ///< failed ones included
+  double first = 0.5;      ///< the first step tried, of the whole motion
+  double least = 1. / 256; ///< no step is shorter
+  Index attempts = 64;     ///< failed ones included
 };
 
 struct SubStepResult
 {
-  Points moved;                ///< #nodes x 3, the last valid mesh
-  double reached = 0;          ///< its time; 1: all of the motion
-  Index attempts = 0;          ///< each prepares the method anew
-  std::vector<Index> inverted; ///< where not all of the motion was reached: the cells that the last attempt inverted, ascending
-  EvaluateReport report;       ///< of the last attempt; iterations of all
+  Points moved;       ///< #nodes x 3, the last valid mesh
+  double reached = 0; ///< its time; 1: all of the motion
+  Index attempts = 0; ///< each prepares the method anew
+  std::vector<Index>
+    inverted; ///< where not all of the motion was reached: the cells that the last attempt inverted, ascending
+  EvaluateReport report; ///< of the last attempt; iterations of all
 };
 
 /// Follows the path in steps, each from the mesh that the step before left, by a method prepared on it; a step that leaves inverted or
@@ -39,7 +40,8 @@ struct SubStepResult
 /// evaluate(), at most `limits.attempts` times.
 SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const BoundaryPath& path,
-  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits, Monitor& monitor);
+  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
+  Monitor& monitor);
 
 /// Ids of the cells whose scaled Jacobian is not positive, degenerate ones included, ascending.
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,

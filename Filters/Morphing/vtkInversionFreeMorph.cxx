@@ -62,9 +62,9 @@ void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
   {
     own.setStart(this->InitialGuess == REST ? Morpher::Start::Rest : Morpher::Start::FemWarp);
   }
-  own.setTarget(this->TargetShape == INITIAL   ? morph::Target::Initial
-      : this->TargetShape == IDEAL ? morph::Target::Ideal
-                                   : morph::Target::Stretched);
+  own.setTarget(this->TargetShape == INITIAL ? morph::Target::Initial
+                : this->TargetShape == IDEAL ? morph::Target::Ideal
+                                             : morph::Target::Stretched);
   own.setStiffening(this->ImproveWorst);
   own.setMinimizer(this->LowMemory ? morph::FoldoverStages::Minimizer::LimitedMemoryBfgs
                                    : morph::FoldoverStages::Minimizer::Newton);

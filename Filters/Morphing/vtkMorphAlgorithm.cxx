@@ -137,13 +137,7 @@ int vtkMorphAlgorithm::RequestData(
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { partial = this->Morph(grid, boundary, output, monitor); },
-    [&](vtkUnstructuredGrid* grid)
-    {
-      output->ShallowCopy(grid);
-      this->Internals->Status = "Cancelled";
-      vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
-    } };
+    { partial = this->Morph(grid, boundary, output, monitor); } };
   const int done = this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
   if (!partial.empty())
   {

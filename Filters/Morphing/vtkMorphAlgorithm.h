@@ -46,8 +46,8 @@
  * pyramids and their quadratic forms, coordinates that are not finite, no way to match the
  * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
  * a node with two targets, ids that RestPosition contradicts, a ScaleFactor that is not finite,
- * cells on more than one MPI rank. An execution that is aborted gives the mesh at rest and no
- * message. Inverted cells are no error by themselves: see Validity.
+ * cells on more than one MPI rank. An execution that is aborted gives an empty output and no
+ * message, as VTK itself does. Inverted cells are no error by themselves: see Validity.
  *
  * With several MPI processes an execution is collective: it has to take place on all of them.
  *
@@ -254,7 +254,7 @@ public:
   ///@{
   /**
    * How the last execution ended: "Valid"; "Inverted", with cells that are; "SubStepped" or "Repaired", valid with the help of
-   * Validity; "Partial", valid but not all the way; "Cancelled", the mesh at rest; "None" where there was no result. The field
+   * Validity; "Partial", valid but not all the way; "None" where there was no result. The field
    * data MorphStatus holds it too.
    */
   const char* GetMorphStatus() const;

@@ -80,11 +80,6 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   {
     output->Initialize();
     task.Reset();
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    if (task.Cancelled && grid && monitor.cancelled())
-    {
-      task.Cancelled(grid);
-    }
   };
   const int done = vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
   // With an error too: they may explain it.

@@ -39,8 +39,6 @@ public:
     std::function<void()> Reset;
     /// Fills the output from the mesh at rest and the boundary, which may be null.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor&)> Work;
-    /// Fills the output, which is empty, where Work was cancelled. Null leaves it so.
-    std::function<void(vtkUnstructuredGrid* grid)> Cancelled = nullptr;
   };
   /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
   /// the output is empty; errors and warnings are the filter's.

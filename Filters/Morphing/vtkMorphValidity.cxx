@@ -33,10 +33,12 @@ void vtkMorphValidity::RequireFeasible() const
     morph::boundaryDeterminedInversions(this->Mesh, this->Partition, this->Orientation, points);
   if (!determined.empty())
   {
-    throw morph::Error("The boundary itself inverts " + std::to_string(determined.size()) +
+    throw morph::Error(
+      "The boundary itself inverts " + std::to_string(determined.size()) +
       " cells at corners whose nodes it all prescribes, so no valid mesh exists: cell ids " +
       morph::listIds(determined) +
-      ". Move the boundary less there, leave some of these nodes free, or set Validity to Report to see the mesh.");
+      ". Move the boundary less there, leave some of these nodes free, or set Validity to Report "
+      "to see the mesh.");
   }
 }
 
@@ -44,9 +46,11 @@ std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted
   const morph::Points& points, morph::Monitor& monitor) const
 {
   constexpr std::size_t Most = 10;
-  const morph::Quality quality = morph::measureQuality(this->Mesh, points, this->Orientation, {}, monitor);
+  const morph::Quality quality =
+    morph::measureQuality(this->Mesh, points, this->Orientation, {}, monitor);
   std::vector<morph::Index> worst = inverted;
-  std::stable_sort(worst.begin(), worst.end(), [&](morph::Index a, morph::Index b)
+  std::stable_sort(worst.begin(), worst.end(),
+    [&](morph::Index a, morph::Index b)
     { return quality.scaledJacobian[a] < quality.scaledJacobian[b]; });
   worst.resize(std::min(worst.size(), Most));
   std::ostringstream text;
@@ -58,8 +62,8 @@ std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted
     {
       centre += points.row(this->Mesh.cell(cell)[k]) / corners;
     }
-    text << (cell == worst.front() ? "" : "; ") << cell << " at (" << centre[0] << ", " << centre[1] << ", "
-         << centre[2] << ") with " << quality.scaledJacobian[cell];
+    text << (cell == worst.front() ? "" : "; ") << cell << " at (" << centre[0] << ", " << centre[1]
+         << ", " << centre[2] << ") with " << quality.scaledJacobian[cell];
   }
   text << (inverted.size() > worst.size() ? "; ..." : "");
   return text.str();
@@ -85,8 +89,9 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
 {
   morph::SubStepLimits limits;
   limits.attempts = this->MaximumSubSteps;
-  const morph::SubStepResult result = morph::followInSubSteps(this->Mesh, this->Partition, this->Orientation,
-    morph::straightPath(this->Mesh.points, this->Partition, this->Targets), make, limits, monitor);
+  const morph::SubStepResult result = morph::followInSubSteps(this->Mesh, this->Partition,
+    this->Orientation, morph::straightPath(this->Mesh.points, this->Partition, this->Targets), make,
+    limits, monitor);
   moved = result.moved;
   Outcome outcome;
   outcome.Status = "SubStepped";
@@ -95,8 +100,9 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
   if (result.reached < 1)
   {
     std::ostringstream text;
-    text << "No valid mesh was found for the whole motion: " << result.attempts << " steps came as far as "
-         << result.reached << " of it, and the result is the valid mesh there. The next step inverted "
+    text << "No valid mesh was found for the whole motion: " << result.attempts
+         << " steps came as far as " << result.reached
+         << " of it, and the result is the valid mesh there. The next step inverted "
          << result.inverted.size() << " cells, at the result's places: "
          << this->Describe(result.inverted, result.moved, monitor)
          << ". Move the boundary less, or refine the mesh there.";
@@ -106,7 +112,8 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
   return outcome;
 }
 
-vtkMorphValidity::Outcome vtkMorphValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
+vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
+  morph::Points& moved, morph::Monitor& monitor) const
 {
   Outcome outcome;
   const std::vector<morph::Index> inverted =
@@ -115,7 +122,8 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(morph::Points& moved, morph::
   {
     return outcome;
   }
-  const std::string found = std::to_string(inverted.size()) +
+  const std::string found =
+    std::to_string(inverted.size()) +
     " cells are inverted or degenerate. Worst cell ids, centres and scaled Jacobians: " +
     this->Describe(inverted, moved, monitor) + ".";
   switch (this->Mode)
@@ -131,7 +139,8 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(morph::Points& moved, morph::
       return this->SubStep([] { return std::make_unique<morph::InversionFree>(); }, moved, monitor);
     case vtkMorphAlgorithm::VALIDITY_REFUSE:
       throw morph::Error("The morph is refused: " + found +
-        " Set Validity to Repair or Sub Step, move the boundary less, or use Morph Inversion Free.");
+                         " Set Validity to Repair or Sub Step, move the boundary less, or use "
+                         "Morph Inversion Free.");
     case vtkMorphAlgorithm::VALIDITY_REPORT:
       monitor.warn(found + " Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
       break;

@@ -40,11 +40,11 @@ public:
 
 private:
   bool AsksForValidMesh() const;
-  std::string Describe(
-    const std::vector<morph::Index>& inverted, const morph::Points& points, morph::Monitor& monitor) const;
-  bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
-  Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make, morph::Points& moved,
+  std::string Describe(const std::vector<morph::Index>& inverted, const morph::Points& points,
     morph::Monitor& monitor) const;
+  bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
+  Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
+    morph::Points& moved, morph::Monitor& monitor) const;
 };
 
 #endif

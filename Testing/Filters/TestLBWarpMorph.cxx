@@ -62,6 +62,8 @@ TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   }
   filter->SetOutsideHullToRelax();
+  filter
+    ->SetValidityToNone(); // a node outside its neighbors: cells are inverted, and that is not the point here
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
