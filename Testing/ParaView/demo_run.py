@@ -82,7 +82,8 @@ class Demo(unittest.TestCase):
         rows = [line.split() for line in self.process.stdout.splitlines()]
         for name, words, minimum in (("FEMWARP", 1, 0.3461), ("Weighted residual", 2, 0.275),
                                      ("Simplex-linear", 1, None),
-                                     ("Simplex-natural neighbor", 2, None)):
+                                     ("Simplex-natural neighbor", 2, None),
+                                     ("Smoothing", 1, None)):
             with self.subTest(name=name):
                 found = [row[words:] for row in rows if row[:words] == name.split()]
                 self.assertEqual([len(row) for row in found], [5, 5])  # hexahedra and tetrahedra
