@@ -13,7 +13,8 @@ from pathlib import Path
 PROGRAM = os.environ["MORPH_MESH"]
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 BORE = str(MODELS / "bore_hex_small.vtu")
-METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "WeightedResidual")
+METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "Smoothing",
+           "WeightedResidual")
 
 
 def run(*arguments):
@@ -76,6 +77,9 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(none[0], none[1])
         self.assertLess(half[1], none[1])
         self.assertNotEqual(self.morph("--free-unnamed-boundary").returncode, 2)
+        plain, smoothed = (row(self.morph(*options).stdout, "least scaled Jacobian")[1]
+                           for options in ((), ("--post-smooth",)))
+        self.assertGreater(smoothed, plain)
 
     def test_formats(self):
         for written in ("boundary.vtk", "boundary.vtp"):
