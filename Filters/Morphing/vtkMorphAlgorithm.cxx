@@ -293,6 +293,12 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
                        " is not a linear method, so it has no adjoint that is the same for all "
                        "motions. Use one that is, FEMWARP for instance.");
   }
+  const std::string& status = this->Internals->Status;
+  if (this->PostSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
+  {
+    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+                 "gradient is that of the method alone.");
+  }
   monitor.SetRange(0.5, 1);
   this->SetEvaluateOptions(*linear);
   morph::Points prescribed;
