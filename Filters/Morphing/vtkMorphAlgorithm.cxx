@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAlgorithm.h"
 
+#include "Error.h"
 #include "Morpher.h"
+#include "SmoothMesh.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphGradient.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
@@ -14,6 +19,8 @@
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkPointSet.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <chrono>
@@ -26,6 +33,23 @@ using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+}
+
+namespace
+{
+/// Smooths `moved` and returns the steps that led to it.
+morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  morph::SmoothingOptions options;
+  options.target = morph::Target::Initial;
+  options.iterationLimit = iterationLimit;
+  options.neverWorse = true;
+  const morph::SmoothingReport report =
+    morph::smoothMesh(rest, orientation, partition, options, moved, monitor);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
 }
 }
 
@@ -128,8 +152,8 @@ int vtkMorphAlgorithm::RequestData(
   return done;
 }
 
-std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
+  vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
@@ -141,29 +165,23 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   options.ScaleFactor = this->ScaleFactor;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
-  const vtkMorphBoundaryMatch::Result match =
+  vtkMorphBoundaryMatch::Result match =
     vtkMorphBoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
   for (const std::string& warning : match.Warnings)
   {
     monitor.warn(warning);
   }
   monitor.check();
+  return match;
+}
 
-  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
-  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
-    kept.Orientation, match.Targets,
-    [this]
-    {
-      auto morpher = this->CreateMorpher();
-      this->SetEvaluateOptions(*morpher);
-      return morpher;
-    } };
-  validity.RequireFeasible();
-
+void vtkMorphAlgorithm::Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
   monitor.SetRange(0.05, 0.4);
   const std::string prepareOptions = this->PrepareOptions();
   if (!kept.Morpher || kept.Options != prepareOptions ||
-      kept.Morpher->partition().prescribed != match.Ids)
+      kept.Morpher->partition().prescribed != partition.prescribed)
   {
     const auto start = Clock::now();
     kept.Morpher.reset();
@@ -174,20 +192,45 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
     ++this->PrepareCount;
     this->PrepareSeconds = secondsSince(start);
   }
+}
+
+std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+{
+  const vtkMorphBoundaryMatch::Result match = this->Match(grid, boundary, monitor);
+  vtkInternals& kept = *this->Internals;
+  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
+  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
+    kept.Orientation, match.Targets,
+    [this]
+    {
+      auto morpher = this->CreateMorpher();
+      this->SetEvaluateOptions(*morpher);
+      return morpher;
+    } };
+  validity.RequireFeasible();
+  this->Prepare(partition, monitor);
 
   monitor.SetRange(0.4, 0.7);
   this->SetEvaluateOptions(*kept.Morpher);
   const auto start = Clock::now();
   morph::Points moved;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
-  monitor.SetRange(0.7, 0.9);
+  kept.Counts = report.counts;
+  if (this->PostSmooth)
+  {
+    monitor.SetRange(0.7, 0.8);
+    kept.Counts.push_back(
+      { "PostSmoothSteps", smoothAfterwards(kept.Mesh, kept.Orientation, partition,
+                             this->PostSmoothIterations, moved, monitor) });
+  }
+  monitor.SetRange(this->PostSmooth ? 0.8 : 0.7, 0.9);
   const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
   this->SolverIterations = report.iterations;
   this->LargestValidStep = valid.LargestValidStep;
   this->SubSteps = static_cast<vtkIdType>(valid.SubSteps);
   kept.Status = valid.Status;
-  kept.Counts = report.counts;
   this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
   this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
 
@@ -216,6 +259,46 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
 const char* vtkMorphAlgorithm::GetMorphStatus() const
 {
   return this->Internals->Status.c_str();
+}
+
+bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
+{
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const int done = vtkMorphExecution::Run(
+    this, "apply the adjoint",
+    [&]
+    {
+      this->Transpose(vtkMorphInput::RequireGrid(rest, "The mesh"), boundary, gradient,
+        boundaryGradient, monitor);
+    },
+    [&] { boundaryGradient->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done != 0;
+}
+
+void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
+{
+  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
+  const vtkMorphBoundaryMatch::Result match = this->Match(rest, boundary, monitor);
+  this->Prepare(morph::partitionNodes(this->Internals->Mesh, match.Ids), monitor);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Internals->Morpher.get());
+  if (!linear)
+  {
+    throw morph::Error(std::string(this->GetClassName()) +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
+  monitor.SetRange(0.5, 1);
+  this->SetEvaluateOptions(*linear);
+  morph::Points prescribed;
+  linear->applyTranspose(nodes, prescribed, monitor);
+  vtkMorphGradient::Gather(this->ScaleFactor * prescribed, match.Sources,
+    vtkPointSet::SafeDownCast(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
@@ -259,6 +342,8 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
+  os << indent << "PostSmooth: " << this->PostSmooth << "\n";
+  os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

@@ -69,9 +69,18 @@
 namespace morph
 {
 class Morpher;
+struct NodePartition;
 }
 
+namespace vtkMorphBoundaryMatch
+{
+struct Result;
+}
+
+class vtkDataArray;
+class vtkDoubleArray;
 class vtkMorphMonitor;
+class vtkPointSet;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAlgorithm : public vtkUnstructuredGridAlgorithm
 {
@@ -181,6 +190,28 @@ public:
 
   ///@{
   /**
+   * Whether to smooth the mesh that the method made, before Validity looks at it: prescribed nodes stay, inverted
+   * cells are untangled where that can be done, and then cells are brought closer, on average, to their shapes at
+   * rest (see vtkSmoothingMorph, TargetShape Initial). A smoothed mesh with more inverted cells, or as many and a lower
+   * least scaled Jacobian, is dropped. The field data PostSmoothSteps has the steps that led to the
+   * output, 0 where it was dropped. Default off.
+   */
+  vtkSetMacro(PostSmooth, bool);
+  vtkGetMacro(PostSmooth, bool);
+  vtkBooleanMacro(PostSmooth, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Most steps of PostSmooth, in each of which every node moves once; it ends before that once no node moves farther than a
+   * thousandth of its edges. Default 20, range [1, 100000].
+   */
+  vtkSetClampMacro(PostSmoothIterations, int, 1, 100000);
+  vtkGetMacro(PostSmoothIterations, int);
+  ///@}
+
+  ///@{
+  /**
    * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
    * first step where all are after it. Default -1e300, so the first. No matter where port 0 has no
    * time steps.
@@ -266,6 +297,22 @@ public:
   vtkGetMacro(UnmatchedPoints, vtkIdType);
   ///@}
 
+  /**
+   * The adjoint of a linear method, for shape optimisation: from the derivatives of an objective
+   * with respect to the position of each node of the morphed mesh to those with respect to the
+   * position (or displacement) of each point of the boundary. `rest` and `boundary`: as on the two
+   * ports, which are not looked at. `gradient`: #nodes tuples of 3. `boundaryGradient`: becomes
+   * #points of the boundary tuples of 3; a point that stands for no node gets 0, and so does each
+   * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
+   * used again, and the reverse, as between executions; the cost beyond that is that of an
+   * evaluation. False after an error, which is reported as in an execution: those of an execution,
+   * a gradient of the wrong size or not finite, a method that is not linear.
+   *
+   * @sa vtkMorphAdjoint
+   */
+  bool ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient);
+
 protected:
   vtkMorphAlgorithm();
   ~vtkMorphAlgorithm() override;
@@ -311,7 +358,17 @@ private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
+  friend class vtkMorphAdjoint;
+
   void ResetResults();
+  /// Keeps the mesh at rest, and finds which of its nodes go where.
+  vtkMorphBoundaryMatch::Result Match(
+    vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor);
+  /// Sees to it that the method is prepared for the mesh that is kept.
+  void Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor);
+  /// ApplyTranspose() that throws.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
@@ -322,6 +379,8 @@ private:
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;
   int MaximumSubSteps = 64;
+  bool PostSmooth = false;
+  int PostSmoothIterations = 20;
   double RestTime = -1e300;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
