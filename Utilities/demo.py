@@ -46,6 +46,7 @@ METHODS = (
     Method("Weighted residual", "weighted-residual", "MorphWeightedResidual"),
     Method("Simplex-linear", "simplex-linear", "MorphSimplexLinear"),
     Method("Simplex-natural neighbor", "simplex-natural-neighbor", "MorphSimplexNaturalNeighbor"),
+    Method("Smoothing", "smoothing", "MorphSmoothing"),
 )
 
 

@@ -12,7 +12,7 @@ namespace morph
 {
 /// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all cells. Tetrahedra without a free
 /// node are left out: nothing moves them.
-class MeshEnergy : public Objective
+class MeshEnergy : public SecondOrderObjective
 {
 public:
   /// `free`: ids of the nodes that move, ascending. Cost: passes over the cells; 100 bytes a cell.

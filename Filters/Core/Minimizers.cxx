@@ -163,7 +163,7 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
 
 Objective::~Objective() = default;
 
-Objective::Value newton(const Objective& objective, Points& points, const MinimizerLimits& limits,
+Objective::Value newton(const SecondOrderObjective& objective, Points& points, const MinimizerLimits& limits,
   BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor)
 {
   ++effort.evaluations;

@@ -27,6 +27,12 @@ public:
   virtual Value value(const Points& points, Monitor& monitor) const = 0;
   /// `result`: becomes #free x 3, d(energy)/d(position).
   virtual void gradient(const Points& points, Points& result, Monitor& monitor) const = 0;
+};
+
+/// An objective with second derivatives, for Newton's method.
+class SecondOrderObjective : public Objective
+{
+public:
   /// A positive semi-definite approximation of the second derivatives, #free x #free blocks; a matrix that this
   /// objective has not filled before is opened first.
   virtual void hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const = 0;

@@ -2,6 +2,7 @@
 #include "vtkMorphAlgorithm.h"
 
 #include "Morpher.h"
+#include "SmoothMesh.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphInput.h"
@@ -26,6 +27,23 @@ using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+}
+
+namespace
+{
+/// Smooths `moved` and returns the steps that led to it.
+morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  morph::SmoothingOptions options;
+  options.target = morph::Target::Initial;
+  options.iterationLimit = iterationLimit;
+  options.neverWorse = true;
+  const morph::SmoothingReport report =
+    morph::smoothMesh(rest, orientation, partition, options, moved, monitor);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
 }
 }
 
@@ -180,14 +198,21 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   const auto start = Clock::now();
   morph::Points moved;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
-  monitor.SetRange(0.7, 0.9);
+  kept.Counts = report.counts;
+  if (this->PostSmooth)
+  {
+    monitor.SetRange(0.7, 0.8);
+    kept.Counts.push_back(
+      { "PostSmoothSteps", smoothAfterwards(kept.Mesh, kept.Orientation, partition,
+                             this->PostSmoothIterations, moved, monitor) });
+  }
+  monitor.SetRange(this->PostSmooth ? 0.8 : 0.7, 0.9);
   const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
   this->SolverIterations = report.iterations;
   this->LargestValidStep = valid.LargestValidStep;
   this->SubSteps = static_cast<vtkIdType>(valid.SubSteps);
   kept.Status = valid.Status;
-  kept.Counts = report.counts;
   this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
   this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
 
@@ -259,6 +284,8 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
+  os << indent << "PostSmooth: " << this->PostSmooth << "\n";
+  os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Smoothing.h"
+
+#include "BoundaryDetermined.h"
+#include "Error.h"
+#include "MeshEnergy.h"
+#include "SmoothingTargets.h"
+#include "Topology.h"
+
+namespace morph
+{
+void Smoothing::doPrepare(const Mesh& rest, Monitor&)
+{
+  const Bodies parts = bodies(rest);
+  requirePrescribedBodies(rest, parts, this->partition());
+  this->orientation_ = orientation(rest, parts);
+  this->mesh_ = rest;
+}
+
+bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
+{
+  if (this->options_.target != Target::Initial || !(prescribed.array() == 0).all())
+  {
+    return false;
+  }
+  MeshEnergy energy(this->mesh_, this->partition().free);
+  energy.setTargets(
+    smoothingTargets(this->mesh_, this->orientation_, this->options_.target, monitor));
+  return energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
+}
+
+EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  const NodePartition& partition = this->partition();
+  free.setZero();
+  SmoothingReport smoothing;
+  Index determined = 0;
+  if (!this->isIdentity(prescribed, monitor))
+  {
+    Points points = this->mesh_.points;
+    for (Index i = 0; i < prescribed.rows(); ++i)
+    {
+      points.row(partition.prescribed[i]) += prescribed.row(i);
+    }
+    const std::vector<Index> cells =
+      boundaryDeterminedInversions(this->mesh_, partition, this->orientation_, points);
+    determined = static_cast<Index>(cells.size());
+    if (determined > 0)
+    {
+      monitor.warn("The boundary itself inverts cells whose corners it prescribes: cell ids " +
+                   listIds(cells) +
+                   ". No method can repair them; move the boundary less, or leave some of their "
+                   "nodes free.");
+    }
+    smoothing =
+      smoothMesh(this->mesh_, this->orientation_, partition, this->options_, points, monitor);
+    if (!smoothing.isValid)
+    {
+      monitor.warn("Smoothing could not untangle the mesh. Move the boundary in smaller steps, or "
+                   "use a method that carries the motion inside.");
+    }
+    for (Index i = 0; i < free.rows(); ++i)
+    {
+      const Index node = partition.free[i];
+      free.row(i) = points.row(node) - this->mesh_.points.row(node);
+    }
+  }
+  EvaluateReport report;
+  report.iterations = static_cast<int>(smoothing.untangleSteps + smoothing.newtonSteps);
+  report.counts = { { "UntangleSteps", smoothing.untangleSteps },
+    { "NewtonSteps", smoothing.newtonSteps }, { "LinearIterations", smoothing.linearIterations },
+    { "EnergyEvaluations", smoothing.evaluations }, { "SmoothingPatches", smoothing.patches },
+    { "BoundaryDeterminedCells", determined } };
+  return report;
+}
+}

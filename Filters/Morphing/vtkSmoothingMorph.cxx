@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSmoothingMorph.h"
+
+#include "Smoothing.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkSmoothingMorph);
+
+vtkSmoothingMorph::vtkSmoothingMorph() = default;
+vtkSmoothingMorph::~vtkSmoothingMorph() = default;
+
+std::unique_ptr<morph::Morpher> vtkSmoothingMorph::CreateMorpher()
+{
+  return std::make_unique<morph::Smoothing>();
+}
+
+void vtkSmoothingMorph::SetEvaluateOptions(morph::Morpher& morpher)
+{
+  morph::SmoothingOptions options;
+  options.target = this->TargetShape == INITIAL ? morph::Target::Initial : morph::Target::Ideal;
+  options.iterationLimit = this->IterationLimit;
+  options.stopMove = this->StopMove;
+  static_cast<morph::Smoothing&>(morpher).setOptions(options);
+}
+
+void vtkSmoothingMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "TargetShape: " << this->TargetShape << "\n";
+  os << indent << "IterationLimit: " << this->IterationLimit << "\n";
+  os << indent << "StopMove: " << this->StopMove << "\n";
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSmoothingMorph
+ * @brief   morphs a mesh by moving its boundary and smoothing what is inside
+ *
+ * The boundary moves, the nodes inside stay where they were, and the mesh is smoothed with its
+ * boundary fixed: untangled where the motion inverted cells (Knupp's untangling, by L-BFGS), then
+ * improved by Newton's method on the inverse mean ratio of the cells, first round few bad cells,
+ * then everywhere. This is the smoothing of section 3.1 of Staten et al., with the stages of
+ * Mesquite. Nothing but the smoothing carries the motion inside: motions of more than the cells next
+ * to the boundary tangle the mesh, and not every tangled mesh can be untangled in this way. In many
+ * small steps, each from the mesh of the one before, it comes farther.
+ *
+ * With TargetShape Ideal, the paper's and the default, cells become as regular as they can: a
+ * graded mesh loses its grading, and a boundary that does not move does not leave the mesh as it
+ * is. With Initial cells aim for their shape at rest: no motion is then the identity, and affine
+ * motions are reproduced to the tolerance of the iteration.
+ *
+ * Tetrahedra, hexahedra, wedges, pyramids and mixed meshes; quadratic cells by their corners. Not
+ * linear in the boundary's motion: there is no adjoint. What is valid before the improvement stays
+ * valid, but the improvement is of the mean: the worst cell may get worse.
+ *
+ * Preparing is one pass over the cells. Evaluating takes 3 microseconds of processor time a Newton
+ * step for each tetrahedron, 25 for each hexahedron, and about 2.5 kB a hexahedron meanwhile.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
+ * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311;
+ * P. M. Knupp, "Hexahedral and tetrahedral mesh untangling", Engineering with Computers 17 (2001)
+ * 261-268; T. S. Munson, "Mesh shape-quality optimization using the inverse mean-ratio metric",
+ * Math. Program. 110 (2007) 561-590.
+ *
+ * @sa vtkMorphAlgorithm vtkInversionFreeMorph vtkExtractMorphBoundary
+ */
+#ifndef vtkSmoothingMorph_h
+#define vtkSmoothingMorph_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+#include "vtkMorphAlgorithm.h"
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkSmoothingMorph : public vtkMorphAlgorithm
+{
+public:
+  static vtkSmoothingMorph* New();
+  vtkTypeMacro(vtkSmoothingMorph, vtkMorphAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum TargetShapeType
+  {
+    INITIAL = 0,
+    IDEAL = 1
+  };
+
+  ///@{
+  /**
+   * What cells aim for. Initial: their shape at rest. Ideal: regular tetrahedra, cubes, and wedges
+   * and pyramids with all edges alike. Default Ideal.
+   */
+  vtkSetClampMacro(TargetShape, int, INITIAL, IDEAL);
+  vtkGetMacro(TargetShape, int);
+  void SetTargetShapeToInitial() { this->SetTargetShape(INITIAL); }
+  void SetTargetShapeToIdeal() { this->SetTargetShape(IDEAL); }
+  ///@}
+
+  ///@{
+  /**
+   * Most steps of Newton's method, in each of which every node moves once; untangling takes at most
+   * twenty steps of L-BFGS for each. Default 50, range [1, 100000].
+   */
+  vtkSetClampMacro(IterationLimit, int, 1, 100000);
+  vtkGetMacro(IterationLimit, int);
+  ///@}
+
+  ///@{
+  /**
+   * The improvement ends once no node moves farther in a step than this part of the mean length of
+   * its edges, or once a step improves the mean by less than a millionth. Default 1e-3, range [1e-12, 1].
+   */
+  vtkSetClampMacro(StopMove, double, 1e-12, 1.0);
+  vtkGetMacro(StopMove, double);
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: steps of L-BFGS and of Newton's method, rounds of the latter in which
+   * only the nodes round bad cells moved, iterations of its linear solver, evaluations of the
+   * objectives, and cells that the boundary itself inverts.
+   */
+  vtkIdType GetUntangleSteps() { return this->GetCount("UntangleSteps"); }
+  vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
+  vtkIdType GetSmoothingPatches() { return this->GetCount("SmoothingPatches"); }
+  vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
+  vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
+  vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
+  ///@}
+
+protected:
+  vtkSmoothingMorph();
+  ~vtkSmoothingMorph() override;
+
+  std::unique_ptr<morph::Morpher> CreateMorpher() override;
+  void SetEvaluateOptions(morph::Morpher& morpher) override;
+
+private:
+  vtkSmoothingMorph(const vtkSmoothingMorph&) = delete;
+  void operator=(const vtkSmoothingMorph&) = delete;
+
+  int TargetShape = IDEAL;
+  int IterationLimit = 50;
+  double StopMove = 1e-3;
+};
+
+#endif

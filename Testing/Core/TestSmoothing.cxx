@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+#include "Motions.h"
+
+#include "Error.h"
+#include "MeshEnergy.h"
+#include "ScaledJacobian.h"
+#include "SmoothMesh.h"
+#include "Smoothing.h"
+#include "SmoothingTargets.h"
+#include "Topology.h"
+#include "UntangleEnergy.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace meshes;
+using namespace motions;
+using namespace morph;
+
+namespace
+{
+std::vector<std::int8_t> orientationOf(const Mesh& mesh)
+{
+  return orientation(mesh, bodies(mesh));
+}
+
+Quality qualityOf(const Mesh& mesh, const Points& points)
+{
+  Monitor monitor;
+  return measureQuality(mesh, points, orientationOf(mesh), {}, monitor);
+}
+
+SmoothingReport smooth(
+  const Mesh& mesh, Points& points, const SmoothingOptions& options = {}, int threads = 1)
+{
+  ThreadedMonitor monitor(threads);
+  return smoothMesh(mesh, orientationOf(mesh), outerPartition(mesh), options, points, monitor);
+}
+
+Points morphed(
+  const Mesh& mesh, const Points& target, const SmoothingOptions& options = {}, int threads = 1)
+{
+  ThreadedMonitor monitor(threads);
+  Smoothing method;
+  method.setOptions(options);
+  method.prepare(mesh, outerPartition(mesh), monitor);
+  Points result;
+  method.evaluate(target, result, monitor);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
+  return result;
+}
+
+SmoothingOptions toTarget(Target target)
+{
+  SmoothingOptions options;
+  options.target = target;
+  return options;
+}
+
+/// The free nodes moved by up to `amount`.
+Points scrambled(const Mesh& mesh, double amount)
+{
+  std::mt19937 random(seed());
+  std::uniform_real_distribution<double> jitter(-amount, amount);
+  Points points = mesh.points;
+  for (Index node : outerPartition(mesh).free)
+  {
+    points.row(node) += Row(jitter(random), jitter(random), jitter(random));
+  }
+  return points;
+}
+
+/// The mean inverse mean ratio.
+double measure(const Mesh& mesh, const Points& points, Target target)
+{
+  Monitor monitor;
+  MeshEnergy energy(mesh, outerPartition(mesh).free);
+  energy.setTargets(smoothingTargets(mesh, orientationOf(mesh), target, monitor));
+  return energy.evaluate(points, monitor).energy;
+}
+
+Row gentle(const Row& x)
+{
+  return twist(x, 4, 4, .3);
+}
+
+}
+
+TEST(UntangleEnergy, GradientIsTheSlope)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    for (const Target target : { Target::Ideal, Target::Initial })
+    {
+      Monitor monitor;
+      const std::vector<Index> free = outerPartition(mesh).free;
+      const UntangleEnergy energy(
+        mesh, free, smoothingTargets(mesh, orientationOf(mesh), target, monitor), .3);
+      const Points points = scrambled(mesh, .8);
+      Points gradient;
+      energy.gradient(points, gradient, monitor);
+      ASSERT_GT(gradient.cwiseAbs().maxCoeff(), 1e-6) << name;
+      for (std::size_t i = 0; i < free.size(); i += 5)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          constexpr double Step = 1e-6;
+          Points above = points, below = points;
+          above(free[i], j) += Step;
+          below(free[i], j) -= Step;
+          const double slope =
+            (energy.value(above, monitor).energy - energy.value(below, monitor).energy) /
+            (2 * Step);
+          EXPECT_NEAR(gradient(static_cast<Index>(i), j), slope, 1e-7) << name;
+        }
+      }
+    }
+  }
+}
+
+TEST(UntangleEnergy, IsKnuppsMeasureAndZeroWhereNothingIsTangled)
+{
+  Monitor monitor;
+  const Mesh mesh = hexes(4, 4, 4);
+  const std::vector<Index> free = outerPartition(mesh).free;
+  const TargetShapes targets = smoothingTargets(mesh, orientationOf(mesh), Target::Ideal, monitor);
+  EXPECT_EQ(UntangleEnergy(mesh, free, targets, .9).value(mesh.points, monitor).energy, 0);
+  // Every corner of the unit cubes lacks a tenth.
+  EXPECT_NEAR(
+    UntangleEnergy(mesh, free, targets, 1.1).value(mesh.points, monitor).energy, .04, 1e-12);
+}
+
+TEST(SmoothMesh, RecoversTheLattice)
+{
+  const Mesh mesh = hexes(5, 5, 5);
+  Points points = scrambled(mesh, .25);
+  const SmoothingReport report = smooth(mesh, points);
+  EXPECT_TRUE(report.isValid);
+  EXPECT_EQ(report.untangleSteps, 0);
+  EXPECT_LT(difference(points, mesh.points), 1e-3);
+}
+
+TEST(SmoothMesh, ValidStaysValidAndGetsBetter)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    for (const Target target : { Target::Ideal, Target::Initial })
+    {
+      Points points = scrambled(mesh, .05);
+      const Points start = points;
+      ASSERT_GT(qualityOf(mesh, start).minimum, 0) << name;
+      const SmoothingReport report = smooth(mesh, points, toTarget(target));
+      EXPECT_TRUE(report.isValid) << name;
+      EXPECT_EQ(qualityOf(mesh, points).inverted, 0) << name;
+      EXPECT_LT(measure(mesh, points, target), measure(mesh, start, target)) << name;
+      for (Index node : outerPartition(mesh).prescribed)
+      {
+        EXPECT_EQ(points.row(node), start.row(node)) << name;
+      }
+    }
+  }
+}
+
+TEST(SmoothMesh, Untangles)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    Points points = scrambled(mesh, .6);
+    ASSERT_GT(qualityOf(mesh, points).inverted, 0) << name;
+    const SmoothingReport report = smooth(mesh, points);
+    EXPECT_TRUE(report.isValid) << name;
+    EXPECT_GT(report.untangleSteps, 0) << name;
+    EXPECT_EQ(qualityOf(mesh, points).inverted, 0) << name;
+  }
+}
+
+TEST(SmoothMesh, WorksFirstRoundFewBadCells)
+{
+  const Mesh mesh = hexes(40, 5, 5);
+  Points points = mesh.points;
+  const Index node = 20 + 41 * (2 + 6 * 2);
+  points.row(node) += Row(.46, .46, 0);
+  ASSERT_GT(qualityOf(mesh, points).minimum, 0);
+  ASSERT_LT(qualityOf(mesh, points).minimum, .2);
+  const SmoothingReport report = smooth(mesh, points);
+  EXPECT_EQ(report.patches, 1);
+  EXPECT_LT(report.newtonSteps, 10);
+  EXPECT_LT(difference(points, mesh.points), 1e-3);
+}
+
+TEST(SmoothMesh, NeverWorseGoesBack)
+{
+  // A boundary layer: cubes are not what its cells should become, and the mean may improve at the cost of the worst.
+  Mesh mesh = hexes(4, 4, 4);
+  transform(mesh, [](const Row& x) { return Row(x[0], x[1], .01 * x[2] * x[2] * x[2]); });
+  SmoothingOptions options;
+  options.neverWorse = true;
+  Points points = mesh.points;
+  const SmoothingReport report = smooth(mesh, points, options);
+  EXPECT_GE(qualityOf(mesh, points).minimum, qualityOf(mesh, mesh.points).minimum);
+  EXPECT_TRUE(report.wasKept);
+  EXPECT_TRUE(identical(points, mesh.points));
+
+  options.neverWorse = false;
+  EXPECT_FALSE(smooth(mesh, points, options).wasKept);
+  EXPECT_GT(difference(points, mesh.points), 1e-3);
+}
+
+TEST(SmoothMesh, OptionsEndItEarly)
+{
+  const Mesh mesh = tets(4, 4, 4);
+  const Points start = scrambled(mesh, .2);
+  SmoothingOptions options;
+  options.iterationLimit = 1;
+  Points one = start, all = start;
+  EXPECT_EQ(smooth(mesh, one, options).newtonSteps, 1);
+  options.iterationLimit = 50;
+  options.stopMove = 10;
+  Points coarse = start;
+  EXPECT_EQ(smooth(mesh, coarse, options).newtonSteps, 1);
+  EXPECT_TRUE(identical(coarse, one));
+  EXPECT_GT(smooth(mesh, all).newtonSteps, 1);
+}
+
+TEST(SmoothMesh, AnUnmovableMeshAndCancel)
+{
+  const Mesh mesh = hexes(4, 4, 4);
+  ThreadedMonitor monitor;
+  Points points = mesh.points;
+  smoothMesh(mesh, orientationOf(mesh), NodePartition(), {}, points, monitor);
+  EXPECT_TRUE(identical(points, mesh.points));
+
+  monitor.cancelAt = -1;
+  points = scrambled(mesh, .2);
+  const Points start = points;
+  EXPECT_THROW(
+    smoothMesh(mesh, orientationOf(mesh), outerPartition(mesh), {}, points, monitor), Error);
+  EXPECT_TRUE(identical(points, start));
+}
+
+TEST(Smoothing, PrescribedNodesAreExactAndGentleMotionsStayValid)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    const Points target = targets(mesh, partition, gentle);
+    for (const Target shape : { Target::Ideal, Target::Initial })
+    {
+      const Points result = morphed(mesh, target, toTarget(shape));
+      EXPECT_TRUE(identical(rows(result, partition.prescribed), target)) << name;
+      EXPECT_EQ(qualityOf(mesh, result).inverted, 0) << name;
+    }
+  }
+}
+
+TEST(Smoothing, NoMotionIsTheIdentityForTheInitialShapesOnly)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const Points target = rows(mesh.points, outerPartition(mesh).prescribed);
+    EXPECT_TRUE(identical(morphed(mesh, target, toTarget(Target::Initial)), mesh.points)) << name;
+    EXPECT_GT(difference(morphed(mesh, target), mesh.points), 1e-3) << name;
+  }
+}
+
+TEST(Smoothing, AffineMotionsComeOutForTheInitialShapes)
+{
+  SmoothingOptions options = toTarget(Target::Initial);
+  for (const auto& [name, mesh] : jittered())
+  {
+    const auto map = [](const Row& x) -> Row { return x + .4 * (affine(x) - x); };
+    const Points result = morphed(mesh, targets(mesh, outerPartition(mesh), map), options);
+    EXPECT_LT(difference(result, mapped(mesh.points, map)), 1e-3 * size(mesh.points)) << name;
+  }
+}
+
+TEST(Smoothing, PositionRotationAndScaleDoNotShow)
+{
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(.8, Eigen::Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+  double scale = 1e-7;
+  for (const auto& [name, mesh] : jittered())
+  {
+    const auto move = [&](const Row& x) -> Row { return scale * (x * turn + Row(3, -1, 2)); };
+    const Points target = targets(mesh, outerPartition(mesh), gentle);
+    Mesh other = mesh;
+    other.points = mapped(mesh.points, move);
+    const Points expected = mapped(morphed(mesh, target), move);
+    // The edges have length 1, and the iteration ends at moves of 1e-3.
+    EXPECT_LT(difference(morphed(other, mapped(target, move)), expected) / scale, 1e-3) << name;
+    scale *= 100;
+  }
+}
+
+TEST(Smoothing, NumberingDoesNotShow)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const std::vector<Index> order = shuffledNumbers(mesh.numberOfNodes());
+    const Mesh other = renumbered(mesh, order);
+    const Points a = morphed(mesh, targets(mesh, outerPartition(mesh), gentle));
+    const Points b = morphed(other, targets(other, outerPartition(other), gentle));
+    Points back(a.rows(), 3);
+    for (Index n = 0; n < a.rows(); ++n)
+    {
+      back.row(n) = b.row(order[n]);
+    }
+    EXPECT_LT(difference(a, back), 1e-4) << name;
+  }
+}
+
+TEST(Smoothing, ThreadsAndEarlierCallsDoNotShow)
+{
+  const Mesh mesh = hexesAndPyramids(4, 4, 4);
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(mesh, partition, [](const Row& x) { return twist(x, 4, 4, .6); });
+  ThreadedMonitor one(1), three(3);
+  Smoothing method;
+  method.prepare(mesh, partition, three);
+  Points a, b, c;
+  method.evaluate(target, a, one);
+  method.evaluate(rows(mesh.points, partition.prescribed), b, one);
+  method.evaluate(target, c, three);
+  EXPECT_TRUE(identical(a, c));
+}
+
+TEST(Smoothing, ABoundaryThatInvertsCellsIsNamed)
+{
+  const Mesh mesh = hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  Points target = rows(mesh.points, partition.prescribed);
+  // The corner of the box through its cell: its seven other nodes are on the outside too, but for one.
+  target.row(0) = Row(1.5, 1.5, 1.5);
+  ThreadedMonitor monitor;
+  Smoothing method;
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  const EvaluateReport report = method.evaluate(target, result, monitor);
+  ASSERT_FALSE(monitor.warnings.empty());
+  EXPECT_NE(monitor.warnings.front().find("cell ids 0."), std::string::npos)
+    << monitor.warnings.front();
+  EXPECT_EQ(report.counts.back().name, "BoundaryDeterminedCells");
+  EXPECT_EQ(report.counts.back().value, 1);
+}
+
+TEST(Smoothing, WhatCannotBeUntangledComesWithAWarning)
+{
+  // The two ends of a box pushed through each other: no interior can be valid.
+  const Mesh mesh = hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  const Points target =
+    targets(mesh, partition, [](const Row& x) { return Row(-x[0], x[1], x[2]); });
+  ThreadedMonitor monitor;
+  Smoothing method;
+  method.prepare(mesh, partition, monitor);
+  Points result;
+  method.evaluate(target, result, monitor);
+  ASSERT_FALSE(monitor.warnings.empty());
+  EXPECT_NE(monitor.warnings.back().find("could not untangle"), std::string::npos);
+  EXPECT_TRUE(identical(rows(result, partition.prescribed), target));
+  EXPECT_TRUE(result.allFinite());
+}
+
+TEST(Smoothing, ABodyWithoutAPrescribedNodeIsNamed)
+{
+  const Mesh mesh = hexes(3, 3, 3);
+  Mesh two = mesh;
+  two.points.conservativeResize(2 * mesh.points.rows(), 3);
+  two.points.bottomRows(mesh.points.rows()) = mesh.points.rowwise() + Row(10, 0, 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + 8);
+    for (Index& node : nodes)
+    {
+      node += mesh.numberOfNodes();
+    }
+    add(two, Hexahedron, nodes);
+  }
+  Monitor monitor;
+  Smoothing method;
+  std::string message;
+  EXPECT_EQ(
+    kindOf([&]
+      { method.prepare(two, partitionNodes(two, outerPartition(mesh).prescribed), monitor); },
+      message),
+    Error::Kind::Singular);
+  EXPECT_NE(message.find("no prescribed node"), std::string::npos) << message;
+}
