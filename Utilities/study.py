@@ -73,15 +73,15 @@ def parse_arguments():
     parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
     parser.add_argument("--quick", action="store_true",
-                        help="a small bore, 4 steps, two bricks: in a minute")
+                        help="a small bore, 4 steps, one brick: in a minute")
     parser.add_argument("--report", action="store_true", help="run nothing")
     parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
                         help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
     arguments = parser.parse_args()
-    arguments.sizes = study_scaling.SIZES
+    arguments.sizes, arguments.repeats = study_scaling.SIZES, study_scaling.REPEATS
     if arguments.quick:
         arguments.models, arguments.steps, arguments.small = ["bore"], 4, True
-        arguments.sizes = (4, 6)
+        arguments.sizes, arguments.repeats = (2,), 1
     return arguments
 
 
@@ -94,7 +94,7 @@ def main():
         load_plugin(arguments.plugin)
         study(arguments, records)
         if not arguments.no_scaling:
-            study_scaling.run(scaling, arguments.methods, arguments.sizes)
+            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats)
     write_report(arguments.output, records, scaling, arguments.steps)
 
 

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <tuple>
 
@@ -45,7 +46,7 @@ double percentileOf(vtkDataArray* values, double percent)
   return *place;
 }
 
-/// Adds a column with a value for each row.
+/// A column of a table, to be filled.
 template <typename Array, typename Value>
 class Column
 {
@@ -179,17 +180,19 @@ void WriteSteps(const std::vector<vtkMorphRun>& runs, vtkTable* output)
 void WriteChart(
   const std::vector<vtkMorphRun>& runs, const std::vector<double>& times, vtkTable* output)
 {
+  // All columns before the first row: a table takes none that is shorter than the others.
   Numbers time(output, "Time");
-  for (const double t : times)
-  {
-    time.Add(t);
-  }
+  std::deque<Numbers> minimum;
   for (const vtkMorphRun& run : runs)
   {
-    Numbers minimum(output, run.Title().c_str());
-    for (std::size_t i = 0; i < times.size(); ++i)
+    minimum.emplace_back(output, run.Title().c_str());
+  }
+  for (std::size_t i = 0; i < times.size(); ++i)
+  {
+    time.Add(times[i]);
+    for (std::size_t r = 0; r < runs.size(); ++r)
     {
-      minimum.Add(i < run.Steps.size() ? run.Steps[i].Minimum : NaN);
+      minimum[r].Add(i < runs[r].Steps.size() ? runs[r].Steps[i].Minimum : NaN);
     }
   }
 }
