@@ -23,7 +23,7 @@ packages=(
   libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
   libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
   libavutil-dev libswscale-dev libboost-dev python3-mpi4py
-  libgtest-dev gmsh python3-gmsh xvfb xauth imagemagick)
+  libgtest-dev gmsh python3-gmsh python3-matplotlib xvfb xauth imagemagick)
 
 for option in "$@"; do
   case "$option" in

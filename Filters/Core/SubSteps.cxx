@@ -38,10 +38,10 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   return result;
 }
 
-SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const BoundaryPath& path,
-  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
-  Monitor& monitor)
+SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
+  const NodePartition& partition, const std::vector<std::int8_t>& orientation,
+  const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
+  const SubStepLimits& limits, Monitor& monitor)
 {
   const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
   if (!atRest.empty())
@@ -64,7 +64,7 @@ SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
     SubMonitor part(monitor, result.reached, std::min(1., result.reached + step));
     const double time = result.reached + step >= 1 - limits.least / 2 ? 1 : result.reached + step;
     std::unique_ptr<Morpher> morpher = make();
-    morpher->setReference(rest.points);
+    morpher->setReference(reference);
     morpher->prepare(valid, partition, part);
     Points moved;
     const int before = result.report.iterations;

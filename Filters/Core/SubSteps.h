@@ -35,13 +35,13 @@ struct SubStepResult
 
 /// Follows the path in steps, each from the mesh that the step before left, by a method prepared on it; a step that leaves inverted or
 /// degenerate cells is taken back and halved, and after two good ones in a row doubled. `make`: a method with its options, not
-/// prepared yet; its setReference() is given the rest mesh. `orientation`: #cells, of the rest mesh. Throws Error for a rest mesh
+/// prepared yet; its setReference() is given `reference`, #nodes x 3. `orientation`: #cells, of the rest mesh. Throws Error for a rest mesh
 /// with inverted cells, and what prepare() throws at the first attempt. Cost: an attempt's prepare() and
 /// evaluate(), at most `limits.attempts` times.
-SubStepResult followInSubSteps(const Mesh& rest, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const BoundaryPath& path,
-  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
-  Monitor& monitor);
+SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
+  const NodePartition& partition, const std::vector<std::int8_t>& orientation,
+  const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
+  const SubStepLimits& limits, Monitor& monitor);
 
 /// Ids of the cells whose scaled Jacobian is not positive, degenerate ones included, ascending.
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,

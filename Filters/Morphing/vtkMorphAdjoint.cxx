@@ -142,7 +142,7 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   {
     vtkMorphAlgorithm* morph = this->FindMorph();
     return this->Ports->RequestUpdateExtent(
-      morph ? morph->GetRestTime() : 0, inputVector, outputVector);
+      morph ? morph->GetRestTime() : 0, vtkMorphPorts::AskedTime(outputVector), inputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }

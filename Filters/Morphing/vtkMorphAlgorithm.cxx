@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAlgorithm.h"
 
+#include "BoundaryDetermined.h"
 #include "Error.h"
 #include "Morpher.h"
 #include "SmoothMesh.h"
@@ -15,16 +16,27 @@
 #include "vtkMorphOutput.h"
 #include "vtkMorphPorts.h"
 #include "vtkMorphQuality.h"
+#include "vtkMorphRanks.h"
+#include "vtkMorphSeries.h"
+#include "vtkMorphSteps.h"
 #include "vtkMorphValidity.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
 #include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationVector.h>
 #include <vtkPointSet.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 
 namespace
 {
@@ -34,10 +46,7 @@ double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-}
 
-namespace
-{
 /// Smooths `moved` and returns the steps that led to it.
 morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
@@ -66,11 +75,23 @@ struct vtkMorphAlgorithm::vtkInternals
   std::string Status;               ///< as of the last execution
   vtkMorphPorts Ports;
 
+  vtkMorphSteps Steps;
+  int Step = -1;         ///< asked for, of Steps
+  int BoundaryStep = -1; ///< that the boundary is asked for
+  bool Repeat = false;   ///< the execution, at the boundary's next step
+  vtkMorphSeries Series;
+  vtkMTimeType OwnTime = 0;      ///< of the filter, for Series
+  vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Series where it varies
+  vtkMorphBoundaryMatch::Result Whole; ///< the whole motion, for Series where it does not
+
   explicit vtkInternals(vtkAlgorithm* filter)
     : Ports(filter)
   {
   }
 
+  bool IsSeries(int stepping) const { return stepping == RELATIVE && this->Steps.Any(); }
+  /// Forgets the series if the filter, or a boundary that varies, was modified since.
+  void CheckSeries(vtkMTimeType own, vtkMTimeType boundary);
   /// Takes the grid over unless it is what is kept already.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 };
@@ -90,9 +111,20 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
     this->Outer = morph::boundaryFaces(mesh, monitor);
   }
   this->Morpher.reset();
+  this->Series.Clear();
   this->Orientation = std::move(orientation);
   this->Size = vtkMorphMesh::Size(mesh);
   this->Mesh = std::move(mesh);
+}
+
+void vtkMorphAlgorithm::vtkInternals::CheckSeries(vtkMTimeType own, vtkMTimeType boundary)
+{
+  if (own != this->OwnTime || (this->Steps.FromBoundary() && boundary != this->BoundaryTime))
+  {
+    this->Series.Clear();
+  }
+  this->OwnTime = own;
+  this->BoundaryTime = boundary;
 }
 
 vtkMorphAlgorithm::vtkMorphAlgorithm()
@@ -126,25 +158,65 @@ int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 int vtkMorphAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+  const int done = vtkMorphPorts::RequestInformation(inputVector, outputVector);
+  const vtkMorphSteps steps(this->NumberOfSteps, inputVector[1]->GetInformationObject(0));
+  steps.Write(outputVector->GetInformationObject(0));
+  return done;
 }
 
 int vtkMorphAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return this->Internals->Ports.RequestUpdateExtent(this->RestTime, inputVector, outputVector);
+  vtkInternals& kept = *this->Internals;
+  vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
+  std::optional<double> time = vtkMorphPorts::AskedTime(outputVector);
+  kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
+  kept.Step = kept.Steps.Asked(outputVector->GetInformationObject(0));
+  kept.BoundaryStep = kept.Step;
+  if (kept.IsSeries(this->Stepping))
+  {
+    auto* upstream =
+      boundary ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(1, 0)) : nullptr;
+    kept.CheckSeries(this->GetMTime(), upstream ? upstream->GetPipelineMTime() : 0);
+    const int last = kept.Series.LastUntil(kept.Step).first;
+    kept.BoundaryStep = std::min(kept.Step, last + 1);
+    time = kept.Steps.Time(kept.BoundaryStep);
+  }
+  if (kept.Steps.Any() && !kept.Steps.FromBoundary())
+  {
+    time.reset(); // it is not the boundary's
+  }
+  return kept.Ports.RequestUpdateExtent(this->RestTime, time, inputVector);
 }
 
 int vtkMorphAlgorithm::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkInternals& kept = *this->Internals;
   std::string partial;
+  kept.Repeat = false;
+  // A process without cells has no series, and would not know which step to ask the boundary for.
+  if (kept.IsSeries(this->Stepping) && kept.Steps.FromBoundary() && vtkMorphRanks::Count(true) > 1)
+  {
+    this->ResetResults();
+    vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
+                  "Run on one, or set Stepping to Absolute.");
+    return 0;
+  }
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
     { partial = this->Morph(grid, boundary, output, monitor); } };
-  const int done = this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
+  const int done = kept.Ports.RequestData(task, request, inputVector, outputVector);
+  if (kept.Repeat)
+  {
+    request->Set(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING(), 1);
+  }
+  else if (done && kept.Steps.Any() && !kept.Steps.FromBoundary())
+  {
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
+  }
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
@@ -152,17 +224,41 @@ int vtkMorphAlgorithm::RequestData(
   return done;
 }
 
-vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
-  vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
   kept.SetGrid(grid, monitor);
+  std::shared_ptr<const vtkMorphStepResult> result;
+  if (kept.IsSeries(this->Stepping))
+  {
+    result = this->MorphSeries(displaced, monitor);
+    if (!result)
+    {
+      return {};
+    }
+  }
+  else
+  {
+    monitor.SetRange(0, 0.9);
+    const double part = kept.Steps.Any() ? kept.Steps.Fraction(kept.Step) : 1;
+    result = std::make_shared<vtkMorphStepResult>(this->MorphStep(
+      kept.Mesh, this->Match(displaced, part, monitor), this->Validity, 0, 0.9, monitor));
+  }
+  monitor.SetRange(0.9, 1);
+  this->Write(grid, *result, output, monitor);
+  return result->Valid.Error;
+}
 
+vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
+  vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const
+{
+  const vtkInternals& kept = *this->Internals;
   vtkMorphBoundaryMatch::Options options;
   options.BoundaryIdArray = vtkMorphInput::ArrayName(this->BoundaryIdArray);
   options.DisplacementArray = vtkMorphInput::ArrayName(this->DisplacementArray);
-  options.ScaleFactor = this->ScaleFactor;
+  options.ScaleFactor = this->ScaleFactor * part;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
   vtkMorphBoundaryMatch::Result match =
@@ -175,33 +271,65 @@ vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
   return match;
 }
 
-void vtkMorphAlgorithm::Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
+  vtkPointSet* displaced, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  monitor.SetRange(0.05, 0.4);
-  const std::string prepareOptions = this->PrepareOptions();
-  if (!kept.Morpher || kept.Options != prepareOptions ||
-      kept.Morpher->partition().prescribed != partition.prescribed)
+  const bool varies = kept.Steps.FromBoundary();
+  if (!varies)
   {
-    const auto start = Clock::now();
-    kept.Morpher.reset();
-    std::unique_ptr<morph::Morpher> morpher = this->CreateMorpher();
-    morpher->prepare(kept.Mesh, partition, monitor);
-    kept.Morpher = std::move(morpher);
-    kept.Options = prepareOptions;
-    ++this->PrepareCount;
-    this->PrepareSeconds = secondsSince(start);
+    vtkMorphBoundaryMatch::Result whole = this->Match(displaced, 1, monitor);
+    if (whole.Ids != kept.Whole.Ids || whole.Targets != kept.Whole.Targets)
+    {
+      kept.Series.Clear();
+      kept.Whole = std::move(whole);
+    }
   }
+  auto [step, result] = kept.Series.LastUntil(kept.Step);
+  // The boundary at hand is that of one step; of the steps before it none may have been lost since it was asked for.
+  const int until = !varies ? kept.Step : kept.BoundaryStep == step + 1 ? kept.BoundaryStep : step;
+  const double first = step;
+  while (step < until)
+  {
+    ++step;
+    morph::Mesh from = kept.Mesh;
+    if (result)
+    {
+      from.points = result->Moved;
+    }
+    // Inverted cells on the way are no news: the user asked for the last step.
+    const bool silent = step < kept.Step && this->Validity == VALIDITY_REPORT;
+    const auto progress = [&](int n) { return 0.9 * (n - first) / (kept.Step - first); };
+    try
+    {
+      result = std::make_shared<vtkMorphStepResult>(
+        this->MorphStep(from, this->Match(displaced, kept.Steps.Fraction(step), monitor),
+          silent ? VALIDITY_NONE : this->Validity, progress(step - 1), progress(step), monitor));
+    }
+    catch (const morph::Error& error)
+    {
+      throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
+    }
+    if (step < kept.Step && !result->Valid.Error.empty())
+    {
+      monitor.warn("Step " + std::to_string(step) + ": " + result->Valid.Error);
+    }
+    kept.Series.Keep(step, result, this->StepMemoryLimit);
+  }
+  kept.Repeat = step < kept.Step;
+  return kept.Repeat ? nullptr : result;
 }
 
-std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
+  const vtkMorphBoundaryMatch::Result& match, int validityMode, double first, double last,
+  vtkMorphMonitor& monitor)
 {
-  const vtkMorphBoundaryMatch::Result match = this->Match(grid, boundary, monitor);
   vtkInternals& kept = *this->Internals;
-  const morph::NodePartition partition = morph::partitionNodes(kept.Mesh, match.Ids);
-  const vtkMorphValidity validity{ this->Validity, this->MaximumSubSteps, kept.Mesh, partition,
-    kept.Orientation, match.Targets,
+  const auto part = [&](double a, double b)
+  { monitor.SetRange(first + a * (last - first), first + b * (last - first)); };
+  const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
+  const vtkMorphValidity validity{ validityMode, this->MaximumSubSteps, from, kept.Mesh.points,
+    partition, kept.Orientation, match.Targets,
     [this]
     {
       auto morpher = this->CreateMorpher();
@@ -209,33 +337,76 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
       return morpher;
     } };
   validity.RequireFeasible();
-  this->Prepare(partition, monitor);
 
-  monitor.SetRange(0.4, 0.7);
+  part(0.05, 0.45);
+  this->Prepare(from, partition, monitor);
+
+  part(0.45, 0.75);
   this->SetEvaluateOptions(*kept.Morpher);
   const auto start = Clock::now();
-  morph::Points moved;
-  const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, moved, monitor);
-  kept.Counts = report.counts;
+  vtkMorphStepResult result;
+  const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, result.Moved, monitor);
+  result.Counts = report.counts;
   if (this->PostSmooth)
   {
-    monitor.SetRange(0.7, 0.8);
-    kept.Counts.push_back(
+    part(0.75, 0.85);
+    result.Counts.push_back(
       { "PostSmoothSteps", smoothAfterwards(kept.Mesh, kept.Orientation, partition,
-                             this->PostSmoothIterations, moved, monitor) });
+                             this->PostSmoothIterations, result.Moved, monitor) });
   }
-  monitor.SetRange(this->PostSmooth ? 0.8 : 0.7, 0.9);
-  const vtkMorphValidity::Outcome valid = validity.Ensure(moved, monitor);
+  part(this->PostSmooth ? 0.85 : 0.75, 1);
+  result.Valid = validity.Ensure(result.Moved, monitor);
   this->EvaluateSeconds = secondsSince(start);
-  this->SolverIterations = report.iterations;
-  this->LargestValidStep = valid.LargestValidStep;
-  this->SubSteps = static_cast<vtkIdType>(valid.SubSteps);
-  kept.Status = valid.Status;
-  this->PrescribedPoints = static_cast<vtkIdType>(match.Ids.size());
-  this->UnmatchedPoints = static_cast<vtkIdType>(match.Unmatched);
+  if (result.Valid.Status == "Inverted")
+  {
+    result.BoundaryInverted = static_cast<morph::Index>(
+      morph::boundaryDeterminedInversions(from, partition, kept.Orientation, result.Moved).size());
+  }
+  result.Iterations = report.iterations;
+  result.Prescribed = static_cast<morph::Index>(match.Ids.size());
+  result.Unmatched = match.Unmatched;
+  return result;
+}
 
-  monitor.SetRange(0.9, 1);
-  vtkMorphOutput::Write(grid, kept.Mesh.points, moved, this->OutputPointsPrecision, output);
+void vtkMorphAlgorithm::Prepare(
+  const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
+  const std::string options = this->PrepareOptions();
+  this->PrepareSeconds = 0;
+  if (kept.Morpher && kept.Options == options &&
+      kept.Morpher->partition().prescribed == partition.prescribed &&
+      kept.Morpher->restPoints() == from.points)
+  {
+    return;
+  }
+  const auto start = Clock::now();
+  kept.Morpher.reset();
+  std::unique_ptr<morph::Morpher> morpher = this->CreateMorpher();
+  if (from.points != kept.Mesh.points)
+  {
+    morpher->setReference(kept.Mesh.points);
+  }
+  morpher->prepare(from, partition, monitor);
+  kept.Morpher = std::move(morpher);
+  kept.Options = options;
+  ++this->PrepareCount;
+  this->PrepareSeconds = secondsSince(start);
+}
+
+void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
+  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
+  this->SolverIterations = result.Iterations;
+  this->LargestValidStep = result.Valid.LargestValidStep;
+  this->SubSteps = static_cast<vtkIdType>(result.Valid.SubSteps);
+  kept.Status = result.Valid.Status;
+  kept.Counts = result.Counts;
+  this->PrescribedPoints = static_cast<vtkIdType>(result.Prescribed);
+  this->UnmatchedPoints = static_cast<vtkIdType>(result.Unmatched);
+
+  vtkMorphOutput::Write(grid, kept.Mesh.points, result.Moved, this->OutputPointsPrecision, output);
   const morph::Quality quality =
     vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
   vtkMorphQuality::Write(quality, output);
@@ -244,6 +415,8 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   this->InvertedCells = quality.inverted;
   this->DegenerateCells = quality.degenerate;
   this->WorstCellId = quality.worstCell;
+  this->BoundaryInvertedCells = static_cast<vtkIdType>(result.BoundaryInverted);
+  vtkMorphOutput::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
   vtkMorphOutput::AddField(output, "PrepareSeconds", this->PrepareSeconds);
   vtkMorphOutput::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
   vtkMorphOutput::AddField(output, "SolverIterations", this->SolverIterations);
@@ -253,7 +426,6 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   }
   vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
   vtkMorphOutput::AddField(output, "LargestValidStep", this->LargestValidStep);
-  return valid.Error;
 }
 
 const char* vtkMorphAlgorithm::GetMorphStatus() const
@@ -284,16 +456,20 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
 {
   const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
-  const vtkMorphBoundaryMatch::Result match = this->Match(rest, boundary, monitor);
-  this->Prepare(morph::partitionNodes(this->Internals->Mesh, match.Ids), monitor);
-  auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Internals->Morpher.get());
+  vtkInternals& kept = *this->Internals;
+  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  kept.SetGrid(rest, monitor);
+  const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);
+  monitor.SetRange(0.05, 0.5);
+  this->Prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(kept.Morpher.get());
   if (!linear)
   {
     throw morph::Error(std::string(this->GetClassName()) +
                        " is not a linear method, so it has no adjoint that is the same for all "
                        "motions. Use one that is, FEMWARP for instance.");
   }
-  const std::string& status = this->Internals->Status;
+  const std::string& status = kept.Status;
   if (this->PostSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
   {
     monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
@@ -327,6 +503,7 @@ void vtkMorphAlgorithm::ResetResults()
   this->InvertedCells = 0;
   this->DegenerateCells = 0;
   this->WorstCellId = -1;
+  this->BoundaryInvertedCells = 0;
   this->PrepareSeconds = 0;
   this->EvaluateSeconds = 0;
   this->Internals->Status = "None";
@@ -344,6 +521,9 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
+  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "Stepping: " << this->Stepping << "\n";
+  os << indent << "StepMemoryLimit: " << this->StepMemoryLimit << "\n";
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
@@ -358,6 +538,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InvertedCells: " << this->InvertedCells << "\n";
   os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
+  os << indent << "BoundaryInvertedCells: " << this->BoundaryInvertedCells << "\n";
   os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
   os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
   os << indent << "MorphStatus: " << this->GetMorphStatus() << "\n";

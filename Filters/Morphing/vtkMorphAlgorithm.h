@@ -29,7 +29,7 @@
  *
  * The output has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
- * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
+ * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells,
  * PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers are there as getters after
  * an execution. Mid-side, face and body nodes of quadratic cells that are not prescribed keep their
  * place in the cell. Cells of lower dimension pass through.
@@ -39,14 +39,15 @@
  * same content, whatever their modification times. So moving the same boundary again only costs the
  * evaluation; see GetPrepareCount().
  *
- * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime.
+ * Time: the output has the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
+ * asked for RestTime. Stepping tells whether a step starts from the mesh at rest or from the mesh of the step before.
  *
  * Errors give no result: one message, and an empty output. Among them: composite data (use Merge
  * Blocks first), no points, no volume cells, cells of other types than tetrahedra, hexahedra, voxels, wedges,
  * pyramids and their quadratic forms, coordinates that are not finite, no way to match the
  * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
  * a node with two targets, ids that RestPosition contradicts, a ScaleFactor that is not finite,
- * cells on more than one MPI rank. An execution that is aborted gives an empty output and no
+ * cells on more than one MPI rank, relative steps after a boundary that varies in time on several processes. An execution that is aborted gives an empty output and no
  * message, as VTK itself does. Inverted cells are no error by themselves: see Validity.
  *
  * With several MPI processes an execution is collective: it has to take place on all of them.
@@ -68,8 +69,14 @@
 
 namespace morph
 {
+struct Mesh;
+struct NodePartition;
 class Morpher;
 struct NodePartition;
+}
+namespace vtkMorphBoundaryMatch
+{
+struct Result;
 }
 
 namespace vtkMorphBoundaryMatch
@@ -81,6 +88,7 @@ class vtkDataArray;
 class vtkDoubleArray;
 class vtkMorphMonitor;
 class vtkPointSet;
+struct vtkMorphStepResult;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAlgorithm : public vtkUnstructuredGridAlgorithm
 {
@@ -124,6 +132,49 @@ public:
    */
   vtkSetMacro(ScaleFactor, double);
   vtkGetMacro(ScaleFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * Steps that the motion of a boundary which does not vary in time is cut into, equal in length: the output then has the time
+   * steps 0 (at rest), 1, ..., NumberOfSteps, and at step i the boundary has made i / NumberOfSteps of ScaleFactor's
+   * motion. Between steps the one before counts; where no time is asked for, the last. A boundary with several time steps
+   * has its own and this is without effect; one with a time range alone is taken at the ends of that many equal parts of
+   * it. Default 0: no steps. Range [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfSteps, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfSteps, int);
+  ///@}
+
+  enum SteppingType
+  {
+    ABSOLUTE = 0,
+    RELATIVE = 1
+  };
+
+  ///@{
+  /**
+   * From which mesh a step starts. Absolute: from the mesh at rest. Relative: from the mesh of the step before, in double
+   * precision, for which the method is prepared anew, and the first from the mesh at rest; cells are still measured against, and
+   * vtkInversionFreeMorph still aims for, the mesh at rest. A relative step is the same whether all steps before
+   * it were asked for or none: those that are missing are computed, the boundary being asked for their times (on one MPI
+   * process only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step alone, 0 where it was kept. No
+   * matter without steps. Default Absolute.
+   */
+  vtkSetClampMacro(Stepping, int, ABSOLUTE, RELATIVE);
+  vtkGetMacro(Stepping, int);
+  void SetSteppingToAbsolute() { this->SetStepping(ABSOLUTE); }
+  void SetSteppingToRelative() { this->SetStepping(RELATIVE); }
+  ///@}
+
+  ///@{
+  /**
+   * Megabytes (10^6 bytes) that the meshes of a relative run may take, 24 bytes a node and step. Beyond it every other one is dropped, and
+   * going back to it takes some steps again; the result does not depend on it. The last one is kept in
+   * any case. Default 1000, range [0, 1e12].
+   */
+  vtkSetClampMacro(StepMemoryLimit, double, 0.0, 1e12);
+  vtkGetMacro(StepMemoryLimit, double);
   ///@}
 
   ///@{
@@ -251,6 +302,12 @@ public:
   vtkGetMacro(WorstCellId, vtkIdType);
   ///@}
 
+  /**
+   * Cells of the last execution's output that no method could have kept valid, since at one of their corners all four nodes are prescribed
+   * and span no positive volume. Field data BoundaryInvertedCells.
+   */
+  vtkGetMacro(BoundaryInvertedCells, vtkIdType);
+
   ///@{
   /**
    * Wall-clock seconds that the last execution spent preparing (0 where it used what an earlier one
@@ -361,21 +418,31 @@ private:
   friend class vtkMorphAdjoint;
 
   void ResetResults();
-  /// Keeps the mesh at rest, and finds which of its nodes go where.
-  vtkMorphBoundaryMatch::Result Match(
-    vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor);
-  /// Sees to it that the method is prepared for the mesh that is kept.
-  void Prepare(const morph::NodePartition& partition, vtkMorphMonitor& monitor);
   /// ApplyTranspose() that throws.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
     vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
+  vtkMorphBoundaryMatch::Result Match(
+    vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const;
+  /// The step that is asked for, or null where the boundary is first needed at another time.
+  std::shared_ptr<const vtkMorphStepResult> MorphSeries(
+    vtkPointSet* displaced, vtkMorphMonitor& monitor);
+  /// `first`, `last`: of the progress.
+  vtkMorphStepResult MorphStep(const morph::Mesh& from, const vtkMorphBoundaryMatch::Result& match,
+    int validityMode, double first, double last, vtkMorphMonitor& monitor);
+  void Prepare(
+    const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor);
+  void Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
+    vtkUnstructuredGrid* output, vtkMorphMonitor& monitor);
 
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;
   double ScaleFactor = 1;
+  int NumberOfSteps = 0;
+  int Stepping = ABSOLUTE;
+  double StepMemoryLimit = 1000;
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;
   int MaximumSubSteps = 64;
@@ -390,6 +457,7 @@ private:
   vtkIdType InvertedCells;
   vtkIdType DegenerateCells;
   vtkIdType WorstCellId;
+  vtkIdType BoundaryInvertedCells;
   double PrepareSeconds;
   double EvaluateSeconds;
   double LargestValidStep;

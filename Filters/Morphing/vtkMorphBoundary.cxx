@@ -203,7 +203,8 @@ int vtkMorphBoundary::RequestInformation(
 int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return this->Internals->Ports.RequestUpdateExtent(this->RestTime, inputVector, outputVector);
+  return this->Internals->Ports.RequestUpdateExtent(
+    this->RestTime, vtkMorphPorts::AskedTime(outputVector), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(

@@ -7,10 +7,11 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
 #include <vtkInformationVector.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <string>
@@ -38,14 +39,24 @@ int vtkMorphPorts::RequestInformation(
   return 1;
 }
 
+std::optional<double> vtkMorphPorts::AskedTime(vtkInformationVector* outputVector)
+{
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    return std::nullopt;
+  }
+  return output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+}
+
 int vtkMorphPorts::RequestUpdateExtent(
-  double restTime, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector)
 {
   if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
   {
     auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetInputExecutive(0, 0));
-    this->Time.Request(restTime, upstream ? upstream->GetPipelineMTime() : 0,
-      inputVector[0]->GetInformationObject(0), boundary, outputVector->GetInformationObject(0));
+    this->Time.Request(restTime, upstream ? upstream->GetPipelineMTime() : 0, boundaryTime,
+      inputVector[0]->GetInformationObject(0), boundary);
   }
   return 1;
 }

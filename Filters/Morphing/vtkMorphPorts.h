@@ -27,9 +27,11 @@ public:
   static int FillInformation(int port, vtkInformation* info);
   static int RequestInformation(
     vtkInformationVector** inputVector, vtkInformationVector* outputVector);
-  /// `restTime`: see vtkMorphTime.
+  /// The time that the filter's output is asked for.
+  static std::optional<double> AskedTime(vtkInformationVector* outputVector);
+  /// `restTime`, `boundaryTime`: see vtkMorphTime.
   int RequestUpdateExtent(
-    double restTime, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+    double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector);
 
   struct Task
   {

@@ -26,8 +26,8 @@ void vtkMorphTime::CopyDataTime(vtkDataObject* boundary, vtkDataObject* output)
   output->GetInformation()->CopyEntry(boundary->GetInformation(), vtkDataObject::DATA_TIME_STEP());
 }
 
-void vtkMorphTime::Request(double restTime, vtkMTimeType meshTime, vtkInformation* mesh,
-  vtkInformation* boundary, vtkInformation* output)
+void vtkMorphTime::Request(double restTime, vtkMTimeType meshTime,
+  std::optional<double> boundaryTime, vtkInformation* mesh, vtkInformation* boundary)
 {
   const double lastStep = this->RestStep;
   this->HasRestStep = true;
@@ -71,9 +71,13 @@ void vtkMorphTime::Request(double restTime, vtkMTimeType meshTime, vtkInformatio
   {
     boundary->Set(Pipeline::UPDATE_TIME_STEP(), this->RestStep);
   }
+  else if (boundaryTime)
+  {
+    boundary->Set(Pipeline::UPDATE_TIME_STEP(), *boundaryTime);
+  }
   else
   {
-    boundary->CopyEntry(output, Pipeline::UPDATE_TIME_STEP());
+    boundary->Remove(Pipeline::UPDATE_TIME_STEP());
   }
 }
 

@@ -5,6 +5,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <optional>
+
 class vtkDataObject;
 class vtkInformation;
 
@@ -23,11 +25,11 @@ public:
   /// The output's data time: the boundary's, or none.
   static void CopyDataTime(vtkDataObject* boundary, vtkDataObject* output);
 
-  /// For RequestUpdateExtent: sets the times that the two ports are asked for, the boundary's from
-  /// the output's. The rest step is the last of the mesh's time steps that is not after `restTime`,
+  /// For RequestUpdateExtent: sets the times that the two ports are asked for, the boundary
+  /// `boundaryTime`, or none. The rest step is the last of the mesh's time steps that is not after `restTime`,
   /// or the first. `meshTime`: when the pipeline behind the mesh was last modified.
-  void Request(double restTime, vtkMTimeType meshTime, vtkInformation* mesh,
-    vtkInformation* boundary, vtkInformation* output);
+  void Request(double restTime, vtkMTimeType meshTime, std::optional<double> boundaryTime,
+    vtkInformation* mesh, vtkInformation* boundary);
 
   /// For RequestData: the mesh at rest, `mesh` itself as a rule; or null where the execution has to
   /// be repeated, which `request` then says. On several MPI ranks all repeat, or none.

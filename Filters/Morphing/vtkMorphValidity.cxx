@@ -72,6 +72,7 @@ std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted
 bool vtkMorphValidity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
   morph::InversionFree repair;
+  repair.setReference(this->Reference);
   repair.prepare(this->Mesh, this->Partition, monitor);
   morph::Points repaired = moved;
   repair.repair(repaired, monitor);
@@ -89,9 +90,9 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
 {
   morph::SubStepLimits limits;
   limits.attempts = this->MaximumSubSteps;
-  const morph::SubStepResult result = morph::followInSubSteps(this->Mesh, this->Partition,
-    this->Orientation, morph::straightPath(this->Mesh.points, this->Partition, this->Targets), make,
-    limits, monitor);
+  const morph::SubStepResult result = morph::followInSubSteps(this->Mesh, this->Reference,
+    this->Partition, this->Orientation,
+    morph::straightPath(this->Mesh.points, this->Partition, this->Targets), make, limits, monitor);
   moved = result.moved;
   Outcome outcome;
   outcome.Status = "SubStepped";

@@ -123,7 +123,9 @@ class Properties(unittest.TestCase):
             filter_proxy.UpdatePipeline()
             filter_proxy.UpdatePropertyInformation()
             for p in properties(xml):
-                if p.get("information_only") == "1":
+                # Of the times, which ParaView's pipeline holds, the filter prints nothing.
+                times = p.find("TimeStepsInformationHelper") is not None
+                if p.get("information_only") == "1" and not times:
                     with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                         shown = getattr(filter_proxy, p.get("name"))
                         self.assertTrue(same(shown, printed(filter_proxy, p.get("name"))), shown)

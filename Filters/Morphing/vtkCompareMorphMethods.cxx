@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCompareMorphMethods.h"
+
+#include "Error.h"
+#include "SubMonitor.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkLBWarpMorph.h"
+#include "vtkMorphBoundarySeries.h"
+#include "vtkMorphComparison.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphMonitor.h"
+#include "vtkMorphPeakMemory.h"
+#include "vtkMorphPorts.h"
+#include "vtkMorphRanks.h"
+#include "vtkMorphSteps.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
+#include "vtkSmoothingMorph.h"
+#include "vtkWeightedResidualMorph.h"
+
+#include <vtkAlgorithmOutput.h>
+#include <vtkCallbackCommand.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkExecutive.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(vtkCompareMorphMethods);
+
+struct vtkCompareMorphMethods::vtkInternals
+{
+  vtkMorphPorts Ports;
+  vtkMorphSteps Steps;
+  /// Of a boundary that varies, as far as they were fetched in passes of one execution.
+  std::vector<vtkSmartPointer<vtkDataObject>> Boundaries;
+  vtkMTimeType OwnTime = 0;      ///< of the filter, for Boundaries
+  vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Boundaries
+  bool Repeat = false;           ///< the execution, at the boundary's next step
+  std::string BestMethod, BestStepping;
+
+  explicit vtkInternals(vtkAlgorithm* filter)
+    : Ports(filter)
+  {
+  }
+  std::vector<double> Times() const
+  {
+    std::vector<double> times;
+    for (int i = 0; i < this->Steps.Number(); ++i)
+    {
+      times.push_back(this->Steps.Time(i));
+    }
+    return times;
+  }
+};
+
+namespace
+{
+template <typename Filter>
+vtkSmartPointer<vtkMorphAlgorithm> make()
+{
+  return vtkSmartPointer<Filter>::New();
+}
+
+struct Method
+{
+  const char* Name;
+  vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
+};
+
+/// Follows a filter at work inside another one: keeps its errors, the executive's too, off the console, and passes progress and
+/// abort on.
+class Follower
+{
+public:
+  Follower(vtkMorphAlgorithm* filter, morph::Monitor& monitor)
+    : Filter(filter)
+    , Monitor(monitor)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(Follower::Called);
+    this->Tags = { { filter, filter->AddObserver(vtkCommand::ErrorEvent, this->Command) },
+      { filter, filter->AddObserver(vtkCommand::WarningEvent, this->Command) },
+      { filter, filter->AddObserver(vtkCommand::ProgressEvent, this->Command) },
+      { filter->GetExecutive(),
+        filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command) } };
+  }
+  ~Follower()
+  {
+    for (const auto& [object, tag] : this->Tags)
+    {
+      object->RemoveObserver(tag);
+    }
+  }
+  Follower(const Follower&) = delete;
+  void operator=(const Follower&) = delete;
+
+  /// The first error or, without one, the first warning since the last call.
+  std::string TakeMessage()
+  {
+    std::string text = this->Error.empty() ? this->Warning : this->Error;
+    this->Error.clear();
+    this->Warning.clear();
+    return text;
+  }
+
+private:
+  static void Called(vtkObject* caller, unsigned long event, void* self, void* data)
+  {
+    auto* follower = static_cast<Follower*>(self);
+    if (event == vtkCommand::ProgressEvent)
+    {
+      follower->Monitor.progress(*static_cast<double*>(data));
+      follower->Filter->SetAbortExecute(follower->Monitor.cancelled());
+    }
+    else if (caller == follower->Filter)
+    {
+      std::string& text = event == vtkCommand::ErrorEvent ? follower->Error : follower->Warning;
+      if (text.empty())
+      {
+        text = static_cast<const char*>(data);
+      }
+    }
+  }
+
+  vtkMorphAlgorithm* Filter;
+  morph::Monitor& Monitor;
+  std::string Error, Warning;
+  vtkNew<vtkCallbackCommand> Command;
+  std::vector<std::pair<vtkObject*, unsigned long>> Tags;
+};
+
+/// VTK's messages begin with where in which source they were written.
+std::string withoutOrigin(const std::string& message)
+{
+  const auto end = message.find("): ");
+  std::string text = end == std::string::npos ? message : message.substr(end + 3);
+  text.erase(text.find_last_not_of(" \n") + 1);
+  return text;
+}
+
+/// Runs `filter` through its steps. Where it fails at one, the run ends before that.
+void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
+  vtkMorphRun& run, morph::Monitor& monitor)
+{
+  const vtkMorphPeakMemory memory;
+  const double number = static_cast<double>(times.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+  {
+    monitor.check();
+    const double done = static_cast<double>(i);
+    morph::SubMonitor part(monitor, done / number, (done + 1) / number);
+    Follower follower(filter, part);
+    filter->UpdateTimeStep(times[i]);
+    monitor.check();
+    const bool failed = filter->GetOutput()->GetNumberOfPoints() == 0;
+    std::string message = withoutOrigin(follower.TakeMessage());
+    if (failed && message.empty())
+    {
+      message = "no mesh.";
+    }
+    if (!message.empty())
+    {
+      monitor.warn(run.Title() + ", step " + std::to_string(i) + ": " + message);
+    }
+    if (failed)
+    {
+      break;
+    }
+    run.Steps.push_back(vtkMorphComparison::Measure(filter, times[i], percentile));
+  }
+  run.PeakMegabytes = memory.Megabytes();
+}
+}
+
+vtkCompareMorphMethods::vtkCompareMorphMethods()
+  : Internals(new vtkInternals(this))
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkCompareMorphMethods::~vtkCompareMorphMethods()
+{
+  this->SetBoundaryIdArray(nullptr);
+  this->SetDisplacementArray(nullptr);
+}
+
+void vtkCompareMorphMethods::SetBoundaryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkCompareMorphMethods::SetBoundaryData(vtkDataObject* boundary)
+{
+  this->SetInputDataObject(1, boundary);
+}
+
+int vtkCompareMorphMethods::FillInputPortInformation(int port, vtkInformation* info)
+{
+  return vtkMorphPorts::FillInformation(port, info);
+}
+
+int vtkCompareMorphMethods::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  // The tables are of all times at once.
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
+    outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+  }
+  return 1;
+}
+
+int vtkCompareMorphMethods::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  vtkInternals& kept = *this->Internals;
+  vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
+  kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
+  auto* upstream =
+    boundary ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(1, 0)) : nullptr;
+  const vtkMTimeType time = upstream ? upstream->GetPipelineMTime() : 0;
+  if (time != kept.BoundaryTime || this->GetMTime() != kept.OwnTime)
+  {
+    kept.Boundaries.clear();
+  }
+  kept.BoundaryTime = time;
+  kept.OwnTime = this->GetMTime();
+  std::optional<double> asked;
+  if (kept.Steps.FromBoundary())
+  {
+    asked = kept.Steps.Time(static_cast<int>(kept.Boundaries.size()));
+  }
+  return kept.Ports.RequestUpdateExtent(this->RestTime, asked, inputVector);
+}
+
+int vtkCompareMorphMethods::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInternals& kept = *this->Internals;
+  kept.Repeat = false;
+  const auto reset = [&]
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkTable::GetData(outputVector, port)->Initialize();
+    }
+    kept.BestMethod.clear();
+    kept.BestStepping.clear();
+  };
+  if (vtkMorphRanks::Count(true) > 1)
+  {
+    reset();
+    vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
+    return 0;
+  }
+  const vtkMorphPorts::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    {
+      vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+      vtkSmartPointer<vtkDataObject> copy;
+      copy.TakeReference(points->NewInstance());
+      copy->ShallowCopy(points);
+      kept.Boundaries.push_back(copy);
+      const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
+      kept.Repeat = static_cast<int>(kept.Boundaries.size()) < wanted;
+      if (!kept.Repeat)
+      {
+        this->Compare(grid, outputVector, monitor);
+      }
+    } };
+  const int done = kept.Ports.RequestData(task, request, inputVector, outputVector);
+  if (kept.Repeat)
+  {
+    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
+  }
+  else if (!request->Has(Pipeline::CONTINUE_EXECUTING()))
+  {
+    kept.Boundaries.clear();
+  }
+  return done;
+}
+
+void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
+{
+  filter->SetValidityToNone();
+  filter->SetNumberOfSteps(this->NumberOfSteps);
+  filter->SetStepMemoryLimit(0); // steps are taken in order
+  filter->SetBoundaryIdArray(this->BoundaryIdArray);
+  filter->SetDisplacementArray(this->DisplacementArray);
+  filter->SetScaleFactor(this->ScaleFactor);
+  filter->SetMatchTolerance(this->MatchTolerance);
+  filter->SetHoldUnnamedBoundary(this->HoldUnnamedBoundary);
+  filter->SetNumberOfThreads(this->NumberOfThreads);
+}
+
+void vtkCompareMorphMethods::Compare(
+  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor)
+{
+  const std::pair<bool, Method> methods[] = { { this->Smoothing,
+                                                { "Smoothing", make<vtkSmoothingMorph> } },
+    { this->WeightedResidual, { "Weighted residual", make<vtkWeightedResidualMorph> } },
+    { this->SimplexLinear, { "Simplex-linear", make<vtkSimplexLinearMorph> } },
+    { this->SimplexNaturalNeighbor,
+      { "Simplex-natural neighbor", make<vtkSimplexNaturalNeighborMorph> } },
+    { this->FEMWARP, { "FEMWARP", make<vtkFEMWarpMorph> } },
+    { this->LBWARP, { "LBWARP", make<vtkLBWarpMorph> } },
+    { this->InversionFree, { "Inversion-free", make<vtkInversionFreeMorph> } } };
+  std::vector<Method> chosen;
+  for (const auto& [on, method] : methods)
+  {
+    if (on)
+    {
+      chosen.push_back(method);
+    }
+  }
+  if (chosen.empty() || !(this->Absolute || this->Relative))
+  {
+    throw morph::Error(chosen.empty() ? "No method is chosen. Switch one on."
+                                      : "Neither absolute nor relative steps are chosen. Switch "
+                                        "one on.");
+  }
+
+  vtkInternals& kept = *this->Internals;
+  const std::vector<double> times = kept.Times();
+  vtkNew<vtkMorphBoundarySeries> boundaries;
+  boundaries->SetBoundaries(
+    kept.Steps.FromBoundary() ? times : std::vector<double>(), kept.Boundaries);
+  vtkNew<vtkUnstructuredGrid> rest;
+  rest->ShallowCopy(grid);
+
+  std::vector<vtkMorphRun> runs;
+  const double number = static_cast<double>(chosen.size()) * (this->Absolute + this->Relative);
+  for (const bool relative : { false, true })
+  {
+    for (const Method& method : relative         ? this->Relative ? chosen : std::vector<Method>()
+                                        : this->Absolute ? chosen
+                                                 : std::vector<Method>())
+    {
+      const double done = static_cast<double>(runs.size());
+      morph::SubMonitor part(monitor, done / number, (done + 1) / number);
+      vtkMorphRun run;
+      run.Method = method.Name;
+      run.Stepping = relative ? "Relative" : "Absolute";
+      auto filter = method.Make();
+      filter->SetInputData(rest);
+      filter->SetBoundaryConnection(boundaries->GetOutputPort());
+      this->Configure(filter);
+      filter->SetStepping(relative ? vtkMorphAlgorithm::RELATIVE : vtkMorphAlgorithm::ABSOLUTE);
+      follow(filter, times, this->Percentile, run, part);
+      runs.push_back(std::move(run));
+    }
+  }
+  vtkMorphComparison::Rank(runs);
+  vtkMorphComparison::WriteSteps(runs, vtkTable::GetData(outputVector, 0));
+  vtkMorphComparison::WriteChart(runs, times, vtkTable::GetData(outputVector, 1));
+  vtkMorphComparison::WriteRanking(
+    runs, static_cast<int>(times.size()), vtkTable::GetData(outputVector, 2));
+  const auto best =
+    std::find_if(runs.begin(), runs.end(), [](const vtkMorphRun& run) { return run.Rank == 1; });
+  kept.BestMethod = best->Method;
+  kept.BestStepping = best->Stepping;
+}
+
+const char* vtkCompareMorphMethods::GetBestMethod() const
+{
+  return this->Internals->BestMethod.c_str();
+}
+
+const char* vtkCompareMorphMethods::GetBestStepping() const
+{
+  return this->Internals->BestStepping.c_str();
+}
+
+void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "WeightedResidual: " << this->WeightedResidual << "\n";
+  os << indent << "SimplexLinear: " << this->SimplexLinear << "\n";
+  os << indent << "SimplexNaturalNeighbor: " << this->SimplexNaturalNeighbor << "\n";
+  os << indent << "FEMWARP: " << this->FEMWARP << "\n";
+  os << indent << "LBWARP: " << this->LBWARP << "\n";
+  os << indent << "InversionFree: " << this->InversionFree << "\n";
+  os << indent << "Absolute: " << this->Absolute << "\n";
+  os << indent << "Relative: " << this->Relative << "\n";
+  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "Percentile: " << this->Percentile << "\n";
+  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
+  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
+  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
+  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "RestTime: " << this->RestTime << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "BestMethod: " << this->GetBestMethod() << "\n";
+  os << indent << "BestStepping: " << this->GetBestStepping() << "\n";
+}

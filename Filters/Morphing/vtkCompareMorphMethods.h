@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkCompareMorphMethods
+ * @brief   runs morphing methods on one mesh and boundary, step by step, and compares them
+ *
+ * Ports 0 and 1 take a mesh at rest and a displaced boundary, as vtkMorphAlgorithm does. Each chosen
+ * method morphs the mesh in steps (those of a boundary that varies in time, or NumberOfSteps), from
+ * the mesh at rest (absolute) and from the mesh of the step before (relative), with the method's
+ * default options and Validity None: what is counted is what the method itself makes.
+ *
+ * Output 0 has a row for each method, stepping and step:
+ * Method, Stepping, Step, Time, MinScaledJacobian, MeanScaledJacobian, LowScaledJacobian (see
+ * Percentile), InvertedCells, DegenerateCells, BoundaryInvertedCells (of these, what no method can
+ * mend; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the most memory
+ * that the run of the method held, more than before it (Linux; NaN elsewhere).
+ *
+ * Output 1 is made for a line chart: Time, and a column of least scaled Jacobians for each method and
+ * stepping.
+ *
+ * Output 2 has a row for each method and stepping, best first: Rank, Method, Stepping,
+ * FirstInvertedStep (the first with an inverted or degenerate cell, or without a mesh; -1 for none),
+ * LastValidTime (of the step before it, the largest motion that the method survives; NaN where there is none),
+ * LastValidMinScaledJacobian (there), Seconds (of all steps) and PeakMegabytes. Best is what stays
+ * valid for the most steps; among those, what has the higher least scaled Jacobian at the last valid
+ * one, to 0.01; among those, what takes less time.
+ *
+ * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself are
+ * those of a boundary or mesh that is missing or of a wrong type, no chosen method or stepping, and several
+ * MPI processes; the outputs are empty then, and after an abort.
+ *
+ * Cost: that of all methods and steps. Boundaries that vary are all fetched first and kept meanwhile.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
+ * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311:
+ * output 1 is what its figures 2, 4, 6 and 8 show.
+ *
+ * @sa vtkMorphAlgorithm vtkScaledJacobian
+ */
+#ifndef vtkCompareMorphMethods_h
+#define vtkCompareMorphMethods_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkTableAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+
+class vtkDataObject;
+class vtkMorphAlgorithm;
+class vtkMorphMonitor;
+class vtkUnstructuredGrid;
+struct vtkMorphRun;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkCompareMorphMethods : public vtkTableAlgorithm
+{
+public:
+  static vtkCompareMorphMethods* New();
+  vtkTypeMacro(vtkCompareMorphMethods, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The displaced boundary, a vtkPointSet: the same as SetInputConnection() and SetInputData() on
+   * port 1.
+   */
+  void SetBoundaryConnection(vtkAlgorithmOutput* output);
+  void SetBoundaryData(vtkDataObject* boundary);
+  ///@}
+
+  ///@{
+  /**
+   * Which methods to run. Default: all.
+   */
+  vtkSetMacro(Smoothing, bool);
+  vtkGetMacro(Smoothing, bool);
+  vtkBooleanMacro(Smoothing, bool);
+  vtkSetMacro(WeightedResidual, bool);
+  vtkGetMacro(WeightedResidual, bool);
+  vtkBooleanMacro(WeightedResidual, bool);
+  vtkSetMacro(SimplexLinear, bool);
+  vtkGetMacro(SimplexLinear, bool);
+  vtkBooleanMacro(SimplexLinear, bool);
+  vtkSetMacro(SimplexNaturalNeighbor, bool);
+  vtkGetMacro(SimplexNaturalNeighbor, bool);
+  vtkBooleanMacro(SimplexNaturalNeighbor, bool);
+  vtkSetMacro(FEMWARP, bool);
+  vtkGetMacro(FEMWARP, bool);
+  vtkBooleanMacro(FEMWARP, bool);
+  vtkSetMacro(LBWARP, bool);
+  vtkGetMacro(LBWARP, bool);
+  vtkBooleanMacro(LBWARP, bool);
+  vtkSetMacro(InversionFree, bool);
+  vtkGetMacro(InversionFree, bool);
+  vtkBooleanMacro(InversionFree, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to step from the mesh at rest, and from the mesh of the step before; see
+   * vtkMorphAlgorithm::SetStepping(). Default: both.
+   */
+  vtkSetMacro(Absolute, bool);
+  vtkGetMacro(Absolute, bool);
+  vtkBooleanMacro(Absolute, bool);
+  vtkSetMacro(Relative, bool);
+  vtkGetMacro(Relative, bool);
+  vtkBooleanMacro(Relative, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps(). Default
+   * 20, as in the paper. Range [1, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfSteps, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfSteps, int);
+  ///@}
+
+  ///@{
+  /**
+   * LowScaledJacobian is the value that this percentage of the cells lie below. Default 1, range [0,
+   * 100].
+   */
+  vtkSetClampMacro(Percentile, double, 0.0, 100.0);
+  vtkGetMacro(Percentile, double);
+  ///@}
+
+  ///@{
+  /**
+   * As in vtkMorphAlgorithm, with the same defaults. A ScaleFactor over 1 goes beyond the boundary given.
+   */
+  vtkSetStringMacro(BoundaryIdArray);
+  vtkGetStringMacro(BoundaryIdArray);
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  vtkSetMacro(ScaleFactor, double);
+  vtkGetMacro(ScaleFactor, double);
+  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  vtkGetMacro(MatchTolerance, double);
+  vtkSetMacro(HoldUnnamedBoundary, bool);
+  vtkGetMacro(HoldUnnamedBoundary, bool);
+  vtkBooleanMacro(HoldUnnamedBoundary, bool);
+  vtkSetMacro(RestTime, double);
+  vtkGetMacro(RestTime, double);
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The first of the ranking, as of the last execution: "FEMWARP", "Absolute". Empty where there was no result.
+   */
+  const char* GetBestMethod() const;
+  const char* GetBestStepping() const;
+  ///@}
+
+protected:
+  vtkCompareMorphMethods();
+  ~vtkCompareMorphMethods() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkCompareMorphMethods(const vtkCompareMorphMethods&) = delete;
+  void operator=(const vtkCompareMorphMethods&) = delete;
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  void Compare(
+    vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
+  void Configure(vtkMorphAlgorithm* filter) const;
+
+  bool Smoothing = true;
+  bool WeightedResidual = true;
+  bool SimplexLinear = true;
+  bool SimplexNaturalNeighbor = true;
+  bool FEMWARP = true;
+  bool LBWARP = true;
+  bool InversionFree = true;
+  bool Absolute = true;
+  bool Relative = true;
+  int NumberOfSteps = 20;
+  double Percentile = 1;
+  char* BoundaryIdArray = nullptr;
+  char* DisplacementArray = nullptr;
+  double ScaleFactor = 1;
+  double MatchTolerance = 1e-6;
+  bool HoldUnnamedBoundary = true;
+  double RestTime = -1e300;
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphComparison_h
+#define vtkMorphComparison_h
+
+#include <vtkType.h>
+
+#include <string>
+#include <vector>
+
+class vtkMorphAlgorithm;
+class vtkTable;
+
+/// What vtkCompareMorphMethods finds out about one method in one stepping.
+struct vtkMorphRun
+{
+  struct Step
+  {
+    double Time;
+    double Minimum, Mean, Low; ///< scaled Jacobians; Low: the percentile
+    vtkIdType Inverted, Degenerate, BoundaryInverted;
+    double PrepareSeconds, EvaluateSeconds;
+  };
+  std::string Method;
+  std::string Stepping;
+  std::vector<Step> Steps; ///< one for each that gave a mesh
+  double PeakMegabytes = 0;
+  int Rank = 0; ///< 1 is best
+
+  std::string Title() const;
+  /// How many steps from the first on have no inverted or degenerate cell.
+  int ValidSteps() const;
+  /// The last of these, or the first where there is none; NaN without steps.
+  double LastValidMinimum() const;
+  double Seconds() const;
+};
+
+namespace vtkMorphComparison
+{
+/// What a filter has just computed. `percentile`: see vtkCompareMorphMethods.
+vtkMorphRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
+
+/// Gives every run its rank: by valid steps, then by the least scaled Jacobian at the last of them, to 0.01, then by
+/// seconds, then by order.
+void Rank(std::vector<vtkMorphRun>& runs);
+
+/// A row for each run and step.
+void WriteSteps(const std::vector<vtkMorphRun>& runs, vtkTable* output);
+/// A row for each of `times`, a column of least scaled Jacobians for each run.
+void WriteChart(
+  const std::vector<vtkMorphRun>& runs, const std::vector<double>& times, vtkTable* output);
+/// A row for each run, best first. `steps`: how many there are.
+void WriteRanking(const std::vector<vtkMorphRun>& runs, int steps, vtkTable* output);
+}
+
+#endif

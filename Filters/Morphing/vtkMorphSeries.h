@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphSeries_h
+#define vtkMorphSeries_h
+
+#include "Morpher.h"
+#include "vtkMorphValidity.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+/// A step's mesh, and how it came about.
+struct vtkMorphStepResult
+{
+  morph::Points Moved; ///< #nodes x 3
+  vtkMorphValidity::Outcome Valid;
+  int Iterations = 0;
+  std::vector<morph::Count> Counts;
+  morph::Index Prescribed = 0;
+  morph::Index Unmatched = 0;
+  morph::Index BoundaryInverted = 0; ///< see vtkMorphAlgorithm::GetBoundaryInvertedCells()
+};
+
+/// The meshes of a run in which each step starts from the mesh of the one before, as many as memory may hold: the
+/// last one, and of the others every first, second, fourth, ... Going back costs less than that many steps.
+class vtkMorphSeries
+{
+public:
+  using Step = std::shared_ptr<const vtkMorphStepResult>;
+
+  void Clear();
+  /// Keeps a step's mesh; others make room for it. `megabytes`: of 10^6 bytes, for all meshes; the last one is kept besides.
+  void Keep(int number, Step step, double megabytes);
+  /// The nearest step that is kept, `number` itself or one before it: its number, or -1 and null.
+  std::pair<int, Step> LastUntil(int number) const;
+
+private:
+  std::map<int, Step> Kept;
+  int Stride = 1;
+
+  /// Drops all but every Stride-th and the last one.
+  void Thin(int last);
+};
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkMorphSteps_h
+#define vtkMorphSteps_h
+
+#include <vector>
+
+class vtkInformation;
+
+/// The steps of a morph in time: the boundary's own, or equal parts of its motion.
+class vtkMorphSteps
+{
+public:
+  vtkMorphSteps() = default;
+  /// `number`: steps asked for, 0 for none; `boundary`: what its pipeline says, may be null. A boundary with
+  /// several time steps has its own; one with a time range alone is taken at the ends of `number` equal parts of it;
+  /// any other is still, and its motion is cut in `number` parts.
+  vtkMorphSteps(int number, vtkInformation* boundary);
+
+  /// How many meshes there are: one more than NumberOfSteps asks for.
+  int Number() const { return static_cast<int>(this->Times.size()); }
+  bool Any() const { return !this->Times.empty(); }
+  /// Whether the boundary is another one at each step.
+  bool FromBoundary() const { return this->Varies; }
+  double Time(int step) const { return this->Times[step]; }
+  /// Of the boundary's motion, at that step: 1 where the boundary itself varies.
+  double Fraction(int step) const;
+  /// The step that `output` is asked for: the last not after its time, or the first. Where it is asked for no time: the
+  /// last of a still boundary's, the first of a varying one's. -1 where there are no steps.
+  int Asked(vtkInformation* output) const;
+  /// Sets the output's time steps and range, where there are steps.
+  void Write(vtkInformation* output) const;
+
+private:
+  std::vector<double> Times;
+  bool Varies = false;
+};
+
+#endif

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps in ParaView's time, Compare Morph Methods, and a quick study that is interrupted and gone on with.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython steps_and_study.py
+"""
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def inputs():
+    """A grid, and its boundary warped."""
+    grid = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6])])
+    boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), CoordinateResults=1,
+                                 Function="coords + 2*sin(coordsX)*kHat")
+    return grid, boundary
+
+
+def points(proxy):
+    output = proxy.GetClientSideObject().GetOutputDataObject(0)
+    return vtk_to_numpy(output.GetPoints().GetData()).copy()
+
+
+class Steps(unittest.TestCase):
+    def test_are_times_of_paraview(self):
+        grid, boundary = inputs()
+        morph = MorphSimplexLinear(Input=grid, Boundary=boundary, NumberOfSteps=5,
+                                   Stepping="Relative", Validity="None")
+        morph.UpdatePipelineInformation()
+        self.assertEqual(list(morph.TimestepValues), [0, 1, 2, 3, 4, 5])
+        scene = simple.GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        self.assertEqual(list(scene.TimeKeeper.TimestepValues), [0, 1, 2, 3, 4, 5])
+        morph.UpdatePipeline(5)
+        jumped = points(morph)
+        played = MorphSimplexLinear(Input=grid, Boundary=boundary, NumberOfSteps=5,
+                                    Stepping="Relative", Validity="None")
+        for step in range(6):
+            played.UpdatePipeline(step)
+        self.assertTrue((points(played) == jumped).all())
+        morph.UpdatePipeline(0)
+        self.assertFalse((points(morph) == jumped).all())
+
+
+class Compare(unittest.TestCase):
+    def test_fills_three_tables(self):
+        grid, boundary = inputs()
+        compare = CompareMorphMethods(Input=grid, Boundary=boundary, NumberOfSteps=3, Smoothing=0)
+        compare.UpdatePipeline()
+        tables = [compare.GetClientSideObject().GetOutputDataObject(port) for port in range(3)]
+        self.assertEqual([table.GetNumberOfRows() for table in tables], [6 * 2 * 4, 4, 6 * 2])
+        with tempfile.TemporaryDirectory() as folder:
+            file = str(Path(folder) / "ranking.csv")
+            simple.SaveData(file, proxy=simple.OutputPort(compare, 2))
+            with open(file, newline="", encoding="utf-8") as text:
+                rows = list(csv.DictReader(text))
+        self.assertEqual([int(row["Rank"]) for row in rows], list(range(1, 13)))
+        self.assertEqual(rows[0]["Method"], tables[2].GetValueByName(0, "Method").ToString())
+
+
+def rows_of(file):
+    with open(file, newline="", encoding="utf-8") as text:
+        return list(csv.DictReader(text))
+
+
+class Study(unittest.TestCase):
+    """Of two methods on the small bore, as --quick runs all seven."""
+
+    def run_study(self, folder, *options):
+        command = ["pvpython", "--force-offscreen-rendering", str(ROOT / "Utilities" / "study.py"),
+                   "--quick", "--output", folder, *options]
+        process = subprocess.run(command, capture_output=True, text=True, timeout=200)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+
+    def test_quick(self):
+        methods = ["FEMWARP", "Weighted residual", "Inversion-free"]
+        with tempfile.TemporaryDirectory() as folder:
+            results = Path(folder) / "results.csv"
+            self.run_study(folder, "--methods", *methods)
+            rows = rows_of(results)
+            # Two kinds, two kinds of surfaces, two steppings; S_0 to S_F is steps 0 to 4.
+            series = {tuple(row.values())[:5] for row in rows}
+            self.assertEqual(len(series), 2 * 2 * 2 * 3)
+            for one in series:
+                mine = [row for row in rows if tuple(row.values())[:5] == one]
+                self.assertEqual([int(row["step"]) for row in mine], list(range(len(mine))))
+                self.assertGreaterEqual(len(mine), 5)
+                own = [int(row["inverted"]) > int(row["boundary"]) for row in mine]
+                # Past S_F a series ends with its first inverted cell, or with the geometry, at t = 1.5.
+                self.assertFalse(any(own[5:-1]))
+                self.assertTrue(any(own) or float(mine[-1]["t"]) == 1.5, one)
+            self.assertFalse([row for row in rows
+                              if row["method"] == "Inversion-free" and int(row["step"]) <= 4
+                              and int(row["inverted"]) > int(row["boundary"])])
+            report = (Path(folder) / "Study.md").read_text(encoding="utf-8")
+            for text in ("Figure 2", "Table 2", "Section 4.5"):
+                self.assertIn(text, report)
+            # The paper's seconds for FEMWARP on the bore, hexahedra, relative.
+            self.assertTrue(re.search(r"^\| FEMWARP \| [0-9.]+; 0\.30 \|", report, re.MULTILINE))
+            pictures = sorted(path.name for path in Path(folder).glob("*.png"))
+            self.assertEqual(pictures, ["figure-bore-exact.png",
+                                        "figure-bore-weighted-residual.png", "figure-scaling.png"])
+
+            # Interrupted in the middle of a row, and gone on with.
+            text = results.read_text(encoding="utf-8")
+            results.write_text(text[:len(text) * 2 // 3], encoding="utf-8")
+            kept = rows_of(results)[:-1]  # the last one is cut off
+            self.run_study(folder, "--methods", *methods, "--no-scaling")
+            again = rows_of(results)
+            self.assertEqual(again[:len(kept)], kept)
+            quality = ("minimum", "mean", "inverted", "boundary")
+
+            def table(all_rows):
+                return {tuple(row.values())[:6]: [row[name] for name in quality]
+                        for row in all_rows if None not in row.values()}
+            self.assertEqual(table(again), table(rows))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment of the paper, with its six methods and the inversion-free one: four models as hexahedra and as tetrahedra, in 20 absolute and
+relative steps, and beyond them until the first inverted cell; surfaces by weighted residual, as in the paper, and exact.
+
+    Utilities/study.sh                              # builds, and runs this: many hours
+    pvpython Utilities/study.py --models bore pipe  # part of it
+    pvpython Utilities/study.py --quick             # a small mesh, 4 steps
+    pvpython Utilities/study.py --report            # tables and plots again, from what is there
+
+Writes to --output: results.csv (a row for each step, as it is computed), scaling.csv, Study.md with the tables, and figure-*.png. Goes on where
+an earlier run with the same output was interrupted. Validity is None: what is counted is what each method itself makes."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+import Models  # noqa: E402  (needs the path above)
+import study_scaling  # noqa: E402
+from models_folds import load_plugin  # noqa: E402
+from study_paper import PANELS, STEPS  # noqa: E402
+from study_records import Records, Series  # noqa: E402
+from study_report import write_report  # noqa: E402
+from study_series import (  # noqa: E402
+    METHODS, exact_boundaries, residual_boundaries, run, times)
+
+SURFACES = ("weighted residual", "exact")
+
+
+def boundaries(folder, series, mesh, ts):
+    """The boundary at each t of the series; those by weighted residual are kept in the folder."""
+    if series.surfaces == "exact":
+        return exact_boundaries(mesh, ts)
+    file = folder / f"boundary-{series.model}-{series.kind}-{series.stepping}-{len(mesh.nodes)}-{len(ts)}.npy"
+    if not file.is_file():
+        found = residual_boundaries(mesh, ts, series.stepping == "relative")
+        np.save(file, found)
+    return np.load(file)
+
+
+def study(arguments, records):
+    """Runs the chosen part of the matrix, a mesh at a time."""
+    for name in arguments.models:
+        model = Models.get(name)
+        ts = times(model, arguments.steps)
+        for kind in arguments.kinds:
+            mesh = model.read_small(kind) if arguments.small else model.make(kind)
+            for surfaces in arguments.surfaces:
+                for stepping in [panel[1] for panel in PANELS[:2]]:
+                    for method in arguments.methods:
+                        series = Series(name, kind, surfaces, stepping, method)
+                        positions = boundaries(arguments.output, series, mesh, ts)
+                        run(series, mesh, positions, ts[:len(positions)], arguments.steps, records)
+                        print(f"done: {series}", flush=True)
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--output", type=Path, default=Path("study-output"), metavar="DIR",
+                        help="default: %(default)s")
+    parser.add_argument("--models", nargs="+", choices=Models.NAMES + Models.VARIANTS,
+                        default=list(Models.NAMES), metavar="MODEL", help="default: the paper's four")
+    parser.add_argument("--kinds", nargs="+", choices=("hex", "tet"), default=["hex", "tet"])
+    parser.add_argument("--surfaces", nargs="+", choices=SURFACES, default=list(SURFACES))
+    parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
+                        metavar="METHOD", help="default: all seven")
+    parser.add_argument("--steps", type=int, default=STEPS, help="from S_0 to S_F (default: %(default)s)")
+    parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
+    parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
+    parser.add_argument("--quick", action="store_true",
+                        help="a small bore, 4 steps, one brick: in a minute")
+    parser.add_argument("--report", action="store_true", help="run nothing")
+    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
+                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    arguments = parser.parse_args()
+    arguments.sizes, arguments.repeats = study_scaling.SIZES, study_scaling.REPEATS
+    if arguments.quick:
+        arguments.models, arguments.steps, arguments.small = ["bore"], 4, True
+        arguments.sizes, arguments.repeats = (2,), 1
+    return arguments
+
+
+def main():
+    arguments = parse_arguments()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    records = Records(arguments.output / "results.csv")
+    scaling = arguments.output / "scaling.csv"
+    if not arguments.report:
+        load_plugin(arguments.plugin)
+        study(arguments, records)
+        if not arguments.no_scaling:
+            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats)
+    write_report(arguments.output, records, scaling, arguments.steps)
+
+
+if __name__ == "__main__":
+    main()

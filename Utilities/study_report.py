@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables and plots of a study, laid out as the paper's, with the paper's numbers beside ours."""
+
+from statistics import median
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (needs the back end)
+
+import Models  # noqa: E402
+import study_paper as paper  # noqa: E402
+import study_scaling as scaling  # noqa: E402
+from study_records import Series, last_valid  # noqa: E402
+from study_series import METHODS  # noqa: E402
+
+#: Told apart by colour and by marker.
+STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
+                            ("#009e73", "^"), ("#cc79a7", "x"), ("#d55e00", "*"))))
+
+
+def write_report(folder, records, scaling_file, steps):
+    """Writes Study.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
+    text = ["# Results", ""]
+    for surfaces in sorted({series.surfaces for series in records.series()}):
+        found = [series for series in records.series() if series.surfaces == surfaces]
+        for model in [name for name in Models.NAMES + Models.VARIANTS
+                      if any(series.model == name for series in found)]:
+            picture = folder / f"figure-{model}-{surfaces.replace(' ', '-')}.png"
+            _draw_quality(picture, records, model, surfaces, steps)
+            text += _quality_table(records, model, surfaces, steps, picture.name)
+    for model in [name for name in paper.TABLES
+                  if any(series.model == name for series in records.series())]:
+        text += _seconds_table(records, model, steps)
+    if scaling_file.is_file():
+        text += _scaling_table(folder, scaling.read(scaling_file))
+    (folder / "Study.md").write_text("\n".join(text) + "\n", encoding="utf-8")
+
+
+def _table(head, rows):
+    def line(cells):
+        return "| " + " | ".join(cells) + " |"
+    return [line(head), "|" + "---|" * len(head)] + [line(row) for row in rows] + [""]
+
+
+def _methods(records, model, surfaces):
+    return [method for method in METHODS
+            if any(records.steps(Series(model, *panel_series, method))
+                   for panel_series in _panel_series(surfaces))]
+
+
+def _panel_series(surfaces):
+    """(kind, surfaces, stepping) of each panel."""
+    return [(kind, surfaces, stepping) for kind, stepping in paper.PANELS]
+
+
+def _quality_table(records, model, surfaces, steps, picture):
+    figure = f" (the paper's Figure {paper.FIGURES[model]})" if model in paper.FIGURES else ""
+    rows = []
+    for method in _methods(records, model, surfaces):
+        rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
+                                for key in _panel_series(surfaces)])
+    head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
+    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", "",
+             "Least scaled Jacobian at S_F (inverted cells; + of those that the boundary inverts by itself), and t*,"
+             " the t of the last step without an inverted cell of the method's own; >= where the series did not end by one.", ""]
+            + _table(head, rows))
+
+
+def _quality_cell(steps, to_final):
+    if len(steps) <= to_final:
+        return "not run" if not steps else f"ended at step {len(steps) - 1}"
+    final = steps[to_final]
+    own = final.inverted - final.boundary
+    count = f" ({own}{f' + {final.boundary}' if final.boundary else ''})" if final.inverted else ""
+    last = last_valid(steps)
+    open_end = ">= " if all(step.valid for step in steps) else ""
+    return f"{final.minimum:.3f}{count}; t* {'none' if last is None else f'{open_end}{last:.2f}'}"
+
+
+def _draw_quality(path, records, model, surfaces, steps):
+    figure, axes = pyplot.subplots(2, 2, figsize=(11, 8), sharex=True, sharey="row")
+    for axis, key, letter in zip(axes.flat, _panel_series(surfaces), "abcd"):
+        for method in METHODS:
+            found = records.steps(Series(model, *key, method))[:steps + 1]
+            if found:
+                color, marker = STYLES[method]
+                axis.plot([step.step for step in found], [step.minimum for step in found],
+                          color=color, marker=marker, markersize=4, linewidth=1.2, label=method)
+        axis.axhline(0, color="black", linewidth=0.6)
+        axis.set_ylim(-1.05, 1.05)
+        axis.set_title(f"({letter}) {key[0]} mesh, {key[2]} morph")
+        axis.set_xlabel("step")
+        axis.set_ylabel("least scaled Jacobian")
+    handles, labels = max((axis.get_legend_handles_labels() for axis in axes.flat),
+                          key=lambda found: len(found[0]))
+    figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False)
+    figure.suptitle(f"{model.capitalize()}, {surfaces} surfaces")
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+
+
+def _seconds_table(records, model, steps):
+    rows = []
+    for method in METHODS:
+        row = [method]
+        for kind, stepping in paper.PANELS:
+            ours = _seconds_cell(records, model, method, kind, stepping, steps)
+            theirs = paper.seconds(model, method, kind, stepping)
+            row.append(f"{ours}; {'-' if theirs is None else f'{theirs:.2f}'}")
+        rows.append(row)
+    head = ["method"] + [f"{kind} {stepping}: ours; paper" for kind, stepping in paper.PANELS]
+    return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})", "",
+             "Ours: medians over steps 1 to the last, of prepare and evaluate together for relative steps, which prepare each time;"
+             " for absolute steps evaluate alone, and in brackets prepare, once for all steps.", ""] + _table(head, rows))
+
+
+def _seconds_cell(records, model, method, kind, stepping, steps):
+    for surfaces in ("weighted residual", "exact"):
+        found = records.steps(Series(model, kind, surfaces, stepping, method))
+        if len(found) < 2:
+            continue
+        later = found[1:steps + 1]
+        if stepping == "relative":
+            # Step 1 has what step 0 prepared, for the same mesh.
+            return f"{median(step.prepare + step.evaluate for step in later[1:] or later):.3f}"
+        return (f"{median(step.evaluate for step in later):.3f}"
+                f" ({max(step.prepare for step in found[:steps + 1]):.3f})")
+    return "not run"
+
+
+def _scaling_table(folder, rows):
+    text = ["## Time against size (the paper's Section 4.5 and Figure 10)", "",
+            "Bricks of N x 20 x 20 hexahedra. The power of the number of nodes that prepare and evaluate together, and evaluate alone, grow with"
+            f" over N = 60 and more, and seconds of both at the largest N. {scaling.REPEATS} runs each, their median.", ""]
+    table = []
+    figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    for axis, motion in zip(axes, scaling.MOTIONS):
+        for method in METHODS:
+            found = sorted((int(row["nodes"]), float(row["prepare"]), float(row["evaluate"]))
+                           for row in rows if row["motion"] == motion and row["method"] == method)
+            if not found:
+                continue
+            nodes, prepare, evaluate = zip(*found)
+            whole = [p + e for p, e in zip(prepare, evaluate)]
+            color, marker = STYLES[method]
+            axis.loglog(nodes, whole, color=color, marker=marker, markersize=4, label=method)
+            powers = [scaling.exponent(nodes, values) for values in (whole, evaluate)]
+            table.append([motion, method, f"{nodes[-1]:,}"]
+                         + ["-" if power is None else f"{power:.2f}" for power in powers]
+                         + [f"{whole[-1]:.3f}"])
+        axis.set_title(motion)
+        axis.set_xlabel("nodes")
+    axes[0].set_ylabel("seconds, prepare and evaluate")
+    axes[0].legend(fontsize=8, frameon=False)
+    figure.tight_layout()
+    figure.savefig(folder / "figure-scaling.png", dpi=100)
+    pyplot.close(figure)
+    head = ["motion", "method", "nodes", "power", "power of evaluate", "seconds"]
+    return text + ["![](figure-scaling.png)", ""] + _table(head, table)

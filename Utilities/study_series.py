@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs one series of the study: a model's mesh, morphed by one method to one boundary after the other."""
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+from demo_picture import producer
+from Models.model_mesh import vtk_points
+from models_folds import MovedSurfaces
+from study_records import Step
+
+#: Proxies of the methods, with their default options. In the order of the figures.
+METHODS = {
+    "Smoothing": "MorphSmoothing",
+    "Weighted residual": "MorphWeightedResidual",
+    "FEMWARP": "MorphFEMWARP",
+    "LBWARP": "MorphLBWARP",
+    "Simplex-linear": "MorphSimplexLinear",
+    "Simplex-natural neighbor": "MorphSimplexNaturalNeighbor",
+    "Inversion-free": "MorphInversionFree",
+}
+
+
+def times(model, steps):
+    """(n,): t of each step: `steps` equal ones to S_F, and on to the end of the geometry."""
+    last = int(np.floor(model.last * steps + 1e-9))
+    return np.arange(last + 1) / steps
+
+
+def exact_boundaries(mesh, steps):
+    """(n, #boundary nodes, 3): the boundary on the model's true surfaces at each t of `steps`."""
+    return np.stack([mesh.boundary_positions(t) for t in steps])
+
+
+def residual_boundaries(mesh, steps, relative):
+    """As exact_boundaries, with surfaces moved after their exact curves by weighted residual, from S_0 or
+    from the step before. Ends before the first step at which that gives no surface."""
+    surfaces = MovedSurfaces(mesh)
+    found = []
+    try:
+        for t in steps:
+            surfaces.move_to(t, relative)
+            found.append(surfaces.moved[mesh.nodes])
+    except RuntimeError:
+        pass
+    finally:
+        surfaces.remove()
+    return np.stack(found)
+
+
+class BoundarySource(VTKPythonAlgorithmBase):
+    """The boundary of a mesh at positions (n, #boundary nodes, 3) that follow one another at times
+    0, 1, 2, ..."""
+
+    def __init__(self, mesh, positions):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
+        self._rest, self._positions = mesh.boundary_to_vtk(0), positions
+
+    def RequestInformation(self, request, inputs, outputs):
+        info, last = outputs.GetInformationObject(0), len(self._positions) - 1
+        info.Set(Pipeline.TIME_STEPS(), [float(step) for step in range(last + 1)], last + 1)
+        info.Set(Pipeline.TIME_RANGE(), [0.0, float(last)], 2)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        step = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else 0
+        output = vtkPolyData.GetData(info)
+        output.ShallowCopy(self._rest)
+        output.SetPoints(vtk_points(self._positions[int(step)]))
+        output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), step)
+        return 1
+
+
+class SeriesRun:
+    """A method at work on a mesh. `positions`: see BoundarySource, at times `ts`; `stepping`: "absolute" or "relative"."""
+
+    def __init__(self, method, mesh, positions, ts, stepping):
+        self._ts = ts
+        self._mesh, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
+        self._source = BoundarySource(mesh, positions)
+        self._proxy = getattr(simple, METHODS[method])(Input=self._mesh, Boundary=self._boundary)
+        self._proxy.Validity = "None"
+        self._proxy.Stepping = stepping.capitalize()
+        self._proxy.UpdateVTKObjects()
+        # ParaView's TimeKeeper has no part in this: the source hangs on the filter itself.
+        self._filter = self._proxy.GetClientSideObject()
+        self._filter.SetInputConnection(1, self._source.GetOutputPort())
+
+    def step(self, number):
+        """The Step of that number; relative steps before it that were not asked for are made on the way. Raises RuntimeError
+        where the method gives no mesh."""
+        self._filter.UpdateTimeStep(float(number))
+        output = self._filter.GetOutputDataObject(0)
+        if output.GetNumberOfPoints() == 0:
+            raise RuntimeError(f"no mesh at step {number}")
+        field = output.GetFieldData()
+
+        def value(name):
+            return field.GetArray(name).GetValue(0)
+
+        return Step(number, float(self._ts[number]), value("MinScaledJacobian"),
+                    value("MeanScaledJacobian"),
+                    int(value("InvertedCells")) + int(value("DegenerateCells")),
+                    int(value("BoundaryInvertedCells")), value("PrepareSeconds"),
+                    value("EvaluateSeconds"))
+
+    def remove(self):
+        """Takes the filter and its inputs out of the pipeline."""
+        for proxy in (self._proxy, self._boundary, self._mesh):
+            simple.Delete(proxy)
+
+
+def finished(steps, to_final, ts):
+    """Whether a series of these Steps ends here: `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F it goes on
+    while all cells are valid."""
+    if len(steps) >= len(ts):
+        return True
+    return len(steps) > to_final and not all(step.valid for step in steps)
+
+
+def run(series, mesh, positions, ts, to_final, records):
+    """Runs what is missing of the series, and records each step. A method that gives no mesh ends it."""
+    steps = records.steps(series)
+    if finished(steps, to_final, ts):
+        return
+    work = SeriesRun(series.method, mesh, positions, ts, series.stepping)
+    try:
+        while not finished(steps, to_final, ts):
+            steps.append(work.step(len(steps)))
+            records.add(series, steps[-1])
+    except RuntimeError as error:
+        print(f"{series}: {error}")
+    finally:
+        work.remove()
