@@ -313,7 +313,7 @@ TEST(SubSteps, RestMeshesWithInvertedCellsAreRefused)
               [&]
               {
                 morph::followInSubSteps(
-                  mesh, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
+                  mesh, mesh.points, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
                   morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
                   [] { return std::make_unique<morph::FemWarp>(); }, {}, monitor);
               },
