@@ -55,7 +55,7 @@ class Demo(unittest.TestCase):
              "pvpython", "--force-offscreen-rendering", str(ROOT / "Utilities" / "demo.py"),
              "--plugin", os.environ["MESHMORPHING_PLUGIN"],
              "--output", str(cls.output), "--steps", "2"],
-            capture_output=True, text=True, timeout=250)
+            capture_output=True, text=True, timeout=550)
         bore = Models.get("bore")
         cls.meshes = {"bore_hex": bore.hex_mesh(), "bore_tet": bore.tet_mesh()}
 
