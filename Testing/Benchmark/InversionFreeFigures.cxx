@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InversionFreeFigures.h"
+
+#include "Baselines.h"
+#include "FigureRun.h"
+#include "Threads.h"
+
+#include "FemWarp.h"
+#include "InversionFree.h"
+#include "ScaledJacobian.h"
+
+namespace benchmark
+{
+namespace
+{
+constexpr int AxisZ = 2;
+constexpr double ExactMinimum = 0.80; // of the exact map 0.804
+using Minimizer = morph::FoldoverStages::Minimizer;
+
+struct Outcome
+{
+  std::vector<double> seconds;
+  morph::EvaluateReport report;
+  morph::Quality quality;
+};
+
+class Run : public FigureRun
+{
+public:
+  using FigureRun::FigureRun;
+
+  void againstBfgs(const Problem& problem);
+  void againstCholmod(const Problem& problem);
+
+private:
+  /// Appends to `outcome.seconds`.
+  void morphOnce(const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const;
+  void addCounts(const Problem& problem, const std::string& name, const Outcome& outcome);
+};
+
+/// `energyAlone`: without what follows the first minimum: new targets, and the worst cells.
+void Run::morphOnce(
+  const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const
+{
+  this->settleDown();
+  const auto monitor = makeMonitor(this->cores_);
+  morph::InversionFree method;
+  method.setStart(morph::InversionFree::Start::Rest);
+  method.setMinimizer(minimizer);
+  method.setStiffening(!energyAlone);
+  method.setRefreshes(energyAlone ? 0 : 2);
+  method.prepare(problem.mesh, problem.partition, *monitor);
+  morph::Points moved;
+  const Stopwatch watch;
+  outcome.report = method.evaluate(problem.target, moved, *monitor);
+  outcome.seconds.push_back(watch.seconds());
+  outcome.quality = morph::measureQuality(problem.mesh, moved, {}, {}, *monitor);
+}
+
+void Run::addCounts(const Problem& problem, const std::string& name, const Outcome& outcome)
+{
+  for (const morph::Count& count : outcome.report.counts)
+  {
+    this->add(problem, name + ": " + count.name, static_cast<double>(count.value), "");
+  }
+  this->add(problem, name + ": least scaled Jacobian", outcome.quality.minimum, "");
+  this->add(problem, name + ": evaluate" + withThreads(this->cores_), median(outcome.seconds), "s");
+}
+
+void Run::againstBfgs(const Problem& problem)
+{
+  Outcome newton, bfgs, whole;
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say(problem.name + ", repetition " + std::to_string(i + 1));
+    this->morphOnce(problem, Minimizer::Newton, true, newton);
+    this->morphOnce(problem, Minimizer::LimitedMemoryBfgs, true, bfgs);
+    this->morphOnce(problem, Minimizer::Newton, false, whole);
+  }
+  this->check(problem, "inverted cells", static_cast<double>(whole.quality.inverted), 0);
+  this->check(problem, "difference of the minimisers' mean scaled Jacobians",
+    std::abs(newton.quality.mean - bfgs.quality.mean), 1e-3);
+  this->add(problem, "least scaled Jacobian", whole.quality.minimum, "",
+    Target::atLeast(ExactMinimum));
+  this->add(problem, "L-BFGS / Newton, to the first minimum",
+    median(bfgs.seconds) / median(newton.seconds), "", Target::atLeast(4));
+  this->addCounts(problem, "Newton, to the first minimum", newton);
+  this->addCounts(problem, "L-BFGS, to the first minimum", bfgs);
+  this->addCounts(problem, "whole", whole);
+}
+
+void Run::againstCholmod(const Problem& problem)
+{
+  say(problem.name + ", once");
+  Outcome whole;
+  this->morphOnce(problem, Minimizer::Newton, false, whole);
+  this->check(problem, "inverted cells", static_cast<double>(whole.quality.inverted), 0);
+  this->addCounts(problem, "whole", whole);
+
+  const auto monitor = makeMonitor(this->cores_);
+  morph::FemWarp femWarp;
+  femWarp.prepare(problem.mesh, problem.partition, *monitor);
+  say(problem.name + ", CHOLMOD");
+  this->settleDown();
+  const DirectResult cholmod = solveByCholmod(linearSystem(femWarp, problem));
+  const double factorise = cholmod.coldSeconds - cholmod.solveSeconds;
+  this->add(problem, "CHOLMOD's factorisation of FEMWARP's system", factorise, "s");
+  this->add(problem, "evaluate / CHOLMOD's factorisation", median(whole.seconds) / factorise, "",
+    Target::atMost(10));
+}
+}
+
+Report measureInversionFreeFigures(const Options& options, bool& correct)
+{
+  Run run(options);
+  const int small = options.quick ? 8 : 20, large = options.quick ? 12 : 50;
+  run.againstBfgs(twistedBrick(small, small, small, AxisZ));
+  run.againstCholmod(twistedBrick(large, large, large, AxisZ));
+  correct = run.correct;
+  return run.report;
+}
+}
