@@ -11,5 +11,5 @@ case "${1:-}" in
   --check) mode=(--dry-run -Werror) ;;
   *) echo "Usage: format.sh [--check]" >&2; exit 2 ;;
 esac
-find Filters Plugin Testing \( -name '*.h' -o -name '*.cxx' \) -print0 |
+find Examples Filters Plugin Programs Testing \( -name '*.h' -o -name '*.cxx' \) -print0 |
   xargs -0 clang-format --style=file "${mode[@]}"

@@ -8,13 +8,13 @@ Usage: install-packages.sh [--benchmark] [--developer]
 Installs the Debian 12 packages that MeshMorphing is built and tested with, as root or through sudo. Does nothing
 where they are all installed.
   --benchmark   also the solvers that the benchmark compares with (SuiteSparse, OpenBLAS)
-  --developer   also what Utilities/format.sh needs (clang-format)
+  --developer   also what format.sh, lint.sh and check-documentation.sh need (clang-format, clang-tidy, doxygen)
 END
 }
 
 # What paraview-dev's CMake files ask for is more than the package itself depends on.
 packages=(
-  cmake g++ ninja-build ccache git
+  cmake g++ ninja-build ccache git dpkg-dev file python3-numpy
   paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
   qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
   libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev
@@ -29,7 +29,7 @@ for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev) ;;
-    --developer) packages+=(clang-format) ;;
+    --developer) packages+=(clang-format clang-tidy doxygen) ;;
     *) usage >&2; exit 2 ;;
   esac
 done

@@ -88,10 +88,12 @@ def _draw_quality(path, records, model, surfaces, steps):
                 axis.plot([step.step for step in found], [step.minimum for step in found],
                           color=color, marker=marker, markersize=4, linewidth=1.2, label=method)
         axis.axhline(0, color="black", linewidth=0.6)
-        axis.set_ylim(-1.05, 1.05)
         axis.set_title(f"({letter}) {key[0]} mesh, {key[2]} morph")
         axis.set_xlabel("step")
         axis.set_ylabel("least scaled Jacobian")
+    for row in axes:  # both share it
+        low, high = row[0].get_ylim()
+        row[0].set_ylim(min(low, -0.02), max(high, 0.02))
     handles, labels = max((axis.get_legend_handles_labels() for axis in axes.flat),
                           key=lambda found: len(found[0]))
     figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False)

@@ -39,12 +39,8 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
                                d = points.row(id[3]) - o;
       return !(orientation[c] * a.dot(b.cross(d)) > 0);
     };
-    // The corners' tetrahedra come first; the others of a decomposition may be negative in a valid cell.
     const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
-    const int corners = shape.shape == Shape::Pyramid ? 4
-                        : shape.shape == Shape::Tet   ? 1
-                                                      : numberOfCorners(shape.shape);
-    if (std::any_of(tets, tets + corners, inverted))
+    if (std::any_of(tets, tets + cornerTetrahedra(shape.shape), inverted))
     {
       result.push_back(c);
     }

@@ -13,8 +13,7 @@ class Tracer
 public:
   Tracer(const SurfaceEdges& all, const std::vector<Index>& edges,
     const std::vector<std::uint8_t>& isVertex, const std::vector<std::pair<Index, Index>>& middles)
-    : all_(all)
-    , isVertex_(isVertex)
+    : isVertex_(isVertex)
     , middles_(middles)
     , used_(all.count(), 0)
   {
@@ -101,7 +100,6 @@ private:
     }
   }
 
-  const SurfaceEdges& all_;
   const std::vector<std::uint8_t>& isVertex_;
   const std::vector<std::pair<Index, Index>>& middles_;
   std::vector<std::uint8_t> used_;

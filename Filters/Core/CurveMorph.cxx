@@ -14,8 +14,7 @@ class Surroundings
 {
 public:
   Surroundings(const Classification& geometry, const BoundaryMotion& motion)
-    : geometry_(geometry)
-    , motion_(motion)
+    : motion_(motion)
     , all_(motion.known())
     , ofSurface_(geometry.surfaces.size())
   {
@@ -59,7 +58,6 @@ public:
   }
 
 private:
-  const Classification& geometry_;
   const BoundaryMotion& motion_;
   std::vector<Index> all_;
   std::vector<std::vector<Index>> ofSurface_;

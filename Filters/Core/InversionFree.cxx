@@ -14,6 +14,7 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
+constexpr double LeastGain = 1e-3; // of the least scaled Jacobian
 
 /// Of the volume cells, from node to node around them; 1 where there is none.
 double meanEdge(const Mesh& mesh)
@@ -97,7 +98,14 @@ bool InversionFree::minimize(
   monitor.progress(0.8);
   if (this->stiffening_ && this->target_ != Target::Initial)
   {
+    const Points before = points;
     stages.stiffen(points, monitor);
+    // It costs the average cell something: only worth it where the worst one gains.
+    if (!(this->leastScaledJacobian(points, monitor) >
+          (1 + LeastGain) * this->leastScaledJacobian(before, monitor)))
+    {
+      points = before;
+    }
   }
   monitor.progress(0.95);
   return true;

@@ -15,7 +15,6 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 512;
-constexpr double StiffenedTheta = 0.1;
 constexpr double Barrier = 1e-9; // regularisation that keeps nothing inverted finite
 
 using Corners = Eigen::Matrix<double, 3, 8>;
@@ -131,12 +130,11 @@ MeshEnergy::Corners MeshEnergy::positions(Index cell, const Points& points) cons
   return x;
 }
 
-/// Tetrahedral cells weigh shape against volume differently, and are never stiffened: it lowers their scaled Jacobian.
 FoldoverDensity MeshEnergy::densityOf(const TargetShapes::Tetrahedron& tetrahedron) const
 {
   FoldoverDensity own = this->density_;
   own.theta = tetrahedron.theta;
-  own.stiffness = tetrahedron.theta > StiffenedTheta ? 0 : own.stiffness;
+  own.stiffness = tetrahedron.stiffened ? own.stiffness : 0;
   return own;
 }
 
@@ -157,7 +155,7 @@ MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) c
         result.energy +=
           tetrahedron.weight * (gap > 0 ? phi / gap : std::numeric_limits<double>::infinity());
         result.least = std::min(result.least, J.determinant());
-        result.most = tetrahedron.theta > StiffenedTheta ? result.most : std::max(result.most, phi);
+        result.most = tetrahedron.stiffened ? std::max(result.most, phi) : result.most;
       }
       return result;
     });

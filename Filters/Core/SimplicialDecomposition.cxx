@@ -57,6 +57,19 @@ int numberOfCorners(Shape shape)
   }
 }
 
+int cornerTetrahedra(Shape shape)
+{
+  switch (shape)
+  {
+    case Shape::Tet:
+      return 1;
+    case Shape::Pyramid:
+      return 4;
+    default:
+      return numberOfCorners(shape);
+  }
+}
+
 double signedVolume(Shape shape, const double (*corners)[3])
 {
   using Vector = Eigen::Map<const Eigen::Vector3d>;

@@ -2,6 +2,7 @@
 #include "TargetShapes.h"
 
 #include "BlockSum.h"
+#include "ScaledJacobian.h"
 #include "SimplicialDecomposition.h"
 
 #include <Eigen/Geometry>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace morph
 {
@@ -17,7 +17,8 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double MostStretch = 20;
-constexpr double LeastVolume = 1e-3; // of the mean volume at rest
+constexpr double LeastQuality = 1e-3; // scaled Jacobian of a cell at rest that serves as a target
+constexpr double LeastVolume = 1e-3;  // of a tetrahedron to the mean in its cell
 
 using Corners = Eigen::Matrix<double, 3, 8>;
 using Lengths = Eigen::Vector3d; // along the three axes of a cell
@@ -154,17 +155,6 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
   return D;
 }
 
-double leastVolume(Shape shape, const Corners& x, double sign)
-{
-  const SimplicialDecomposition parts = simplicialDecomposition(shape);
-  double least = std::numeric_limits<double>::infinity();
-  for (int t = 0; t < parts.count; ++t)
-  {
-    least = std::min(least, sign * edges(parts.tets[t], x).determinant() / 6);
-  }
-  return least;
-}
-
 bool isVolume(const Mesh& mesh, Index cell)
 {
   return numberOfCorners(cellShape(mesh.types[cell])->shape) > 0;
@@ -174,46 +164,23 @@ bool isVolume(const Mesh& mesh, Index cell)
 std::vector<char> validCells(
   const Mesh& rest, const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
-  const Index cells = rest.numberOfCells();
-  std::vector<double> least(cells, 0);
-  struct Mean
+  const Quality quality = measureQuality(rest, rest.points, orientation, {}, monitor);
+  std::vector<char> valid(rest.numberOfCells());
+  for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    double volume = 0;
-    Index tetrahedra = 0;
-    Mean& operator+=(const Mean& other)
-    {
-      this->volume += other.volume;
-      this->tetrahedra += other.tetrahedra;
-      return *this;
-    }
-  };
-  const Mean mean = blockSum(cells, monitor, Mean{},
-    [&](Index c)
-    {
-      if (!isVolume(rest, c))
-      {
-        return Mean{};
-      }
-      const Shape shape = cellShape(rest.types[c])->shape;
-      const Corners x = cornersOf(rest, c, rest.points);
-      least[c] = leastVolume(shape, x, orientation[c]);
-      Mean result;
-      const SimplicialDecomposition parts = simplicialDecomposition(shape);
-      for (int t = 0; t < parts.count; ++t)
-      {
-        result.volume += std::abs(edges(parts.tets[t], x).determinant()) / 6;
-        ++result.tetrahedra;
-      }
-      return result;
-    });
-  const double bound =
-    LeastVolume * mean.volume / static_cast<double>(std::max<Index>(1, mean.tetrahedra));
-  std::vector<char> valid(cells);
-  for (Index c = 0; c < cells; ++c)
-  {
-    valid[c] = least[c] > bound;
+    valid[c] = quality.scaledJacobian[c] > LeastQuality;
   }
   return valid;
+}
+
+double meanVolume(const SimplicialDecomposition& parts, const Corners& x)
+{
+  double sum = 0;
+  for (int t = 0; t < parts.count; ++t)
+  {
+    sum += std::abs(edges(parts.tets[t], x).determinant()) / 6;
+  }
+  return sum / parts.count;
 }
 
 /// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or its own.
@@ -271,6 +238,13 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
       result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
   }
   result.tetrahedra.resize(result.start.back());
+  const bool tetrahedraAlone = std::all_of(rest.types.begin(), rest.types.end(),
+    [](std::uint8_t type)
+    {
+      const Shape shape = cellShape(type)->shape;
+      return shape == Shape::Tet || numberOfCorners(shape) == 0;
+    });
+  const double theta = tetrahedraAlone ? 0.5 : 0.1;
   const std::vector<char> valid = validCells(rest, orientation, monitor);
   const bool allValid = [&]
   {
@@ -308,14 +282,22 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
           x.row(0) *= sign;
         }
         const SimplicialDecomposition parts = simplicialDecomposition(shape);
+        const double least = LeastVolume * meanVolume(parts, x);
         for (int t = 0; t < parts.count; ++t)
         {
           TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
+          tetrahedron = {};
           const Eigen::Matrix3d D = edges(parts.tets[t], x);
+          const double volume = sign * D.determinant() / 6;
+          if (t >= cornerTetrahedra(shape) && !(volume > least))
+          {
+            continue;
+          }
           Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
           std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
-          tetrahedron.theta = shape == Shape::Tet ? 0.5 : 0.1;
-          tetrahedron.weight = parts.tets[t].weight * std::abs(D.determinant()) / 6;
+          tetrahedron.theta = theta;
+          tetrahedron.stiffened = shape != Shape::Tet;
+          tetrahedron.weight = parts.tets[t].weight * volume;
         }
       }
     });

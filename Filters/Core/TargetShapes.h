@@ -25,6 +25,7 @@ struct TargetShapes
   struct Tetrahedron
   {
     std::int8_t corner[4]; ///< of the cell
+    bool stiffened;        ///< not in tetrahedral cells: it lowers their scaled Jacobian
     double inverse[9];     ///< column major
     double weight;         ///< decomposition weight times target volume; the mean over all is 1
     double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
@@ -34,9 +35,9 @@ struct TargetShapes
 };
 
 /// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's orientation().
-/// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest with a
-/// tetrahedron at or below 1e-3 of the mean volume, which Initial and Stretched would divide by, takes the Ideal shape with
-/// the edge lengths of its valid neighbors at rest. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
+/// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest whose scaled
+/// Jacobian is 1e-3 or less, which Initial and Stretched would divide by, takes the Ideal shape with the edge lengths of its valid
+/// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
 TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, Target target, Monitor& monitor);
 }

@@ -7,6 +7,9 @@
 #include "SmoothMesh.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphCrewMonitor.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphGradient.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
@@ -21,10 +24,12 @@
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
 #include <vtkDemandDrivenPipeline.h>
+#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
+#include <vtkPointSet.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -429,6 +434,55 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
 const char* vtkMorphAlgorithm::GetMorphStatus() const
 {
   return this->Internals->Status.c_str();
+}
+
+bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
+{
+  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
+  const int done = vtkMorphExecution::Run(
+    this, "apply the adjoint",
+    [&]
+    {
+      this->Transpose(vtkMorphInput::RequireGrid(rest, "The mesh"), boundary, gradient,
+        boundaryGradient, monitor);
+    },
+    [&] { boundaryGradient->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done != 0;
+}
+
+void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
+{
+  vtkInternals& kept = *this->Internals;
+  if (this->Stepping == RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
+  {
+    throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
+                       "Stepping to Absolute.");
+  }
+  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
+  kept.SetGrid(rest, monitor);
+  const vtkMorphBoundaryMatch::Result match =
+    this->Match(vtkMorphInput::RequirePointSet(boundary, "The boundary"), 1, monitor);
+  monitor.SetRange(0.05, 0.4);
+  this->Prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(kept.Morpher.get());
+  if (!linear)
+  {
+    throw morph::Error(std::string(this->GetClassName()) +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
+  monitor.SetRange(0.5, 1);
+  this->SetEvaluateOptions(*linear);
+  morph::Points prescribed;
+  linear->applyTranspose(nodes, prescribed, monitor);
+  vtkMorphGradient::Gather(this->ScaleFactor * prescribed, match.Sources,
+    vtkPointSet::SafeDownCast(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const

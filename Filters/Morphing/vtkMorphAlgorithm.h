@@ -78,6 +78,8 @@ namespace vtkMorphBoundaryMatch
 struct Result;
 }
 
+class vtkDataArray;
+class vtkDoubleArray;
 class vtkMorphMonitor;
 class vtkPointSet;
 struct vtkMorphStepResult;
@@ -346,6 +348,23 @@ public:
   vtkGetMacro(UnmatchedPoints, vtkIdType);
   ///@}
 
+  /**
+   * The adjoint of a linear method, for shape optimisation: from the derivatives of an objective
+   * with respect to the position of each node of the morphed mesh to those with respect to the
+   * position (or displacement) of each point of the boundary. `rest` and `boundary`: as on the two
+   * ports, which are not looked at. `gradient`: #nodes tuples of 3. `boundaryGradient`: becomes
+   * #points of the boundary tuples of 3; a point that stands for no node gets 0, and so does each
+   * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
+   * used again, and the reverse, as between executions; the cost beyond that is that of an
+   * evaluation. False after an error, which is reported as in an execution: those of an execution,
+   * a gradient of the wrong size or not finite, a method that is not linear, relative steps. With absolute
+   * steps it is that of the whole motion.
+   *
+   * @sa vtkMorphAdjoint
+   */
+  bool ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient);
+
 protected:
   vtkMorphAlgorithm();
   ~vtkMorphAlgorithm() override;
@@ -391,10 +410,16 @@ private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
+  friend class vtkMorphAdjoint;
+
   void ResetResults();
+  /// ApplyTranspose() that throws.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
+  /// Finds which nodes of the mesh that is kept go where, in that part of their motion.
   vtkMorphBoundaryMatch::Result Match(
     vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const;
   /// The step that is asked for, or null where the boundary is first needed at another time.
@@ -403,6 +428,7 @@ private:
   /// `first`, `last`: of the progress.
   vtkMorphStepResult MorphStep(const morph::Mesh& from, const vtkMorphBoundaryMatch::Result& match,
     int validityMode, double first, double last, vtkMorphMonitor& monitor);
+  /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or others.
   void Prepare(
     const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor);
   void Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,

@@ -453,6 +453,7 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
     if (row[node] != Unnamed)
     {
       result.Ids.push_back(node);
+      result.Sources.push_back(row[node] < 0 ? -1 : pairs[row[node]].first);
     }
   }
   const double scale = options.ScaleFactor;

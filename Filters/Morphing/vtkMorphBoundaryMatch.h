@@ -31,9 +31,10 @@ struct Options
 
 struct Result
 {
-  std::vector<morph::Index> Ids; ///< sorted, unique
-  morph::Points Targets;         ///< #Ids x 3, finite
-  morph::Index Unmatched = 0;    ///< boundary points that stand for no node
+  std::vector<morph::Index> Ids;     ///< sorted, unique
+  morph::Points Targets;             ///< #Ids x 3, finite
+  std::vector<morph::Index> Sources; ///< #Ids, the boundary point that a node follows, -1: held
+  morph::Index Unmatched = 0;        ///< boundary points that stand for no node
   std::vector<std::string> Warnings;
 };
 

@@ -29,6 +29,7 @@ struct MorphFilter
   std::vector<MorphOption> options; ///< those of the method itself
   /// What the method counts, as the output's field data name it, and the filter's getter.
   std::vector<std::pair<std::string, std::function<vtkIdType(vtkMorphAlgorithm*)>>> counts;
+  bool linear = true; ///< free displacements are a fixed matrix times the prescribed ones
 };
 
 /// Every morphing filter.

@@ -66,7 +66,7 @@ class Properties(unittest.TestCase):
                                      Function="iHat*coordsX*0.1", ResultArrayName="Shift")
         boundary.UpdatePipeline()
         target = ExtractMorphBoundary(Input=grid)
-        cls.inputs = {"Input": grid, "Boundary": boundary, "Target": target}
+        cls.inputs = {"Input": grid, "Boundary": boundary, "Target": target, "Gradient": boundary}
 
     def create(self, xml):
         names = [p.get("name") for p in xml.iter("InputProperty")]

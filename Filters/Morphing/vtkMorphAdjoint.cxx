@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphAdjoint.h"
+
+#include "Error.h"
+#include "vtkMorphAlgorithm.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphPorts.h"
+
+#include <vtkAlgorithmOutput.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkMorphAdjoint);
+
+namespace
+{
+/// The first vtkMorphAlgorithm from `algorithm` on upstream, level by level; null where there is none.
+vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
+{
+  std::vector<vtkAlgorithm*> found;
+  const auto add = [&](vtkAlgorithm* next)
+  {
+    if (next && std::find(found.begin(), found.end(), next) == found.end())
+    {
+      found.push_back(next);
+    }
+  };
+  add(algorithm);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (auto* morph = vtkMorphAlgorithm::SafeDownCast(found[i]))
+    {
+      return morph;
+    }
+    for (int port = 0; port < found[i]->GetNumberOfInputPorts(); ++port)
+    {
+      for (int c = 0; c < found[i]->GetNumberOfInputConnections(port); ++c)
+      {
+        add(found[i]->GetInputAlgorithm(port, c));
+      }
+    }
+  }
+  return nullptr;
+}
+
+vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
+{
+  if (name.empty())
+  {
+    throw morph::Error(
+      "GradientArray is not set: name the point array that holds the derivatives of the "
+      "objective with respect to the nodes.");
+  }
+  vtkPointSet* points = vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
+  vtkDataArray* array = points->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    throw morph::Error("GradientArray names '" + name +
+                       "', which is no numeric point array of the gradient's " +
+                       "data set. Give it on port 2, or with the mesh on port 0.");
+  }
+  return array;
+}
+}
+
+vtkMorphAdjoint::vtkMorphAdjoint()
+  : Ports(new vtkMorphPorts(this))
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkMorphAdjoint::~vtkMorphAdjoint()
+{
+  this->SetGradientArray(nullptr);
+}
+
+void vtkMorphAdjoint::SetBoundaryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkMorphAdjoint::SetBoundaryData(vtkDataObject* boundary)
+{
+  this->SetInputDataObject(1, boundary);
+}
+
+void vtkMorphAdjoint::SetGradientConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkMorphAdjoint::SetGradientData(vtkDataObject* gradient)
+{
+  this->SetInputDataObject(2, gradient);
+}
+
+void vtkMorphAdjoint::SetMorph(vtkMorphAlgorithm* morph)
+{
+  if (this->Morph != morph)
+  {
+    this->Morph = morph;
+    this->Modified();
+  }
+}
+
+vtkMorphAlgorithm* vtkMorphAdjoint::GetMorph()
+{
+  return this->Morph;
+}
+
+vtkMTimeType vtkMorphAdjoint::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Morph ? std::max(own, this->Morph->GetMTime()) : own;
+}
+
+int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
+{
+  return vtkMorphPorts::FillInformation(port, info);
+}
+
+vtkTypeBool vtkMorphAdjoint::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    vtkMorphAlgorithm* morph = this->FindMorph();
+    return this->Ports->RequestUpdateExtent(
+      morph ? morph->GetRestTime() : 0, vtkMorphPorts::AskedTime(outputVector), inputVector);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+int vtkMorphAdjoint::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPointSet* boundary = vtkPointSet::GetData(inputVector[1]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const int type = boundary ? boundary->GetDataObjectType() : VTK_POLY_DATA;
+  if (!output || output->GetDataObjectType() != type)
+  {
+    const auto fresh = boundary ? vtkSmartPointer<vtkDataObject>::Take(boundary->NewInstance())
+                                : vtkSmartPointer<vtkDataObject>(vtkNew<vtkPolyData>());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+int vtkMorphAdjoint::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMorphAlgorithm* morph = this->FindMorph();
+  vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
+  vtkPointSet* output = vtkPointSet::GetData(outputVector);
+  const vtkMorphPorts::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
+    [] {},
+    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
+  return this->Ports->RequestData(task, request, inputVector, outputVector);
+}
+
+vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
+{
+  return this->Morph ? this->Morph.Get() : nearestMorph(this->GetInputAlgorithm(2, 0));
+}
+
+void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
+  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor)
+{
+  if (!morph)
+  {
+    throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
+                       "the gradient on port 2 by a pipeline with that filter in it.");
+  }
+  vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
+  vtkNew<vtkDoubleArray> result;
+  result->SetName("MorphGradient");
+  morph->Transpose(rest, points, gradient, result, monitor);
+  output->ShallowCopy(points);
+  output->GetPointData()->AddArray(result);
+  output->GetPointData()->SetActiveVectors("MorphGradient");
+}
+
+void vtkMorphAdjoint::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Morph: " << (this->Morph ? this->Morph->GetClassName() : "(none)") << "\n";
+  os << indent << "GradientArray: " << (this->GradientArray ? this->GradientArray : "(none)")
+     << "\n";
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMorphAdjoint
+ * @brief   derivatives of an objective on a morphed mesh with respect to its boundary
+ *
+ * For shape optimisation. A linear morphing method moves the nodes inside by a fixed matrix times the
+ * displacement of the boundary, x_free = M x_prescribed. Given the derivatives g of an objective with
+ * respect to the position of every node of the morphed mesh, this filter writes those with respect to
+ * the position of every point of the boundary, g_prescribed + M^T g_free, at the cost of one evaluation
+ * and whatever the number of boundary points.
+ *
+ * Port 0 takes the mesh at rest, port 1 the displaced boundary, both as the morphing filter's ports do.
+ * The derivatives are the point vectors GradientArray of port 2 (for instance the morphed mesh, on which
+ * the objective was evaluated) or, where that is not connected, of port 0. The output is the boundary
+ * with the point vectors `MorphGradient`. They are derivatives with respect to the points of port 1 or,
+ * where the method has a DisplacementArray, to that array; a ScaleFactor other than 1 is a factor
+ * of them too. Nodes that are held pass nothing on. A point that stands for no node gets 0, and so does
+ * each but the first of several points that stand for one node.
+ *
+ * The method and its options are those of the filter Morph or, where that is not set, of the nearest
+ * vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used again. Morph
+ * need not be connected to anything.
+ *
+ * Time: as vtkMorphAlgorithm's; port 2 is asked for the time that the output is.
+ *
+ * Errors give no result: one message, and an empty output. Among them: no method, one that is not linear, no
+ * gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.
+ *
+ * A. Jameson, "Aerodynamic design via control theory", J. Sci. Comput. 3 (1988) 233-260;
+ * M. L. Staten et al. (2011), as in vtkMorphAlgorithm.
+ *
+ * @sa vtkMorphAlgorithm
+ */
+#ifndef vtkMorphAdjoint_h
+#define vtkMorphAdjoint_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkPointSetAlgorithm.h>
+#include <vtkSmartPointer.h> // for vtkSmartPointer
+
+#include <memory> // for std::unique_ptr
+
+class vtkMorphAlgorithm;
+class vtkMorphMonitor;
+class vtkMorphPorts;
+class vtkPointSet;
+class vtkUnstructuredGrid;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAdjoint : public vtkPointSetAlgorithm
+{
+public:
+  static vtkMorphAdjoint* New();
+  vtkTypeMacro(vtkMorphAdjoint, vtkPointSetAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The displaced boundary, a vtkPointSet: the same as SetInputConnection() and SetInputData() on
+   * port 1.
+   */
+  void SetBoundaryConnection(vtkAlgorithmOutput* output);
+  void SetBoundaryData(vtkDataObject* boundary);
+  ///@}
+
+  ///@{
+  /**
+   * The data set that carries the derivatives, with as many points as the mesh: the same as
+   * SetInputConnection() and SetInputData() on port 2. Optional: the mesh at rest may carry them.
+   */
+  void SetGradientConnection(vtkAlgorithmOutput* output);
+  void SetGradientData(vtkDataObject* gradient);
+  ///@}
+
+  ///@{
+  /**
+   * The morphing filter whose method, options and array names are taken. Default: none, that is the
+   * nearest one in the pipeline behind port 2; an error where there is none.
+   */
+  void SetMorph(vtkMorphAlgorithm* morph);
+  vtkMorphAlgorithm* GetMorph();
+  ///@}
+
+  ///@{
+  /**
+   * Name of the point array with the derivatives, three components: the unit of the objective over that
+   * of the points. Default: none, which is an error.
+   */
+  vtkSetStringMacro(GradientArray);
+  vtkGetStringMacro(GradientArray);
+  ///@}
+
+  /**
+   * Later of its own and the method's.
+   */
+  vtkMTimeType GetMTime() override;
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkMorphAdjoint();
+  ~vtkMorphAdjoint() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkMorphAdjoint(const vtkMorphAdjoint&) = delete;
+  void operator=(const vtkMorphAdjoint&) = delete;
+
+  vtkMorphAlgorithm* FindMorph();
+  void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+    vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor);
+
+  std::unique_ptr<vtkMorphPorts> Ports;
+  vtkSmartPointer<vtkMorphAlgorithm> Morph;
+  char* GradientArray = nullptr;
+};
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace morph_mesh
+{
+/// What the command line asks for.
+struct Arguments
+{
+  enum class Task
+  {
+    Morph,
+    ExtractBoundary,
+    ShowHelp,
+    ShowVersion
+  };
+  Task task = Task::Morph;
+  std::string grid, boundary, output; ///< files; ExtractBoundary takes no boundary
+  std::string method = "FEMWARP";
+  std::vector<std::pair<std::string, std::string>> options; ///< of the method, by name
+  std::string validity = "Report";
+  std::string boundaryIdArray, displacementArray; ///< empty: none
+  double scaleFactor = 1;
+  bool freeUnnamedBoundary = false;
+  bool requireValid = false;
+  int threads = 0;
+  bool quiet = false, progress = false;
+  std::string help; ///< for ShowHelp
+};
+
+/// The command line cannot be understood.
+struct UsageError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws UsageError.
+Arguments parseArguments(int argc, char* argv[]);
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// morph-mesh: the morphing filters on the command line.
+#include "Arguments.h"
+#include "Files.h"
+#include "Messages.h"
+#include "Methods.h"
+#include "ProgressBar.h"
+#include "Report.h"
+
+#include <vtkExtractMorphBoundary.h>
+#include <vtkMorphAlgorithm.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkScaledJacobian.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVersion.h>
+
+#include <exception>
+#include <iostream>
+
+namespace
+{
+using namespace morph_mesh;
+
+void printWarnings(const Messages& messages)
+{
+  for (const std::string& warning : messages.warnings())
+  {
+    std::cerr << "morph-mesh: warning: " << warning << "\n";
+  }
+}
+
+int extractBoundary(const Arguments& arguments)
+{
+  requireBoundaryFormat(arguments.output);
+  vtkNew<vtkExtractMorphBoundary> boundary;
+  boundary->SetInputData(readGrid(arguments.grid));
+  boundary->SetNumberOfThreads(arguments.threads);
+  Messages messages(boundary);
+  messages.update("Cannot extract the boundary of " + arguments.grid);
+  writeBoundary(boundary->GetOutput(), arguments.output);
+  if (!arguments.quiet)
+  {
+    std::cout << boundary->GetOutput()->GetNumberOfPoints() << " points, "
+              << boundary->GetOutput()->GetNumberOfCells() << " faces\n";
+  }
+  return 0;
+}
+
+vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
+{
+  vtkSmartPointer<vtkMorphAlgorithm> filter = makeMethod(arguments.method);
+  for (const auto& [name, value] : arguments.options)
+  {
+    setOption(filter, name, value);
+  }
+  setValidity(filter, arguments.validity);
+  filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
+  filter->SetDisplacementArray(arguments.displacementArray.c_str());
+  filter->SetScaleFactor(arguments.scaleFactor);
+  filter->SetHoldUnnamedBoundary(!arguments.freeUnnamedBoundary);
+  filter->SetNumberOfThreads(arguments.threads);
+  return filter;
+}
+
+int morphMesh(const Arguments& arguments)
+{
+  const vtkSmartPointer<vtkMorphAlgorithm> filter = makeFilter(arguments);
+  requireGridFormat(arguments.output);
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(readPoints(arguments.boundary));
+  Messages messages(filter);
+  std::string partial;
+  {
+    const ProgressBar bar(filter, arguments.method, arguments.progress && !arguments.quiet);
+    partial = messages.updatePartly("Cannot morph " + arguments.grid);
+  }
+  printWarnings(messages);
+  if (!partial.empty())
+  {
+    std::cerr << "morph-mesh: " << partial << "\n";
+  }
+  writeGrid(filter->GetOutput(), arguments.output);
+  if (!arguments.quiet)
+  {
+    vtkNew<vtkScaledJacobian> before;
+    before->SetInputData(grid);
+    before->SetNumberOfThreads(arguments.threads);
+    before->Update();
+    printReport(before, filter);
+  }
+  const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
+  return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
+}
+
+int run(int argc, char* argv[])
+{
+  const Arguments arguments = parseArguments(argc, argv);
+  switch (arguments.task)
+  {
+    case Arguments::Task::ShowHelp:
+      std::cout << arguments.help;
+      return 0;
+    case Arguments::Task::ShowVersion:
+      std::cout << "morph-mesh " << MESHMORPHING_VERSION << ", VTK " << vtkVersion::GetVTKVersion()
+                << "\n";
+      return 0;
+    case Arguments::Task::ExtractBoundary:
+      return extractBoundary(arguments);
+    case Arguments::Task::Morph:
+      break;
+  }
+  return morphMesh(arguments);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  installConsole();
+  try
+  {
+    return run(argc, argv);
+  }
+  catch (const UsageError& error)
+  {
+    std::cerr << "morph-mesh: " << error.what() << "\nTry morph-mesh --help.\n";
+    return 2;
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "morph-mesh: " << error.what() << "\n";
+    return 1;
+  }
+}

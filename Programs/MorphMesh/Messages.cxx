@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Messages.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkExecutive.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointSet.h>
+
+#include <iostream>
+
+namespace morph_mesh
+{
+namespace
+{
+/// Without "ERROR: In vtkX.cxx, line 1\nvtkX (0x1): " and the empty lines at the end.
+std::string bare(const char* message)
+{
+  std::string text = message ? message : "";
+  const std::size_t object = text.find("): ");
+  if (object != std::string::npos)
+  {
+    text.erase(0, object + 3);
+  }
+  text.erase(text.find_last_not_of(" \n") + 1);
+  return text;
+}
+
+void keep(vtkObject*, unsigned long, void* list, void* message)
+{
+  static_cast<std::vector<std::string>*>(list)->push_back(bare(static_cast<const char*>(message)));
+}
+
+class Console : public vtkOutputWindow
+{
+public:
+  static Console* New();
+  vtkTypeMacro(Console, vtkOutputWindow);
+  void DisplayText(const char* text) override { std::cerr << "morph-mesh: " << bare(text) << "\n"; }
+};
+
+vtkStandardNewMacro(Console);
+
+void ignore(vtkObject*, unsigned long, void*, void*)
+{
+}
+}
+
+void installConsole()
+{
+  vtkOutputWindow::SetInstance(vtkNew<Console>());
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would say it once more
+}
+
+Messages::Messages(vtkAlgorithm* algorithm)
+  : algorithm_(algorithm)
+{
+  const auto observe = [&](unsigned long event, std::vector<std::string>& list)
+  {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetCallback(keep);
+    command->SetClientData(&list);
+    this->tags_.push_back(algorithm->AddObserver(event, command));
+  };
+  observe(vtkCommand::ErrorEvent, this->errors_);
+  observe(vtkCommand::WarningEvent, this->warnings_);
+  // The executive only repeats that the algorithm failed.
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(ignore);
+  this->executiveTag_ = algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, command);
+}
+
+Messages::~Messages()
+{
+  for (const unsigned long tag : this->tags_)
+  {
+    this->algorithm_->RemoveObserver(tag);
+  }
+  this->algorithm_->GetExecutive()->RemoveObserver(this->executiveTag_);
+}
+
+void Messages::update(const std::string& task)
+{
+  this->algorithm_->Update();
+  if (!this->errors_.empty())
+  {
+    throw Failure(task + ": " + this->errors_.front());
+  }
+}
+
+std::string Messages::updatePartly(const std::string& task)
+{
+  this->algorithm_->Update();
+  auto* output = vtkPointSet::SafeDownCast(this->algorithm_->GetOutputDataObject(0));
+  if (!this->errors_.empty() && (!output || output->GetNumberOfPoints() == 0))
+  {
+    throw Failure(task + ": " + this->errors_.front());
+  }
+  std::string text;
+  for (const std::string& error : this->errors_)
+  {
+    text += (text.empty() ? "" : "\n") + error;
+  }
+  return text;
+}
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FoldoverDensity.h"
+#include "Meshes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using Matrix = Eigen::Matrix3d;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+struct Case
+{
+  const char* name;
+  double theta, epsilon, stiffness;
+};
+const Case Cases[] = { { "hex", 0.1, 1e-10, 0 }, { "tet", 0.5, 1e-10, 0 },
+  { "regularised", 0.1, 0.7, 0 }, { "shape alone", 0, 0.3, 0 }, { "stiffened", 0.1, 1e-10, 0.01 } };
+
+morph::FoldoverDensity densityOf(const Case& c)
+{
+  morph::FoldoverDensity density;
+  density.theta = c.theta;
+  density.epsilon = c.epsilon;
+  density.stiffness = c.stiffness;
+  return density;
+}
+
+/// Jacobians of all kinds: near the identity, sheared, nearly flat, and, where the density allows it, inverted.
+std::vector<Matrix> jacobians(bool inverted)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Matrix> result{ Matrix::Identity(), 2 * Matrix::Identity() };
+  while (result.size() < 40)
+  {
+    Matrix J = Matrix::Identity();
+    for (int i = 0; i < 9; ++i)
+    {
+      J.data()[i] += 0.8 * number(random);
+    }
+    if (result.size() % 5 == 0)
+    {
+      J.col(2) = J.col(0) + 0.5 * J.col(1) + 0.05 * J.col(2);
+    }
+    if (inverted || J.determinant() > 0.02)
+    {
+      result.push_back(J);
+    }
+  }
+  return result;
+}
+
+Matrix finiteDifference(const morph::FoldoverDensity& density, const Matrix& J)
+{
+  const double h = 1e-6;
+  Matrix result;
+  for (int i = 0; i < 9; ++i)
+  {
+    Matrix plus = J, minus = J;
+    plus.data()[i] += h;
+    minus.data()[i] -= h;
+    result.data()[i] = (density.value(plus) - density.value(minus)) / (2 * h);
+  }
+  return result;
+}
+
+/// The second derivatives by differences of the first, their negative eigenvalues left out.
+Matrix9 projectedDifference(const morph::FoldoverDensity& density, const Matrix& J)
+{
+  const double h = 1e-6;
+  Matrix9 H;
+  for (int i = 0; i < 9; ++i)
+  {
+    Matrix plus = J, minus = J, a, b;
+    plus.data()[i] += h;
+    minus.data()[i] -= h;
+    density.gradient(plus, a);
+    density.gradient(minus, b);
+    const Matrix difference = (a - b) / (2 * h);
+    H.col(i) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(difference.data());
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix9> eigen(Matrix9(H + H.transpose()) / 2);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+/// With the unit matrix for shape functions block[a][b] is d2/(dJ_a dJ_b) by columns.
+Matrix9 assembled(const morph::FoldoverDensity& density, const Matrix& J)
+{
+  Matrix block[3][3];
+  density.hessian(J, Matrix::Identity(), block);
+  Matrix9 H;
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int b = 0; b < 3; ++b)
+    {
+      H.block<3, 3>(3 * a, 3 * b) = a <= b ? block[a][b] : Matrix(block[b][a].transpose());
+    }
+  }
+  return H;
+}
+}
+
+TEST(FoldoverDensity, OneForRotationsAndMoreForAllElse)
+{
+  const Matrix R =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  for (const Case& c : Cases)
+  {
+    SCOPED_TRACE(c.name);
+    morph::FoldoverDensity density = densityOf(c);
+    density.epsilon = 1e-10;
+    EXPECT_NEAR(density.distortion(R), 1, 1e-14);
+    for (const Matrix& J : jacobians(false))
+    {
+      EXPECT_GT(density.distortion(J), 1 - 1e-14);
+      EXPECT_NEAR(density.distortion(R * J) / density.distortion(J), 1, 1e-12);
+    }
+  }
+}
+
+TEST(FoldoverDensity, GradientIsThatOfFiniteDifferences)
+{
+  for (const Case& c : Cases)
+  {
+    SCOPED_TRACE(c.name);
+    const morph::FoldoverDensity density = densityOf(c);
+    for (const Matrix& J : jacobians(c.epsilon > 0.1))
+    {
+      Matrix derivative;
+      EXPECT_NEAR(density.gradient(J, derivative) / density.value(J), 1, 1e-12);
+      const double scale = std::max(1., derivative.norm());
+      EXPECT_LT((derivative - finiteDifference(density, J)).norm(), 1e-5 * scale) << J;
+    }
+  }
+}
+
+TEST(FoldoverDensity, HessianIsTheProjectedOne)
+{
+  for (const Case& c : Cases)
+  {
+    SCOPED_TRACE(c.name);
+    const morph::FoldoverDensity density = densityOf(c);
+    for (const Matrix& J : jacobians(c.epsilon > 0.1))
+    {
+      const Matrix9 expected = projectedDifference(density, J), H = assembled(density, J);
+      EXPECT_LT((H - expected).norm(), 2e-5 * std::max(1., expected.norm())) << J;
+    }
+  }
+}
+
+TEST(FoldoverDensity, SignedSingularValues)
+{
+  std::vector<Matrix> all = jacobians(true);
+  all.push_back(Matrix::Zero());
+  all.push_back(Eigen::Vector3d(1, 2, 3) * Eigen::RowVector3d(1, -1, 2));
+  all.push_back(Eigen::Vector3d(1, 1, -1).asDiagonal());
+  for (const Matrix& J : all)
+  {
+    const morph::SignedSingularValues svd(J);
+    EXPECT_LT((svd.U * svd.S.asDiagonal() * svd.V.transpose() - J).norm(), 1e-6 * (1 + J.norm()))
+      << J;
+    EXPECT_NEAR(svd.U.determinant(), 1, 1e-10);
+    EXPECT_NEAR(svd.V.determinant(), 1, 1e-10);
+    EXPECT_GE(svd.S[0], svd.S[1] - 1e-7);
+    EXPECT_GE(svd.S[1], std::abs(svd.S[2]) - 1e-7);
+  }
+}
+
+TEST(FoldoverDensity, BarrierOfTheStiffness)
+{
+  morph::FoldoverDensity density;
+  const Matrix J = Eigen::Vector3d(1, 1, 0.2).asDiagonal();
+  density.stiffness = 0.999 / density.distortion(J);
+  EXPECT_NEAR(density.value(J), 1000 * density.distortion(J), 1e-6 * density.value(J));
+  density.stiffness = 1.001 / density.distortion(J);
+  EXPECT_TRUE(std::isinf(density.value(J)));
+}

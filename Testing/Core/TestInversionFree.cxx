@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryDetermined.h"
+#include "InversionFree.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "ScaledJacobian.h"
+#include "SimplexLinear.h"
+#include "SubSteps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using morph::Index;
+using morph::InversionFree;
+using morph::Mesh;
+using morph::Points;
+
+struct Morphed
+{
+  Points moved;
+  morph::EvaluateReport report;
+  double minimum;
+  Index inverted;
+};
+
+Morphed run(InversionFree& method, const Mesh& mesh, const Points& target, int threads = 1)
+{
+  meshes::ThreadedMonitor monitor(threads);
+  Morphed result;
+  method.prepare(mesh, motions::outerPartition(mesh), monitor);
+  result.report = method.evaluate(target, result.moved, monitor);
+  const morph::Quality quality = morph::measureQuality(
+    mesh, result.moved, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
+  result.minimum = quality.minimum;
+  result.inverted = quality.inverted;
+  return result;
+}
+
+Index count(const morph::EvaluateReport& report, const std::string& name)
+{
+  for (const morph::Count& c : report.counts)
+  {
+    if (c.name == name)
+    {
+      return c.value;
+    }
+  }
+  ADD_FAILURE() << "no count " << name;
+  return -1;
+}
+
+/// Steep waves along a box of length 4.
+motions::Row waves(const motions::Row& x)
+{
+  return { x[0], x[1], x[2] + 1.6 * std::sin(M_PI / 2 * x[0]) };
+}
+
+Points target(const Mesh& mesh, const motions::Map& map)
+{
+  return motions::targets(mesh, motions::outerPartition(mesh), map);
+}
+}
+
+TEST(InversionFree, NoMotionIsTheIdentity)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    InversionFree method;
+    const Morphed result = run(method, mesh, target(mesh, [](const motions::Row& x) { return x; }));
+    EXPECT_TRUE(motions::identical(result.moved, mesh.points));
+  }
+}
+
+TEST(InversionFree, AffineMotionsAreExactWithTheInitialTarget)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    InversionFree method;
+    method.setTarget(morph::Target::Initial);
+    method.setTolerance(1e-12);
+    const Morphed result = run(method, mesh, target(mesh, motions::affine));
+    const Points expected = motions::mapped(mesh.points, motions::affine);
+    EXPECT_LT(motions::difference(result.moved, expected), 1e-10 * meshes::size(expected));
+  }
+}
+
+TEST(InversionFree, EveryKindOfMeshComesOutValidWhereFemWarpDoesNot)
+{
+  int helped = 0;
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    meshes::ThreadedMonitor monitor;
+    morph::FemWarp femWarp;
+    Points warped;
+    const Points boundary = target(mesh, waves);
+    femWarp.prepare(mesh, motions::outerPartition(mesh), monitor);
+    femWarp.evaluate(boundary, warped, monitor);
+    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    helped += morph::invertedCells(mesh, warped, orientation, monitor).empty() ? 0 : 1;
+    ASSERT_TRUE(
+      morph::boundaryDeterminedInversions(mesh, femWarp.partition(), orientation, warped).empty());
+    InversionFree method;
+    const Morphed result = run(method, mesh, boundary);
+    EXPECT_EQ(result.inverted, 0) << result.minimum;
+    EXPECT_EQ(count(result.report, "Untangled"), 1);
+    EXPECT_TRUE(
+      motions::identical(meshes::rows(result.moved, method.partition().prescribed), boundary));
+  }
+  EXPECT_GT(helped, 4);
+}
+
+TEST(InversionFree, AnyFirstGuessLeadsToAValidMesh)
+{
+  Mesh mesh = meshes::hexes(4, 4, 4);
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  const Points boundary = target(mesh, waves);
+  double reference = 0;
+  for (int start : { 0, 1, 2, 3 })
+  {
+    SCOPED_TRACE(start);
+    InversionFree method;
+    if (start == 1)
+    {
+      method.setStart(InversionFree::Start::Rest);
+    }
+    else if (start == 2)
+    {
+      method.setMethod(std::make_unique<morph::SimplexLinear>());
+    }
+    else if (start == 3)
+    {
+      method.setMinimizer(morph::FoldoverStages::Minimizer::LimitedMemoryBfgs);
+    }
+    const Morphed result = run(method, mesh, boundary);
+    EXPECT_EQ(result.inverted, 0);
+    reference = start == 0 ? result.minimum : reference;
+    EXPECT_NEAR(result.minimum, reference, 0.03);
+  }
+}
+
+TEST(InversionFree, NeverWorseThanFemWarp)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    const Points boundary =
+      target(mesh, [](const motions::Row& x) { return motions::twist(x, 4, 4, 0.5); });
+    meshes::ThreadedMonitor monitor;
+    morph::FemWarp femWarp;
+    Points warped;
+    femWarp.prepare(mesh, motions::outerPartition(mesh), monitor);
+    femWarp.evaluate(boundary, warped, monitor);
+    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const double known = morph::measureQuality(mesh, warped, orientation, {}, monitor).minimum;
+    ASSERT_GT(known, 0);
+    InversionFree method;
+    EXPECT_GE(run(method, mesh, boundary).minimum, known);
+  }
+}
+
+TEST(InversionFree, TangledRestMeshesAreUntangled)
+{
+  for (const auto& [name, mesh] : meshes::all(4, 4, 4))
+  {
+    SCOPED_TRACE(name);
+    Mesh tangled = mesh;
+    meshes::jitterInterior(tangled, 0.9, meshes::seed());
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    ASSERT_FALSE(morph::invertedCells(mesh, tangled.points, orientation, monitor).empty());
+    InversionFree method;
+    const Morphed result =
+      run(method, tangled, target(tangled, [](const motions::Row& x) { return x; }));
+    EXPECT_TRUE(morph::invertedCells(mesh, result.moved, orientation, monitor).empty());
+  }
+}
+
+TEST(InversionFree, CellsThatTheBoundaryInvertsAreNamedAndTheOthersMorphed)
+{
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  const Points boundary = target(
+    mesh, [](const motions::Row& x) { return x.norm() == 0 ? motions::Row(1.5, 1.5, 1.5) : x; });
+  InversionFree method;
+  meshes::ThreadedMonitor monitor;
+  Points moved;
+  method.prepare(mesh, motions::outerPartition(mesh), monitor);
+  const morph::EvaluateReport report = method.evaluate(boundary, moved, monitor);
+  EXPECT_EQ(count(report, "BoundaryDeterminedCells"), 1);
+  ASSERT_EQ(monitor.warnings.size(), 1u);
+  EXPECT_NE(monitor.warnings[0].find("cell ids 0."), std::string::npos) << monitor.warnings[0];
+  const std::vector<Index> inverted =
+    morph::invertedCells(mesh, moved, std::vector<std::int8_t>(mesh.numberOfCells(), 1), monitor);
+  EXPECT_EQ(inverted, std::vector<Index>{ 0 });
+}
+
+TEST(InversionFree, RelativeRunsKeepTheirReference)
+{
+  // Out along the waves and back: the reference's shapes bring the mesh home.
+  Mesh mesh = meshes::hexes(4, 4, 4);
+  meshes::jitterInterior(mesh, 0.2, meshes::seed());
+  InversionFree out;
+  Mesh there = mesh;
+  there.points = run(out, mesh, target(mesh, waves)).moved;
+  InversionFree back;
+  back.setReference(mesh.points);
+  back.setTarget(morph::Target::Initial);
+  const Morphed result = run(back, there, target(mesh, [](const motions::Row& x) { return x; }));
+  EXPECT_LT(motions::difference(result.moved, mesh.points), 1e-3);
+}
+
+TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)
+{
+  Mesh mesh = meshes::hexesAndPyramids(4, 4, 4);
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  InversionFree one, three;
+  const Points boundary = target(mesh, waves);
+  const Points expected = run(one, mesh, boundary).moved;
+  EXPECT_TRUE(motions::identical(expected, run(three, mesh, boundary, 3).moved));
+
+  const std::vector<Index> order = motions::shuffledNumbers(mesh.numberOfNodes());
+  const Mesh other = meshes::renumbered(mesh, order);
+  InversionFree renumbered;
+  const Points moved = run(renumbered, other, target(other, waves)).moved;
+  double difference = 0;
+  for (Index i = 0; i < mesh.numberOfNodes(); ++i)
+  {
+    difference = std::max(difference, (moved.row(order[i]) - expected.row(i)).norm());
+  }
+  EXPECT_LT(difference, 1e-4);
+
+  const double angle = 0.6, scale = 300;
+  const motions::Map turn = [&](const motions::Row& x) -> motions::Row
+  {
+    return scale * motions::Row(x[0] * std::cos(angle) - x[1] * std::sin(angle) + 5,
+                     x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2] - 3);
+  };
+  Mesh turned = mesh;
+  turned.points = motions::mapped(mesh.points, turn);
+  InversionFree rigid;
+  const Points result = run(rigid, turned, motions::mapped(boundary, turn)).moved;
+  EXPECT_LT(motions::difference(result, motions::mapped(expected, turn)), 1e-4 * scale);
+}
+
+TEST(InversionFree, RepairsAnotherMethodsMesh)
+{
+  Mesh mesh = meshes::quadraticHexes(3, 3, 3, true);
+  meshes::ThreadedMonitor monitor;
+  InversionFree method;
+  method.prepare(mesh, motions::outerPartition(mesh), monitor);
+  Points moved = mesh.points;
+  Mesh tangled = mesh;
+  meshes::jitterInterior(tangled, 0.9, meshes::seed());
+  for (Index node : method.partition().free)
+  {
+    moved.row(node) = tangled.points.row(node);
+  }
+  const std::vector<std::int8_t> orientation(mesh.numberOfCells(), 1);
+  ASSERT_FALSE(morph::invertedCells(mesh, moved, orientation, monitor).empty());
+  EXPECT_EQ(count(method.repair(moved, monitor), "Untangled"), 1);
+  EXPECT_TRUE(morph::invertedCells(mesh, moved, orientation, monitor).empty());
+  for (Index node : method.partition().prescribed)
+  {
+    EXPECT_EQ(moved.row(node), mesh.points.row(node));
+  }
+}
+
+TEST(InversionFree, CancelLeavesTheResultUntouched)
+{
+  const Mesh mesh = meshes::hexes(5, 5, 5);
+  meshes::ThreadedMonitor monitor;
+  InversionFree method;
+  method.prepare(mesh, motions::outerPartition(mesh), monitor);
+  monitor.lastProgress = 0;
+  monitor.cancelAt = 0.3;
+  Points moved = Points::Constant(2, 3, 7);
+  std::string message;
+  EXPECT_EQ(motions::kindOf([&] { method.evaluate(target(mesh, waves), moved, monitor); }, message),
+    morph::Error::Kind::Cancelled);
+  EXPECT_EQ(moved, Points::Constant(2, 3, 7));
+}
+
+TEST(SubSteps, RestMeshesWithInvertedCellsAreRefused)
+{
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  meshes::jitterInterior(mesh, 0.95, 3);
+  const auto partition = motions::outerPartition(mesh);
+  meshes::ThreadedMonitor monitor;
+  std::string message;
+  EXPECT_EQ(motions::kindOf(
+              [&]
+              {
+                morph::followInSubSteps(
+                  mesh, mesh.points, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
+                  morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
+                  [] { return std::make_unique<morph::FemWarp>(); }, {}, monitor);
+              },
+              message),
+    morph::Error::Kind::InvalidInput);
+  EXPECT_NE(message.find("cell ids"), std::string::npos) << message;
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The energy of a mesh, and the minimisers, on every kind of cell.
+#include "MeshEnergy.h"
+#include "Meshes.h"
+#include "Minimizers.h"
+#include "Motions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
+
+struct Setting
+{
+  Setting(const Mesh& mesh, morph::Target target, double epsilon, int threads = 1)
+    : monitor(threads)
+    , partition(motions::outerPartition(mesh))
+    , energy(mesh, this->partition.free)
+  {
+    const std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+    this->energy.setTargets(
+      morph::targetShapes(mesh, orientation, mesh.points, target, this->monitor));
+    morph::FoldoverDensity density;
+    density.epsilon = epsilon;
+    this->energy.setDensity(density);
+  }
+
+  meshes::ThreadedMonitor monitor;
+  morph::NodePartition partition;
+  morph::MeshEnergy energy;
+};
+
+/// Free nodes off their places by up to `amount`; far enough for inverted cells if it is 1.
+Points displaced(const Mesh& mesh, double amount)
+{
+  Mesh copy = mesh;
+  meshes::jitterInterior(copy, amount, meshes::seed() + 1);
+  return copy.points;
+}
+
+std::vector<std::pair<std::string, Mesh>> small()
+{
+  auto result = meshes::all(3, 3, 2);
+  for (auto& [name, mesh] : result)
+  {
+    meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  }
+  return result;
+}
+}
+
+TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
+{
+  for (const auto& [name, mesh] : small())
+  {
+    for (double amount : { 0.2, 1. })
+    {
+      SCOPED_TRACE(name + ", moved by " + std::to_string(amount));
+      Setting setting(mesh, morph::Target::Initial, amount < 0.5 ? 1e-10 : 0.5);
+      const Points x = displaced(mesh, amount);
+      Points gradient, plus, minus;
+      setting.energy.gradient(x, gradient, setting.monitor);
+      morph::BlockMatrix matrix;
+      setting.energy.hessian(x, matrix, setting.monitor);
+      const double h = 1e-6;
+      for (Index i = 0; i < gradient.rows(); ++i)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          Points a = x, b = x;
+          a(setting.partition.free[i], j) += h;
+          b(setting.partition.free[i], j) -= h;
+          const double difference = (setting.energy.evaluate(a, setting.monitor).energy -
+                                      setting.energy.evaluate(b, setting.monitor).energy) /
+                                    (2 * h);
+          EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
+
+          // The projection only adds curvature.
+          setting.energy.gradient(a, plus, setting.monitor);
+          setting.energy.gradient(b, minus, setting.monitor);
+          Points unit = Points::Zero(gradient.rows(), 3), product;
+          unit(i, j) = 1;
+          matrix.multiply(unit, product, setting.monitor);
+          EXPECT_GE(product(i, j), (plus(i, j) - minus(i, j)) / (2 * h) - 1e-4 * product.norm());
+        }
+      }
+    }
+  }
+}
+
+TEST(MeshEnergy, HessianIsExactAtTheTarget)
+{
+  // All eigenvalues of the density's second derivative are positive or zero there: nothing is projected away.
+  for (const auto& [name, mesh] : small())
+  {
+    SCOPED_TRACE(name);
+    Setting setting(mesh, morph::Target::Initial, 1e-10);
+    morph::BlockMatrix matrix;
+    setting.energy.hessian(mesh.points, matrix, setting.monitor);
+    Points direction(matrix.rows(), 3), plus, minus, product;
+    std::mt19937 random(meshes::seed());
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (Index i = 0; i < direction.size(); ++i)
+    {
+      direction.data()[i] = number(random);
+    }
+    matrix.multiply(direction, product, setting.monitor);
+    const double h = 1e-5;
+    Points a = mesh.points, b = mesh.points;
+    for (Index i = 0; i < direction.rows(); ++i)
+    {
+      a.row(setting.partition.free[i]) += h * direction.row(i);
+      b.row(setting.partition.free[i]) -= h * direction.row(i);
+    }
+    setting.energy.gradient(a, plus, setting.monitor);
+    setting.energy.gradient(b, minus, setting.monitor);
+    EXPECT_LT(((plus - minus) / (2 * h) - product).norm(), 1e-5 * product.norm());
+  }
+}
+
+TEST(MeshEnergy, AffineImagesOfTheTargetAreStationary)
+{
+  for (const auto& [name, mesh] : small())
+  {
+    SCOPED_TRACE(name);
+    Setting setting(mesh, morph::Target::Initial, 1e-10);
+    const Points x = motions::mapped(mesh.points, motions::affine);
+    Points gradient;
+    setting.energy.gradient(x, gradient, setting.monitor);
+    // Against the forces of single tetrahedra, which cancel.
+    const double scale = setting.energy.evaluate(x, setting.monitor).energy;
+    EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-13 * scale);
+  }
+}
+
+TEST(MeshEnergy, ThreadsDoNotShow)
+{
+  const Mesh mesh = meshes::hexesAndPyramids(7, 7, 7);
+  Setting one(mesh, morph::Target::Stretched, 0.5), three(mesh, morph::Target::Stretched, 0.5, 3);
+  const Points x = displaced(mesh, 0.8);
+  EXPECT_EQ(
+    one.energy.evaluate(x, one.monitor).energy, three.energy.evaluate(x, three.monitor).energy);
+  Points a, b;
+  one.energy.gradient(x, a, one.monitor);
+  three.energy.gradient(x, b, three.monitor);
+  EXPECT_TRUE(motions::identical(a, b));
+  morph::BlockMatrix first, second;
+  one.energy.hessian(x, first, one.monitor);
+  three.energy.hessian(x, second, three.monitor);
+  Points p, q;
+  EXPECT_EQ(first.solve(a, p, 1e-3, 50, one.monitor), second.solve(b, q, 1e-3, 50, three.monitor));
+  EXPECT_TRUE(motions::identical(p, q));
+}
+
+TEST(Minimizers, BothFindTheSameMinimum)
+{
+  const Mesh mesh = meshes::hexes(5, 5, 5);
+  Setting setting(mesh, morph::Target::Initial, 1e-10);
+  const Points start = displaced(mesh, 0.25);
+  morph::MinimizerLimits limits;
+  limits.steps = 1000;
+  limits.decrease = 1e-14;
+  limits.slowDecrease = 0;
+  morph::MinimizerEffort ofNewton, ofBfgs;
+  morph::BlockMatrix matrix;
+  Points x = start, y = start;
+  const double before = setting.energy.evaluate(start, setting.monitor).energy;
+  const auto newton = morph::newton(setting.energy, x, limits, matrix, ofNewton, setting.monitor);
+  const auto bfgs = morph::limitedMemoryBfgs(setting.energy, y, limits, ofBfgs, setting.monitor);
+  EXPECT_LT(newton.energy, before);
+  EXPECT_NEAR(newton.energy, bfgs.energy, 1e-10 * newton.energy);
+  EXPECT_LT(motions::difference(x, mesh.points), 1e-5);
+  EXPECT_LT(motions::difference(y, mesh.points), 1e-4);
+  EXPECT_LT(ofNewton.steps, 15);
+  EXPECT_GT(ofNewton.linearIterations, ofNewton.steps);
+  EXPECT_GT(ofBfgs.evaluations, ofBfgs.steps);
+  for (Index node : setting.partition.prescribed)
+  {
+    EXPECT_EQ(x.row(node), mesh.points.row(node));
+  }
+}
+
+TEST(Minimizers, CancelAndLimits)
+{
+  const Mesh mesh = meshes::hexes(5, 5, 5);
+  Setting setting(mesh, morph::Target::Initial, 1e-10);
+  Points x = displaced(mesh, 0.25);
+  morph::MinimizerLimits limits;
+  limits.steps = 2;
+  morph::MinimizerEffort effort;
+  morph::BlockMatrix matrix;
+  morph::newton(setting.energy, x, limits, matrix, effort, setting.monitor);
+  EXPECT_EQ(effort.steps, 2);
+  setting.monitor.cancelAt = 0.5;
+  setting.monitor.progress(0.6);
+  EXPECT_THROW(
+    morph::newton(setting.energy, x, limits, matrix, effort, setting.monitor), morph::Error);
+  EXPECT_THROW(
+    morph::limitedMemoryBfgs(setting.energy, x, limits, effort, setting.monitor), morph::Error);
+}

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python module as it is installed: README.md's example, numpy there and back, docstrings, what it refuses.
+
+Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models> python3 installed_python.py
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import meshmorphing
+import numpy
+from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+README = Path(__file__).resolve().parents[2] / "README.md"
+MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
+METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph, meshmorphing.vtkSimplexLinearMorph,
+           meshmorphing.vtkSimplexNaturalNeighborMorph, meshmorphing.vtkWeightedResidualMorph]
+
+
+def read():
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(MODEL)
+    reader.Update()
+    return dataset_adapter.WrapDataObject(reader.GetOutput())
+
+
+def boundary_of(grid):
+    extract = meshmorphing.vtkExtractMorphBoundary()
+    extract.SetInputData(grid.VTKObject)
+    extract.Update()
+    return dataset_adapter.WrapDataObject(extract.GetOutput())
+
+
+class InstalledPython(unittest.TestCase):
+    def test_readme_example(self):
+        blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 1)
+        lines = [line for line in blocks[0].splitlines() if line and not line.startswith(("import", "from"))]
+        self.assertEqual(len(lines), 12)
+        with tempfile.TemporaryDirectory() as folder:
+            writer = vtkXMLUnstructuredGridWriter()
+            writer.SetFileName(os.path.join(folder, "part.vtu"))
+            writer.SetInputData(read().VTKObject)
+            self.assertEqual(writer.Write(), 1)
+            result = subprocess.run([sys.executable, "-c", blocks[0]], cwd=folder,
+                                    capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        minimum, inverted = map(float, result.stdout.split())
+        # A shear by 0.1 costs the bore's best cells at most a tenth.
+        self.assertAlmostEqual(minimum, 0.8619, delta=0.1)
+        self.assertNotEqual(round(minimum, 4), 0.8619)
+        self.assertEqual(inverted, 0)
+
+    def test_numpy_there_and_back(self):
+        grid = read()
+        shear = numpy.array([[1, 0.2, 0], [0, 1.1, 0], [0.1, 0, 1]])
+        boundary = boundary_of(grid)
+        ids = boundary.PointData["MorphPointId"]
+        self.assertTrue(numpy.array_equal(boundary.Points, grid.Points[ids]))
+        boundary.Points = boundary.Points @ shear
+        for method in METHODS:
+            with self.subTest(method=method.__name__):
+                morph = method()
+                morph.SetInputData(grid.VTKObject)
+                morph.SetBoundaryData(boundary.VTKObject)
+                morph.Update()
+                moved = dataset_adapter.WrapDataObject(morph.GetOutput())
+                self.assertTrue(numpy.array_equal(moved.Points[ids], boundary.Points))
+                self.assertLess(abs(moved.Points - grid.Points @ shear).max(), 1e-5)
+                self.assertEqual(moved.CellData["ScaledJacobian"].min(), morph.GetMinScaledJacobian())
+
+    def test_adjoint_from_numpy(self):
+        grid, boundary = read(), boundary_of(read())
+        gradient = numpy.random.default_rng(7).normal(size=grid.Points.shape)
+        morph = meshmorphing.vtkFEMWarpMorph()
+        result = numpy_support.numpy_to_vtk(numpy.empty((0, 3)))
+        self.assertTrue(morph.ApplyTranspose(grid.VTKObject, boundary.VTKObject,
+                                             numpy_support.numpy_to_vtk(gradient), result))
+        result = numpy_support.vtk_to_numpy(result)
+        self.assertEqual(result.shape, boundary.Points.shape)
+        # A shift of the boundary shifts everything.
+        self.assertLess(abs(result.sum(axis=0) - gradient.sum(axis=0)).max(), 1e-7)
+
+    def test_docstrings(self):
+        for method in METHODS + [meshmorphing.vtkInversionFreeMorph]:
+            self.assertIn("Superclass: vtkMorphAlgorithm", method.__doc__)
+        self.assertIn("Default 1e-10", meshmorphing.vtkFEMWarpMorph.SetTolerance.__doc__)
+        self.assertIn("adjoint", meshmorphing.vtkMorphAlgorithm.ApplyTranspose.__doc__)
+        self.assertIn("paraview.simple", meshmorphing.__doc__)
+
+    def test_errors_are_vtk_errors(self):
+        morph = meshmorphing.vtkFEMWarpMorph()
+        messages = []
+        observer = lambda _, __, text: messages.append(text)  # noqa: E731
+        observer.CallDataType = "string0"
+        morph.AddObserver("ErrorEvent", observer)
+        morph.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        morph.SetInputData(read().VTKObject)
+        morph.Update()
+        self.assertEqual(len(messages), 1)
+        self.assertIn("boundary", messages[0])
+
+    def test_it_is_refused_beside_paraview(self):
+        code = "import sys, types; sys.modules['paraview'] = types.ModuleType('paraview'); import meshmorphing"
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("paraview.simple", result.stderr)
+
+    def test_another_vtk_is_refused(self):
+        code = ("from vtkmodules import vtkCommonCore; "
+                "vtkCommonCore.vtkVersion = type('Other', (), {'GetVTKVersion': staticmethod(lambda: '8.2.0')}); "
+                "import meshmorphing")
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("found VTK 8.2.0", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

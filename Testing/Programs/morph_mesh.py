@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""morph-mesh, the command-line tool, run as a program: its files, its numbers, its messages and its exit status.
+
+Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models> python3 morph_mesh.py
+"""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["MORPH_MESH"]
+MODELS = Path(os.environ["MESHMORPHING_MODELS"])
+BORE = str(MODELS / "bore_hex_small.vtu")
+METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "WeightedResidual")
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+def row(output, label):
+    """The numbers before and after in the report's row."""
+    match = re.search(rf"^{label} +(\S+) +(\S+)$", output, re.MULTILINE)
+    assert match, output
+    return tuple(map(float, match.groups()))
+
+
+class MorphMesh(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.boundary = self.folder / "boundary.vtp"
+        # The models carry the displacement to their final shape; their boundary does too.
+        self.assertEqual(run("--extract-boundary", BORE, self.boundary).returncode, 0)
+
+    def morph(self, *arguments, boundary=None, output="out.vtu"):
+        return run(BORE, boundary or self.boundary, self.folder / output,
+                   "--displacement-array", "FinalDisplacement", *arguments)
+
+    def fails(self, status, message, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertTrue(result.stderr.startswith("morph-mesh: "))
+
+    def test_every_method_moves_the_bore_and_writes_what_it_measured(self):
+        for method in METHODS:
+            with self.subTest(method=method):
+                result = self.morph("--method", method)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                before, after = row(result.stdout, "least scaled Jacobian")
+                self.assertAlmostEqual(before, 0.8619, delta=1e-4)
+                self.assertLess(after, before)
+                # The file as another run reads it: its quality at rest is that of the result.
+                again = run("--extract-boundary", self.folder / "out.vtu", self.folder / "again.vtp")
+                self.assertEqual(again.returncode, 0, again.stderr)
+                same = run(self.folder / "out.vtu", self.folder / "again.vtp", self.folder / "same.vtk")
+                for label in ("least scaled Jacobian", "mean scaled Jacobian", "inverted cells", "worst cell"):
+                    self.assertEqual(row(same.stdout, label), 2 * row(result.stdout, label)[1:])
+
+    def test_method_names_are_found_however_they_are_written(self):
+        texts = {self.morph("--method", name).stdout.split("prepared in")[0]
+                 for name in ("WeightedResidual", "weighted-residual", "weighted_residual", "WEIGHTED RESIDUAL")}
+        self.assertEqual(len(texts), 1)
+
+    def test_options_reach_the_method(self):
+        fine, coarse = (self.morph(f"--set=Tolerance={t}").stdout for t in (1e-12, 0.1))
+        iterations = [int(re.search(r"(\d+) iterations", text).group(1)) for text in (fine, coarse)]
+        self.assertGreater(iterations[0], iterations[1])
+        half = row(self.morph("--scale-factor", "0.5").stdout, "least scaled Jacobian")
+        none = row(self.morph("--scale-factor", "0").stdout, "least scaled Jacobian")
+        self.assertEqual(none[0], none[1])
+        self.assertLess(half[1], none[1])
+        self.assertNotEqual(self.morph("--free-unnamed-boundary").returncode, 2)
+
+    def test_formats(self):
+        for written in ("boundary.vtk", "boundary.vtp"):
+            self.assertEqual(run("--extract-boundary", BORE, self.folder / written).returncode, 0)
+            for output in ("out.vtu", "out.vtk"):
+                result = self.morph(boundary=self.folder / written, output=output)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertGreater((self.folder / output).stat().st_size, 10000)
+
+    def test_a_grid_of_another_program(self):
+        # AVS UCD: a cube of eight hexahedra; ids from 1.
+        nodes = [(x / 2, y / 2, z / 2) for z in range(3) for y in range(3) for x in range(3)]
+        cells = [[first + corner for corner in (1, 2, 5, 4, 10, 11, 14, 13)] for first in (0, 1, 3, 4, 9, 10, 12, 13)]
+        lines = [f"{len(nodes)} {len(cells)} 0 0 0"]
+        lines += [f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)]
+        lines += [f"{i + 1} 0 hex " + " ".join(map(str, cell)) for i, cell in enumerate(cells)]
+        grid = self.folder / "cube.inp"
+        grid.write_text("\n".join(lines) + "\n")
+        result = run("--extract-boundary", grid, self.folder / "cube.vtp")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "26 points, 24 faces\n", ""))
+        result = run(grid, self.folder / "cube.vtp", self.folder / "cube.vtu")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(row(result.stdout, "least scaled Jacobian"), (1, 1))
+
+    def test_threads_do_not_show_in_the_file(self):
+        files = []
+        for threads in (1, 2, 3):
+            name = f"out{threads}.vtk"
+            self.assertEqual(self.morph("--threads", threads, output=name).returncode, 0)
+            content = (self.folder / name).read_bytes()
+            # Field data hold the seconds it took.
+            files.append(content[content.index(b"\nPOINTS "):content.index(b"\nCELLS ")])
+        self.assertEqual(files[0], files[1])
+        self.assertEqual(files[0], files[2])
+
+    def test_inverted_cells_give_a_status_of_their_own(self):
+        result = self.morph("--scale-factor", "-5", "--require-valid")
+        self.assertGreater(row(result.stdout, "inverted cells")[1], 0)
+        self.assertEqual(result.returncode, 3)
+        self.assertTrue((self.folder / "out.vtu").exists())
+        self.assertEqual(self.morph("--scale-factor", "-5").returncode, 0)
+        self.assertEqual(self.morph("--require-valid").returncode, 0)
+
+    def test_validity(self):
+        reported = self.morph("--scale-factor", "-5", "--validity=report")
+        self.assertIn("warning", reported.stderr)
+        silent = self.morph("--scale-factor", "-5", "--validity=none")
+        self.assertEqual((silent.returncode, silent.stderr), (0, ""))
+        os.remove(self.folder / "out.vtu")
+        refused = self.morph("--scale-factor", "-5", "--validity=refuse")
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertFalse((self.folder / "out.vtu").exists())
+
+    def test_progress_and_quiet(self):
+        result = self.morph("--progress")
+        self.assertIn("100%", result.stderr)
+        self.assertIn("#", result.stderr)
+        result = self.morph("--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_help_and_version(self):
+        result = run("--help")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        for expected in METHODS + ("Exit status", "--extract-boundary", ".vtu"):
+            self.assertIn(expected, result.stdout)
+        self.assertLess(max(map(len, result.stdout.splitlines())), 121)
+        result = run("--version")
+        self.assertRegex(result.stdout, r"^morph-mesh \d+\.\d+\.\d+, VTK \d+\.\d+\.\d+\n$")
+        self.assertEqual(result.returncode, 0)
+
+    def test_wrong_command_lines(self):
+        files = (BORE, self.boundary, self.folder / "out.vtu")
+        self.fails(2, "3 files are needed", BORE)
+        self.fails(2, "no option --bogus", *files, "--bogus")
+        self.fails(2, "--method needs a value", *files, "--method")
+        self.fails(2, "takes no value", *files, "--quiet=1")
+        self.fails(2, "no method 'Magic'", *files, "--method", "Magic")
+        self.fails(2, "has no option 'Colour'", *files, "--set", "Colour=red")
+        self.fails(2, "Tolerance is a number", *files, "--set", "Tolerance=high")
+        self.fails(2, "one of Error, Relax", *files, "--method=LBWARP", "--set", "OutsideHull=Maybe")
+        self.fails(2, "--validity is one of", *files, "--validity", "Pray")
+        self.fails(2, "--scale-factor needs a number", *files, "--scale-factor", "1x")
+        self.fails(2, "--threads needs a whole number", *files, "--threads", "-1")
+        self.assertFalse((self.folder / "out.vtu").exists())
+
+    def test_files_that_cannot_be_used(self):
+        output = self.folder / "out.vtu"
+        self.fails(1, "there is no such file", self.folder / "none.vtu", self.boundary, output)
+        self.fails(1, "extension", __file__, self.boundary, output)
+        self.fails(1, "written as .vtu or .vtk", BORE, self.boundary, self.folder / "out.stl")
+        self.fails(1, "written as .vtp or .vtk", "--extract-boundary", BORE, self.folder / "out.stl")
+        self.fails(1, "unstructured grid is needed", self.boundary, self.boundary, output)
+        self.fails(1, "Cannot write", BORE, self.boundary, self.folder / "none" / "out.vtu")
+        broken = self.folder / "broken.vtu"
+        broken.write_bytes(Path(BORE).read_bytes()[:2000])
+        self.fails(1, "Cannot read", broken, self.boundary, output)
+        self.fails(1, "Nothing says which nodes", BORE, MODELS / "bore_tet_small.vtu", output)
+        self.assertFalse(output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The CMake package MeshMorphing: find_package(MeshMorphing) gives the targets MeshMorphing::Core and MeshMorphing::FiltersMorphing,
+# a static library beside the plugin, a shared one with plain VTK.
+include(CMakePackageConfigHelpers)
+set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
+set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
+
+file(GLOB core_headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core/*.h")
+install(FILES ${core_headers} DESTINATION "${headers_destination}/Core" COMPONENT sdk)
+set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
+target_include_directories(morph_core
+  PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing/Core>)
+install(TARGETS morph_core
+  EXPORT  MeshMorphing
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
+
+if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
+  # ParaView's build installs the plugin alone; with plain VTK vtk_module_build() does what follows.
+  get_target_property(filter_headers FiltersMorphing INTERFACE_vtk_module_headers)
+  install(FILES ${filter_headers} DESTINATION "${headers_destination}" COMPONENT sdk)
+  target_include_directories(FiltersMorphing PUBLIC $<INSTALL_INTERFACE:${headers_destination}>)
+  install(TARGETS FiltersMorphing
+    EXPORT  MeshMorphing
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
+  install(EXPORT MeshMorphing
+    NAMESPACE   MeshMorphing::
+    FILE        MeshMorphing-targets.cmake
+    DESTINATION "${package_destination}"
+    COMPONENT   sdk)
+endif ()
+
+configure_package_config_file(
+  "${CMAKE_CURRENT_LIST_DIR}/MeshMorphingConfig.cmake.in"
+  "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
+  INSTALL_DESTINATION "${package_destination}")
+# While the major version is 0 a minor version may change the interface.
+write_basic_package_version_file(
+  "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
+  "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
+  DESTINATION "${package_destination}"
+  COMPONENT   sdk)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+
+if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
+  # Debian's ParaView looks for plugins in the folder "plugins" beside its programs and nowhere else (PV_PLUGIN_PATH apart), though
+  # its own plugins lie in the library folder: where this is installed beside ParaView, a link makes it listed and loaded.
+  find_program(MESHMORPHING_PVPYTHON pvpython)
+  get_filename_component(paraview_programs "${MESHMORPHING_PVPYTHON}" DIRECTORY)
+  install(CODE "
+    if (\"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\" STREQUAL \"${paraview_programs}\")
+      set(link \"${paraview_programs}/plugins/MeshMorphing/MeshMorphing.so\")
+      file(RELATIVE_PATH target \"${paraview_programs}/plugins/MeshMorphing\"
+        \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/paraview-5.11/plugins/MeshMorphing/MeshMorphing.so\")
+      message(STATUS \"Linking: \${link}\")
+      file(MAKE_DIRECTORY \"\$ENV{DESTDIR}${paraview_programs}/plugins/MeshMorphing\")
+      file(CREATE_LINK \"\${target}\" \"\$ENV{DESTDIR}\${link}\" SYMBOLIC)
+      list(APPEND CMAKE_INSTALL_MANIFEST_FILES \"\${link}\")
+    endif ()"
+    COMPONENT plugin)
+endif ()
