@@ -15,7 +15,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 SIZE = (1600, 860)
 OVERSAMPLING = 2  # thin edges: drawn at twice the size, then averaged
 INK = [0.13, 0.14, 0.16]
-GAP = 1.2  # between panels, in the meshes' unit
+GAP = 1 / 30  # between panels, of the sum of their widths
 
 
 @dataclass
@@ -37,9 +37,9 @@ def producer(data):
     return source
 
 
-def save_picture(path, heading, panels):
-    """Writes a PNG of SIZE pixels with the panels from left to right. Needs a display (xvfb-run
-    gives one)."""
+def save_picture(path, heading, panels, tilt=22):
+    """Writes a PNG of SIZE pixels with the panels from left to right, seen from the front and
+    `tilt` degrees above it. Needs a display (xvfb-run gives one)."""
     view = simple.CreateRenderView(ViewSize=list(SIZE))
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
@@ -48,16 +48,18 @@ def save_picture(path, heading, panels):
 
     sources = [_extract(panel) for panel in panels]
     bounds = [source.GetDataInformation().GetBounds() for source in sources]
-    total = sum(b[1] - b[0] for b in bounds) + GAP * (len(panels) + 1)
-    left = GAP
-    for panel, source, bound in zip(panels, sources, bounds):
+    widths = [b[1] - b[0] for b in bounds]
+    gap = GAP * sum(widths)
+    total = sum(widths) + gap * (len(panels) + 1)
+    left = gap
+    for panel, source, bound, width in zip(panels, sources, bounds, widths):
         _show(view, source, left - bound[0])
         text(view, panel.title, (left / total, 0.86), 18, bold=True)
         text(view, panel.note, (left / total, 0.80), 14)
-        left += bound[1] - bound[0] + GAP
-    text(view, heading, (GAP / total, 0.925), 24, bold=True)
+        left += width + gap
+    text(view, heading, (gap / total, 0.925), 24, bold=True)
     _color_bar(view)
-    _look(view, total, bounds)
+    _look(view, total, bounds, np.radians(tilt))
 
     simple.SaveScreenshot(str(path), view, ImageResolution=[OVERSAMPLING * side for side in SIZE])
     average_pixels(path)
@@ -133,14 +135,13 @@ def _color_bar(view):
     bar.Visibility = 1
 
 
-def _look(view, total, bounds):
-    """From the front and above, so wide that the panels fill the view, all at the same scale."""
+def _look(view, total, bounds, tilt):
+    """So wide that the panels fill the view, all at the same scale."""
     height = total * SIZE[1] / SIZE[0]
-    tilt = np.radians(22)
     up = np.array([0, np.sin(tilt), np.cos(tilt)])
     middle = np.array([total / 2, 0, (min(b[4] for b in bounds) + max(b[5] for b in bounds)) / 2])
     focus = middle + 0.055 * height * up  # the text needs more room than the color bar
     view.CameraFocalPoint = focus
     view.CameraPosition = focus + 100 * np.array([0, -np.cos(tilt), np.sin(tilt)])
-    view.CameraViewUp = [0, 0, 1]
+    view.CameraViewUp = up
     view.CameraParallelScale = 0.5 * height

@@ -19,19 +19,12 @@ namespace
 {
 using Vector = Eigen::Vector3d;
 
-/// The corners at which the determinant is that of the three edges: all but a pyramid's apex.
-int numberOfCornerTets(Shape shape)
-{
-  return shape == Shape::Tet ? 1 : shape == Shape::Pyramid ? 4 : numberOfCorners(shape);
-}
-
 /// Certified if all corner determinants are positive.
 Certificate certifyCorners(Shape shape, const Vector* x)
 {
-  // The decomposition lists the corners' tetrahedra first.
   const WeightedTet* tets = simplicialDecomposition(shape).tets;
   Certificate result = Certificate::Certified;
-  for (int t = 0; t < numberOfCornerTets(shape); ++t)
+  for (int t = 0; t < cornerTetrahedra(shape); ++t)
   {
     const int* c = tets[t].corner;
     const std::optional<int> sign = orientationSign(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);

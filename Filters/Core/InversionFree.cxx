@@ -160,7 +160,8 @@ EvaluateReport InversionFree::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
-  if (this->validAtRest_ && (prescribed.array() == 0).all())
+  // Ideal shapes are not those at rest: they change the mesh without any motion.
+  if (this->validAtRest_ && this->target_ != Target::Ideal && (prescribed.array() == 0).all())
   {
     free.setZero();
     Outcome nothing;

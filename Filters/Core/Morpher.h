@@ -43,8 +43,9 @@ public:
 
   /// `prescribed`: #prescribed x 3 new positions, in the order of NodePartition::prescribed.
   /// `moved`: becomes #nodes x 3; prescribed nodes exactly as given, nodes outside the partition at rest.
-  /// Where nothing moves the rest positions come back bit for bit. Throws Error, leaving `moved` untouched, for a
-  /// wrong number of rows, positions that are not finite, or where no prepare() has succeeded last.
+  /// Where nothing moves the rest positions come back bit for bit (smoothing towards ideal
+  /// shapes apart). Throws Error, leaving `moved` untouched, for a wrong number of rows, positions that are not
+  /// finite, or where no prepare() has succeeded last.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
   /// For methods that aim for the shapes the cells have in some mesh, where that is not the rest mesh: `reference`, #nodes x 3,

@@ -19,6 +19,7 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double Margin = 0.05;     // of untangling
+constexpr Index StepsToValid = 100; // of untangling, before it looks whether that is enough
 constexpr int UntangleSteps = 20;   // for one of Newton's
 constexpr double Bad = 0.2;         // scaled Jacobian
 constexpr int Rings = 3;            // round bad cells
@@ -121,7 +122,7 @@ public:
     this->prepare(energy);
     if (!this->isValid(energy, points))
     {
-      this->untangle(points);
+      this->untangle(energy, points);
       this->monitor_.progress(0.4);
     }
     if (this->isValid(energy, points))
@@ -153,19 +154,29 @@ private:
     return energy.evaluate(points, this->monitor_).leastDeterminant > 0;
   }
 
-  void untangle(Points& points)
+  /// Until `energy` is finite: what is left to the margin the shape measure does better.
+  void untangle(const MeshEnergy& energy, Points& points)
   {
     // The boundary alone decides the volume: cells cannot be larger than it allows on average.
     const double ratio =
       volume(this->mesh_, this->orientation_, points, this->monitor_) /
       volume(this->mesh_, this->orientation_, this->mesh_.points, this->monitor_);
-    const UntangleEnergy energy(
+    const UntangleEnergy tangle(
       this->mesh_, this->free_, this->targets_, Margin * (ratio > 0 ? ratio : 1));
     MinimizerLimits limits;
-    limits.steps = UntangleSteps * this->options_.iterationLimit;
     limits.slowDecrease = 0;
     MinimizerEffort effort;
-    limitedMemoryBfgs(energy, points, limits, effort, this->monitor_);
+    const Index most = Index(UntangleSteps) * this->options_.iterationLimit;
+    while (effort.steps < most)
+    {
+      const Index goal = std::min(most, effort.steps + StepsToValid);
+      limits.steps = static_cast<int>(goal - effort.steps);
+      limitedMemoryBfgs(tangle, points, limits, effort, this->monitor_);
+      if (effort.steps < goal || this->isValid(energy, points))
+      {
+        break; // as far as it goes, or as needed
+      }
+    }
     this->report_.untangleSteps = effort.steps;
     this->report_.evaluations += effort.evaluations;
   }

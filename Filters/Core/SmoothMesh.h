@@ -39,7 +39,8 @@ struct SmoothingReport
 /// like follow where there are any.
 ///
 /// 1. Where tetrahedra of the cells (one a corner) are inverted: untangling (UntangleEnergy.h) with a margin of 0.05 by
-///    L-BFGS. If some stay inverted that is the result: not every mesh can be untangled in this way.
+///    L-BFGS, which looks every hundred steps whether that is enough. If some stay inverted that is the result: not every
+///    mesh can be untangled in this way.
 /// 2. Where few cells have a scaled Jacobian below 0.2: the shape measure below on the nodes of three rings of cells
 ///    round them. Single bad cells would shorten the steps of the whole mesh.
 /// 3. The mean inverse mean ratio |T|^2 / (3 det(T)^(2/3)), T the Jacobian relative to the target, of all cells by

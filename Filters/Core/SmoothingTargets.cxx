@@ -38,11 +38,6 @@ const double (*unitShape(Shape shape))[3]
   }
 }
 
-int numberOfCornerTets(Shape shape)
-{
-  return shape == Shape::Tet ? 1 : shape == Shape::Pyramid ? 4 : numberOfCorners(shape);
-}
-
 /// Of each volume cell, those with next to none as large as the mean; 0 for other cells.
 std::vector<double> volumes(const Mesh& rest)
 {
@@ -87,7 +82,7 @@ TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orie
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
     const Shape shape = cellShape(rest.types[c])->shape;
-    const int corners = numberOfCornerTets(shape);
+    const int corners = cornerTetrahedra(shape);
     const double(*unit)[3] = unitShape(shape);
     const double size =
       corners > 0 ? std::cbrt(volume[c] / std::abs(signedVolume(shape, unit))) : 1;
@@ -108,6 +103,7 @@ TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orie
       Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
       tetrahedron.weight = 1. / corners;
       tetrahedron.theta = 0;
+      tetrahedron.stiffened = false;
       result.tetrahedra.push_back(tetrahedron);
     }
     result.start.push_back(static_cast<Index>(result.tetrahedra.size()));

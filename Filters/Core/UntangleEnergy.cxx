@@ -40,7 +40,7 @@ UntangleEnergy::UntangleEnergy(
         own.node[k] = mesh.cell(c)[shape.cornerNode[target.corner[k]]];
         isMovable = isMovable || row[own.node[k]] >= 0;
       }
-      if (!isMovable)
+      if (!isMovable || !(target.weight > 0))
       {
         continue;
       }

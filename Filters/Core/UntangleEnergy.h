@@ -13,7 +13,7 @@ namespace morph
 /// (2001) 261-268: the mean over all tetrahedra of (|d - b| - (d - b))^2, where d is the tetrahedron's determinant
 /// relative to its target's (his alpha over a volume, so that the sizes of the mesh and of its cells do not matter)
 /// and b the margin. It is 0, and flat, once all determinants are above the margin: what it leaves are barely
-/// valid cells, so a shape measure has to follow. Tetrahedra without a free node are left out.
+/// valid cells, so a shape measure has to follow. Tetrahedra without a free node and those of weight 0 are left out.
 class UntangleEnergy : public Objective
 {
 public:

@@ -21,6 +21,9 @@
  * vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used again. Morph
  * need not be connected to anything.
  *
+ * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of the method
+ * alone, and a warning says so.
+ *
  * Time: as vtkMorphAlgorithm's; port 2 is asked for the time that the output is.
  *
  * Errors give no result: one message, and an empty output. Among them: no method, one that is not linear, no

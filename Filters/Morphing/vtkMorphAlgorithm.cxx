@@ -46,10 +46,7 @@ double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-}
 
-namespace
-{
 /// Smooths `moved` and returns the steps that led to it.
 morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
@@ -465,10 +462,10 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
                        "Stepping to Absolute.");
   }
   const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
+  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
   kept.SetGrid(rest, monitor);
-  const vtkMorphBoundaryMatch::Result match =
-    this->Match(vtkMorphInput::RequirePointSet(boundary, "The boundary"), 1, monitor);
-  monitor.SetRange(0.05, 0.4);
+  const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);
+  monitor.SetRange(0.05, 0.5);
   this->Prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(kept.Morpher.get());
   if (!linear)
@@ -476,6 +473,12 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error(std::string(this->GetClassName()) +
                        " is not a linear method, so it has no adjoint that is the same for all "
                        "motions. Use one that is, FEMWARP for instance.");
+  }
+  const std::string& status = kept.Status;
+  if (this->PostSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
+  {
+    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+                 "gradient is that of the method alone.");
   }
   monitor.SetRange(0.5, 1);
   this->SetEvaluateOptions(*linear);

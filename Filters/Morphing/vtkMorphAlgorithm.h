@@ -357,8 +357,8 @@ public:
    * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
    * used again, and the reverse, as between executions; the cost beyond that is that of an
    * evaluation. False after an error, which is reported as in an execution: those of an execution,
-   * a gradient of the wrong size or not finite, a method that is not linear, relative steps. With absolute
-   * steps it is that of the whole motion.
+   * a gradient of the wrong size or not finite, a method that is not linear, relative steps. With
+   * absolute steps it is that of the whole motion.
    *
    * @sa vtkMorphAdjoint
    */

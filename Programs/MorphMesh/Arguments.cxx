@@ -114,6 +114,8 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--free-unnamed-boundary", nullptr,
       "let outer nodes move that the boundary does not name; by default they stay",
       flag(result.freeUnnamedBoundary) },
+    { "--post-smooth", nullptr, "smooth what the method made, before --validity looks at it",
+      flag(result.postSmooth) },
     { "--validity", "<name>",
       "what to do about inverted cells, by default Report:\nNone, Report (warn), SubStep, Repair, "
       "Refuse (an error)",

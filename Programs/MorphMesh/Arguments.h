@@ -26,6 +26,7 @@ struct Arguments
   std::string boundaryIdArray, displacementArray; ///< empty: none
   double scaleFactor = 1;
   bool freeUnnamedBoundary = false;
+  bool postSmooth = false;
   bool requireValid = false;
   int threads = 0;
   bool quiet = false, progress = false;

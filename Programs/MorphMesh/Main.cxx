@@ -54,6 +54,7 @@ vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
   {
     setOption(filter, name, value);
   }
+  filter->SetPostSmooth(arguments.postSmooth);
   setValidity(filter, arguments.validity);
   filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
   filter->SetDisplacementArray(arguments.displacementArray.c_str());

@@ -8,6 +8,7 @@
 #include <vtkLBWarpMorph.h>
 #include <vtkSimplexLinearMorph.h>
 #include <vtkSimplexNaturalNeighborMorph.h>
+#include <vtkSmoothingMorph.h>
 #include <vtkWeightedResidualMorph.h>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ const std::vector<Method>& methods()
   using Free = vtkInversionFreeMorph;
   using LBWarp = vtkLBWarpMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
+  using Smoothing = vtkSmoothingMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<Method> all = {
     { "FEMWARP", make<vtkFEMWarpMorph>, { tolerance<vtkFEMWarpMorph>() } },
@@ -84,6 +86,15 @@ const std::vector<Method>& methods()
           setter<Natural>([](Natural* f, double v) { f->SetCoordinates(static_cast<int>(v)); }) },
         { "MemoryLimit", {}, 0, 1e12,
           setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
+    { "Smoothing", make<Smoothing>,
+      { { "TargetShape", { "Initial", "Ideal" }, 0, 1,
+          setter<Smoothing>(
+            [](Smoothing* f, double v) { f->SetTargetShape(static_cast<int>(v)); }) },
+        { "IterationLimit", {}, 1, 100000,
+          setter<Smoothing>(
+            [](Smoothing* f, double v) { f->SetIterationLimit(static_cast<int>(v)); }) },
+        { "StopMove", {}, 1e-12, 1,
+          setter<Smoothing>([](Smoothing* f, double v) { f->SetStopMove(v); }) } } },
     { "WeightedResidual", make<Residual>,
       { { "NumberOfNeighbors", {}, 1, VTK_INT_MAX,
           setter<Residual>(

@@ -75,6 +75,23 @@ TEST(InversionFree, NoMotionIsTheIdentity)
   }
 }
 
+TEST(InversionFree, IdealTargetsChangeAMeshWithoutAnyMotion)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const double atRest =
+      morph::measureQuality(mesh, mesh.points, orientation, {}, monitor).minimum;
+    InversionFree method;
+    method.setTarget(morph::Target::Ideal);
+    const Morphed result = run(method, mesh, target(mesh, [](const motions::Row& x) { return x; }));
+    EXPECT_FALSE(motions::identical(result.moved, mesh.points));
+    EXPECT_GT(result.minimum, atRest);
+  }
+}
+
 TEST(InversionFree, AffineMotionsAreExactWithTheInitialTarget)
 {
   for (const auto& [name, mesh] : motions::jittered())

@@ -4,7 +4,9 @@
 #include "TestGrids.h"
 
 #include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
 #include "vtkMorphAdjoint.h"
+#include "vtkSmoothingMorph.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkMultiBlockDataSet.h>
@@ -275,6 +277,30 @@ TEST_F(AdjointInputs, GradientsOfTheWrongShapeAreRefused)
   EXPECT_NE(
     this->ErrorOf(adjointOf(this->Morph, this->Grid, this->Boundary, carrier)).find("125 tuples"),
     std::string::npos);
+}
+
+TEST_F(AdjointInputs, MethodsThatAreNotLinearAreRefused)
+{
+  vtkNew<vtkInversionFreeMorph> inversionFree;
+  vtkNew<vtkSmoothingMorph> smoothing;
+  for (vtkMorphAlgorithm* morph : { static_cast<vtkMorphAlgorithm*>(inversionFree.Get()),
+         static_cast<vtkMorphAlgorithm*>(smoothing.Get()) })
+  {
+    EXPECT_NE(this->ErrorOf(adjointOf(morph, this->Grid, this->Boundary, nullptr))
+                .find(std::string(morph->GetClassName()) + " is not a linear method"),
+      std::string::npos);
+  }
+}
+
+TEST_F(AdjointInputs, SmoothingAfterTheMethodDrawsAWarning)
+{
+  this->Morph->PostSmoothOn();
+  auto adjoint = adjointOf(this->Morph, this->Grid, this->Boundary, nullptr);
+  grids::Listener listener(adjoint);
+  adjoint->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("PostSmooth"), std::string::npos);
 }
 
 TEST_F(AdjointInputs, AChangedOptionOfTheMethodRunsAgain)

@@ -13,7 +13,8 @@ from pathlib import Path
 PROGRAM = os.environ["MORPH_MESH"]
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 BORE = str(MODELS / "bore_hex_small.vtu")
-METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "WeightedResidual")
+METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor", "Smoothing",
+           "WeightedResidual")
 
 
 def run(*arguments):
@@ -76,6 +77,13 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(none[0], none[1])
         self.assertLess(half[1], none[1])
         self.assertNotEqual(self.morph("--free-unnamed-boundary").returncode, 2)
+
+    def test_smoothing_afterwards_untangles_the_canister(self):
+        canister = MODELS / "canister_tet_small.vtu"
+        self.assertEqual(run("--extract-boundary", canister, self.boundary).returncode, 0)
+        options = (canister, self.boundary, self.folder / "out.vtu", "--displacement-array=FinalDisplacement")
+        self.assertGreater(row(run(*options).stdout, "inverted cells")[1], 0)
+        self.assertEqual(row(run(*options, "--post-smooth").stdout, "inverted cells")[1], 0)
 
     def test_formats(self):
         for written in ("boundary.vtk", "boundary.vtp"):

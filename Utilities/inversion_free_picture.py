@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The picture of Documentation/InversionFree.md: the small canister's hexahedra where FEMWARP inverts
+cells, by FEMWARP and by the inversion-free morph: two layers at two thirds of its height, and
+above them the inverted cells alone.
+
+    xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
+        pvpython --force-offscreen-rendering Utilities/inversion_free_picture.py
+
+Writes inversion-free.png into Documentation/images, or the directory given. Needs the plugin; not
+Gmsh."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+from demo_picture import Panel, save_picture  # noqa: E402  (needs the path above)
+from inversion_free_table import CANISTER_OFFSET, Case, morphed, number  # noqa: E402
+from models_folds import load_plugin  # noqa: E402
+
+CASE = Case("canister", "hex", True, 1.2)
+
+
+def shown(mesh, grid):
+    """Ids of the cells of two layers at two thirds of the height, and of the inverted ones above:
+    those lie inside others, and a cut alone would hide them."""
+    z = mesh.points[mesh.cells].mean(axis=1)[:, 2]
+    height = (z - mesh.points[:, 2].min()) / np.ptp(mesh.points[:, 2])
+    slab = (height > 2 / 3 - 1 / 8) & (height < 2 / 3)
+    inverted = vtk_to_numpy(grid.GetCellData().GetArray("ScaledJacobian")) <= 0
+    return np.flatnonzero(slab | ((height > 2 / 3) & inverted))
+
+
+def panel(title, mesh, grid):
+    note = (f"{int(number(grid, 'InvertedCells')):,} of {grid.GetNumberOfCells():,} cells inverted\n"
+            f"min {number(grid, 'MinScaledJacobian'):.3f}, "
+            f"mean {number(grid, 'MeanScaledJacobian'):.3f}")
+    return Panel(title, note, grid, shown(mesh, grid))
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--output", type=Path, default=ROOT / "Documentation" / "images",
+                        help="directory to write to (default: %(default)s)")
+    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
+                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    arguments = parser.parse_args()
+    if not os.environ.get("DISPLAY"):
+        parser.error("no display: run under xvfb-run -a")
+    return arguments
+
+
+def main():
+    arguments = parse_arguments()
+    load_plugin(arguments.plugin)
+    folder = arguments.output.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "inversion-free.png"
+    mesh = CASE.mesh()
+    silent = {"Validity": "None"}  # the picture shows the inverted cells
+    save_picture(
+        path,
+        f"The canister's hole moves by {CANISTER_OFFSET * CASE.t:.2f} of the radius "
+        "(two layers, and the inverted cells above them)",
+        [panel("At rest", mesh, morphed("MorphFEMWARP", mesh, 0)),
+         panel("FEMWARP", mesh, morphed("MorphFEMWARP", mesh, CASE.t, **silent)),
+         panel("Inversion-free", mesh, morphed("MorphInversionFree", mesh, CASE.t))],
+        tilt=55)
+    print(f"Written {path}")
+
+
+if __name__ == "__main__":
+    main()
