@@ -7,6 +7,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (needs the back end)
+from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 import Models  # noqa: E402
 import study_paper as paper  # noqa: E402
@@ -87,6 +88,9 @@ def _draw_quality(path, records, model, surfaces, steps):
                 color, marker = STYLES[method]
                 axis.plot([step.step for step in found], [step.minimum for step in found],
                           color=color, marker=marker, markersize=4, linewidth=1.2, label=method)
+        if not axis.lines:
+            axis.text(0.5, 0.5, "not run", transform=axis.transAxes, ha="center", color="gray")
+        axis.xaxis.set_major_locator(MaxNLocator(integer=True))
         axis.axhline(0, color="black", linewidth=0.6)
         axis.set_title(f"({letter}) {key[0]} mesh, {key[2]} morph")
         axis.set_xlabel("step")
