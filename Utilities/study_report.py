@@ -7,6 +7,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (needs the back end)
+from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 import Models  # noqa: E402
 import study_paper as paper  # noqa: E402
@@ -87,11 +88,16 @@ def _draw_quality(path, records, model, surfaces, steps):
                 color, marker = STYLES[method]
                 axis.plot([step.step for step in found], [step.minimum for step in found],
                           color=color, marker=marker, markersize=4, linewidth=1.2, label=method)
+        if not axis.lines:
+            axis.text(0.5, 0.5, "not run", transform=axis.transAxes, ha="center", color="gray")
+        axis.xaxis.set_major_locator(MaxNLocator(integer=True))
         axis.axhline(0, color="black", linewidth=0.6)
-        axis.set_ylim(-1.05, 1.05)
         axis.set_title(f"({letter}) {key[0]} mesh, {key[2]} morph")
         axis.set_xlabel("step")
         axis.set_ylabel("least scaled Jacobian")
+    for row in axes:  # both share it
+        low, high = row[0].get_ylim()
+        row[0].set_ylim(min(low, -0.02), max(high, 0.02))
     handles, labels = max((axis.get_legend_handles_labels() for axis in axes.flat),
                           key=lambda found: len(found[0]))
     figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False)

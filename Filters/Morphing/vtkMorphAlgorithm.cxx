@@ -455,8 +455,13 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
 void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
 {
-  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
   vtkInternals& kept = *this->Internals;
+  if (this->Stepping == RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
+  {
+    throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
+                       "Stepping to Absolute.");
+  }
+  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
   vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
   kept.SetGrid(rest, monitor);
   const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);

@@ -72,13 +72,7 @@ namespace morph
 struct Mesh;
 struct NodePartition;
 class Morpher;
-struct NodePartition;
 }
-namespace vtkMorphBoundaryMatch
-{
-struct Result;
-}
-
 namespace vtkMorphBoundaryMatch
 {
 struct Result;
@@ -363,7 +357,8 @@ public:
    * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
    * used again, and the reverse, as between executions; the cost beyond that is that of an
    * evaluation. False after an error, which is reported as in an execution: those of an execution,
-   * a gradient of the wrong size or not finite, a method that is not linear.
+   * a gradient of the wrong size or not finite, a method that is not linear, relative steps. With
+   * absolute steps it is that of the whole motion.
    *
    * @sa vtkMorphAdjoint
    */
@@ -424,6 +419,7 @@ private:
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkMorphMonitor& monitor);
+  /// Finds which nodes of the mesh that is kept go where, in that part of their motion.
   vtkMorphBoundaryMatch::Result Match(
     vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const;
   /// The step that is asked for, or null where the boundary is first needed at another time.
@@ -432,6 +428,7 @@ private:
   /// `first`, `last`: of the progress.
   vtkMorphStepResult MorphStep(const morph::Mesh& from, const vtkMorphBoundaryMatch::Result& match,
     int validityMode, double first, double last, vtkMorphMonitor& monitor);
+  /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or others.
   void Prepare(
     const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor);
   void Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,

@@ -292,6 +292,15 @@ TEST_F(AdjointInputs, MethodsThatAreNotLinearAreRefused)
   }
 }
 
+TEST_F(AdjointInputs, RelativeStepsAreRefused)
+{
+  this->Morph->SetSteppingToRelative();
+  this->Morph->SetNumberOfSteps(3);
+  EXPECT_NE(this->ErrorOf(adjointOf(this->Morph, this->Grid, this->Boundary, nullptr))
+              .find("Relative steps have no adjoint"),
+    std::string::npos);
+}
+
 TEST_F(AdjointInputs, SmoothingAfterTheMethodDrawsAWarning)
 {
   this->Morph->PostSmoothOn();
