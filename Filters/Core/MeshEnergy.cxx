@@ -3,6 +3,7 @@
 
 #include "BlockSum.h"
 #include "CellShape.h"
+#include "NodeUses.h"
 #include "SimplicialDecomposition.h"
 
 #include <Eigen/LU>
@@ -69,28 +70,9 @@ MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
     this->cornerStart_.push_back(static_cast<Index>(this->corner_.size()));
   }
 
-  this->uses_.offsets.assign(free.size() + 1, 0);
-  for (std::int32_t node : this->corner_)
-  {
-    if (this->row_[node] >= 0)
-    {
-      ++this->uses_.offsets[this->row_[node] + 1];
-    }
-  }
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    this->uses_.offsets[i + 1] += this->uses_.offsets[i];
-  }
-  this->uses_.values.resize(this->uses_.offsets.back());
-  std::vector<Index> at(this->uses_.offsets.begin(), this->uses_.offsets.end() - 1);
-  for (std::size_t k = 0; k < this->corner_.size(); ++k)
-  {
-    const std::int32_t row = this->row_[this->corner_[k]];
-    if (row >= 0)
-    {
-      this->uses_.values[at[row]++] = static_cast<Index>(k);
-    }
-  }
+  this->uses_ =
+    placesOfRows(static_cast<Index>(this->corner_.size()), static_cast<Index>(free.size()),
+      [this](Index place) { return this->row_[this->corner_[place]]; });
 }
 
 bool MeshEnergy::isMovable(
@@ -196,19 +178,6 @@ void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor
         }
       }
     });
-  result.resize(static_cast<Index>(this->free_.size()), 3);
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (const Index* use = this->uses_.begin(i); use != this->uses_.end(i); ++use)
-        {
-          sum += parts.row(*use);
-        }
-        result.row(i) = sum;
-      }
-    });
+  sumOverPlaces(this->uses_, parts, result, monitor);
 }
 }

@@ -163,8 +163,8 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
 
 Objective::~Objective() = default;
 
-Objective::Value newton(const SecondOrderObjective& objective, Points& points, const MinimizerLimits& limits,
-  BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor)
+Objective::Value newton(const SecondOrderObjective& objective, Points& points,
+  const MinimizerLimits& limits, BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor)
 {
   ++effort.evaluations;
   Objective::Value value = objective.value(points, monitor);

@@ -25,8 +25,8 @@ struct MinimizerLimits
 /// Newton's method with conjugate gradients and a backtracking line search (Armijo). `points`: #nodes x 3, the start in, the
 /// result out; only the objective's free nodes move, and the energy never rises. `matrix`: room for the second derivatives, kept between calls.
 /// Returns the value at the end. Throws Error of kind Cancelled, leaving `points` at the last step.
-Objective::Value newton(const SecondOrderObjective& objective, Points& points, const MinimizerLimits& limits,
-  BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor);
+Objective::Value newton(const SecondOrderObjective& objective, Points& points,
+  const MinimizerLimits& limits, BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor);
 
 /// The limited-memory BFGS method (Liu, Nocedal, Math. Program. 45 (1989) 503-528) with the last ten steps: no matrix, 0.5 kB a
 /// free node. Otherwise as newton().

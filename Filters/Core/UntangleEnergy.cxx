@@ -2,6 +2,7 @@
 #include "UntangleEnergy.h"
 
 #include "BlockSum.h"
+#include "NodeUses.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -26,7 +27,6 @@ UntangleEnergy::UntangleEnergy(
   {
     row[free[i]] = static_cast<Index>(i);
   }
-  this->uses_.offsets.assign(free.size() + 1, 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);
@@ -46,33 +46,11 @@ UntangleEnergy::UntangleEnergy(
       }
       own.volume = Eigen::Map<const Eigen::Matrix3d>(target.inverse).determinant();
       this->tetrahedra_.push_back(own);
-      for (Index node : own.node)
-      {
-        if (row[node] >= 0)
-        {
-          ++this->uses_.offsets[row[node] + 1];
-        }
-      }
     }
   }
-
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    this->uses_.offsets[i + 1] += this->uses_.offsets[i];
-  }
-  this->uses_.values.resize(this->uses_.offsets.back());
-  std::vector<Index> at(this->uses_.offsets.begin(), this->uses_.offsets.end() - 1);
-  for (std::size_t t = 0; t < this->tetrahedra_.size(); ++t)
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      const Index i = row[this->tetrahedra_[t].node[k]];
-      if (i >= 0)
-      {
-        this->uses_.values[at[i]++] = static_cast<Index>(4 * t) + k;
-      }
-    }
-  }
+  this->uses_ =
+    placesOfRows(static_cast<Index>(4 * this->tetrahedra_.size()), static_cast<Index>(free.size()),
+      [&](Index place) { return row[this->tetrahedra_[place / 4].node[place % 4]]; });
 }
 
 Eigen::Matrix3d UntangleEnergy::edges(const Tetrahedron& tetrahedron, const Points& points) const
@@ -122,19 +100,6 @@ void UntangleEnergy::gradient(const Points& points, Points& result, Monitor& mon
         parts.row(4 * t) = -parts.middleRows(4 * t + 1, 3).colwise().sum();
       }
     });
-  result.resize(static_cast<Index>(this->free_.size()), 3);
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (const Index* use = this->uses_.begin(i); use != this->uses_.end(i); ++use)
-        {
-          sum += parts.row(*use);
-        }
-        result.row(i) = sum;
-      }
-    });
+  sumOverPlaces(this->uses_, parts, result, monitor);
 }
 }

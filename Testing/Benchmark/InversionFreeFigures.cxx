@@ -34,7 +34,8 @@ public:
 
 private:
   /// Appends to `outcome.seconds`.
-  void morphOnce(const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const;
+  void morphOnce(
+    const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const;
   void addCounts(const Problem& problem, const std::string& name, const Outcome& outcome);
 };
 
@@ -80,8 +81,8 @@ void Run::againstBfgs(const Problem& problem)
   this->check(problem, "inverted cells", static_cast<double>(whole.quality.inverted), 0);
   this->check(problem, "difference of the minimisers' mean scaled Jacobians",
     std::abs(newton.quality.mean - bfgs.quality.mean), 1e-3);
-  this->add(problem, "least scaled Jacobian", whole.quality.minimum, "",
-    Target::atLeast(ExactMinimum));
+  this->add(
+    problem, "least scaled Jacobian", whole.quality.minimum, "", Target::atLeast(ExactMinimum));
   this->add(problem, "L-BFGS / Newton, to the first minimum",
     median(bfgs.seconds) / median(newton.seconds), "", Target::atLeast(4));
   this->addCounts(problem, "Newton, to the first minimum", newton);

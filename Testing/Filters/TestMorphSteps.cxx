@@ -313,8 +313,8 @@ TEST_F(RelativeSteps, AnErrorNamesItsStep)
   grids::Listener listener(this->Filter);
   this->Filter->SetValidityToRefuse();
   this->Filter->SetNumberOfSteps(4);
-  this->Filter->SetBoundaryData(grids::boundary(
-    this->Grid, [](const grids::Row& x) { return grids::Row(x[0], x[1], x[2] == 4 ? 1.6 : x[2]); }));
+  this->Filter->SetBoundaryData(grids::boundary(this->Grid,
+    [](const grids::Row& x) { return grids::Row(x[0], x[1], x[2] == 4 ? 1.6 : x[2]); }));
   this->Filter->UpdateTimeStep(4);
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("Step 2: "), std::string::npos) << listener.Errors[0];
