@@ -125,7 +125,8 @@ void Morpher::place(Index node, const Displacement& displacement, Points& result
   for (int j = 0; j < 3; ++j)
   {
     const double rest = this->rest_(node, j), d = displacement[j];
-    result(node, j) = d != 0 ? rest + d : rest; // bit for bit where nothing moves: -0.0 + 0.0 would be 0.0
+    result(node, j) =
+      d != 0 ? rest + d : rest; // bit for bit where nothing moves: -0.0 + 0.0 would be 0.0
   }
 }
 

@@ -21,14 +21,14 @@ enum class Target
 /// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their target and their weight.
 struct TargetShapes
 {
-  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size.
+  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size. Its
+  /// corners are those of the same place in the shape's simplicialDecomposition(), of which a cell has the first ones or all.
   struct Tetrahedron
   {
-    std::int8_t corner[4]; ///< of the cell
-    bool stiffened;        ///< not in tetrahedral cells: it lowers their scaled Jacobian
-    double inverse[9];     ///< column major
-    double weight;         ///< decomposition weight times target volume; the mean over all is 1
-    double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
+    bool stiffened;    ///< not in tetrahedral cells: it lowers their scaled Jacobian
+    double inverse[9]; ///< column major
+    double weight;     ///< decomposition weight times target volume; the mean over all is 1
+    double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
   };
   std::vector<Index> start; ///< #cells + 1
   std::vector<Tetrahedron> tetrahedra;
