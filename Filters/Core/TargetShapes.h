@@ -37,7 +37,7 @@ struct TargetShapes
 /// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's orientation().
 /// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest whose scaled
 /// Jacobian is 1e-3 or less, which Initial and Stretched would divide by, takes the Ideal shape with the edge lengths of its valid
-/// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
+/// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
 TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, Target target, Monitor& monitor);
 }
