@@ -141,8 +141,8 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
     vtkMorphAlgorithm* morph = this->FindMorph();
-    return this->Ports->RequestUpdateExtent(
-      morph ? morph->GetRestTime() : 0, vtkMorphPorts::AskedTime(outputVector), inputVector);
+    return this->Ports->RequestUpdateExtent(morph ? morph->GetRestTime() : 0,
+      vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }

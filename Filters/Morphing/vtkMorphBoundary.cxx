@@ -19,6 +19,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -204,7 +205,7 @@ int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   return this->Internals->Ports.RequestUpdateExtent(
-    this->RestTime, vtkMorphPorts::AskedTime(outputVector), inputVector);
+    this->RestTime, vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(

@@ -7,13 +7,16 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
+#include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <string>
 
 int vtkMorphPorts::FillInformation(int port, vtkInformation* info)
@@ -39,9 +42,16 @@ int vtkMorphPorts::RequestInformation(
   return 1;
 }
 
-std::optional<double> vtkMorphPorts::AskedTime(vtkInformationVector* outputVector)
+vtkInformation* vtkMorphPorts::Asked(vtkInformation* request, vtkInformationVector* outputVector)
 {
-  vtkInformation* output = outputVector->GetInformationObject(0);
+  const int port = request->Has(vtkExecutive::FROM_OUTPUT_PORT())
+                     ? request->Get(vtkExecutive::FROM_OUTPUT_PORT())
+                     : -1;
+  return outputVector->GetInformationObject(std::max(0, port));
+}
+
+std::optional<double> vtkMorphPorts::AskedTime(vtkInformation* output)
+{
   if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
     return std::nullopt;
@@ -74,7 +84,13 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   {
     return 1;
   }
-  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const auto forOutputs = [outputVector](const auto& action)
+  {
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      action(vtkDataObject::GetData(outputVector, port));
+    }
+  };
   task.Reset();
   vtkMorphCrewMonitor monitor(this->Filter, task.NumberOfThreads);
   const auto work = [&]
@@ -89,7 +105,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   };
   const auto clear = [&]
   {
-    output->Initialize();
+    forOutputs([](vtkDataObject* output) { output->Initialize(); });
     task.Reset();
   };
   const int done = vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
@@ -100,7 +116,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   }
   if (done)
   {
-    vtkMorphTime::CopyDataTime(boundary, output);
+    forOutputs([boundary](vtkDataObject* output) { vtkMorphTime::CopyDataTime(boundary, output); });
   }
   return done;
 }
