@@ -188,7 +188,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
     throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
                        "the gradient on port 2 by a pipeline with that filter in it.");
   }
-  vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
   vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");

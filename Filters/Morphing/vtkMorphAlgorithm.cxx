@@ -238,7 +238,7 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
   kept.SetGrid(grid, monitor);
   std::shared_ptr<const vtkMorphStepResult> result;
   if (kept.IsSeries(this->Stepping))
@@ -473,7 +473,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
                        "Stepping to Absolute.");
   }
   const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
-  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
   kept.SetGrid(rest, monitor);
   const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);
   monitor.SetRange(0.05, 0.5);

@@ -223,7 +223,7 @@ int vtkMorphBoundary::RequestData(
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkDataObject* target, vtkPolyData* output, vtkMorphMonitor& monitor)
 {
-  vtkPointSet* given = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* given = vtkMorphInput::RequireBoundary(boundary);
   vtkPolyData* targetSurface =
     target ? vtkMorphInput::RequirePolyData(target, "The target") : nullptr;
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);

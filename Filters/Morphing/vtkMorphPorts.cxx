@@ -11,6 +11,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationIntegerKey.h>
+#include <vtkInformationIntegerVectorKey.h>
 #include <vtkInformationVector.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -62,6 +63,16 @@ std::optional<double> vtkMorphPorts::AskedTime(vtkInformation* output)
 int vtkMorphPorts::RequestUpdateExtent(
   double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector)
 {
+  for (int port = 0; port < this->Filter->GetNumberOfInputPorts(); ++port)
+  {
+    // The executive asks all ports for the extent of port 0: too little of a larger image behind another.
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
   if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
   {
     auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetInputExecutive(0, 0));
@@ -97,6 +108,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
     const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
+    vtkMorphInput::RequireNotSwapped(input, boundary);
     grid = vtkMorphInput::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {

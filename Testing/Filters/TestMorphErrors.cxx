@@ -173,12 +173,27 @@ TEST_F(MorphErrors, NoBoundary)
   this->Filter->SetBoundaryConnection(nullptr);
   // ParaView asks for this as soon as the filter is made.
   EXPECT_EQ(this->Filter->GetExecutive()->UpdateInformation(), 1);
-  this->ExpectError({ "The boundary has no data", "points" });
+  this->ExpectError({ "Boundary: nothing is connected", "Extract Morph Boundary" });
 }
 
 TEST_F(MorphErrors, GridOfAnotherType)
 {
   this->ExpectGridError(this->Boundary, { "The input", "vtkPolyData", "unstructured grid" });
+}
+
+TEST_F(MorphErrors, SwappedInputs)
+{
+  const auto expect = [this](vtkDataObject* grid)
+  {
+    this->Filter->SetInputDataObject(grid);
+    this->Filter->SetBoundaryData(this->Grid);
+    this->ExpectError({ "swapped", "volume mesh as Input" });
+  };
+  expect(this->Boundary);
+  vtkNew<vtkUnstructuredGrid> faces;
+  faces->SetPoints(this->Boundary->GetPoints());
+  faces->SetCells(VTK_QUAD, this->Boundary->GetPolys());
+  expect(faces);
 }
 
 TEST_F(MorphErrors, UnknownIds)
