@@ -448,6 +448,6 @@ TEST_F(MorphErrors, InvertedRestCellsOnlyWarn)
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[0].find("positive Jacobian"), std::string::npos);
-  EXPECT_NE(listener.Warnings[1].find("Worst cell ids"), std::string::npos);
+  EXPECT_NE(listener.Warnings[1].find("The worst, with their centres"), std::string::npos);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 64);
 }
