@@ -4,7 +4,7 @@
  * @brief   moves the nodes of a volume mesh so that it follows a displaced boundary
  *
  * The superclass of all morphing filters. Port 0 takes the mesh at rest (vtkUnstructuredGrid), port
- * 1 the displaced boundary (vtkPointSet). The output has the mesh's cells and arrays, and new
+ * 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells and arrays, and new
  * points: those of the boundary lie where port 1 puts them, those inside follow by the subclass's
  * method. The inputs are never touched.
  *
@@ -27,22 +27,25 @@
  * Target positions are the points of port 1 or, where DisplacementArray is set, the rest position
  * plus that vector.
  *
- * The output has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
+ * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
  * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells,
  * PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers are there as getters after
  * an execution. Mid-side, face and body nodes of quadratic cells that are not prescribed keep their
  * place in the cell. Cells of lower dimension pass through.
  *
+ * Output 1 holds output 0's inverted and degenerate cells (ScaledJacobian of 0 or less) with their points and arrays, to be looked
+ * at; added are the cell array `MorphCellId` and the point array `MorphPointId`, ids in output 0. It is empty where there are none.
+ *
  * What the method prepares (a matrix and its preconditioner, weights, ...) is kept, and used again
  * while the rest points, the cells, the set of prescribed nodes and the method's options have the
  * same content, whatever their modification times. So moving the same boundary again only costs the
  * evaluation; see GetPrepareCount().
  *
- * Time: the output has the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
+ * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
  * asked for RestTime. Stepping tells whether a step starts from the mesh at rest or from the mesh of the step before.
  *
- * Errors give no result: one message, and an empty output. Among them: composite data (use Merge
+ * Errors give no result: one message, and empty outputs. Among them: composite data (use Merge
  * Blocks first), no points, no volume cells, cells of other types than tetrahedra, hexahedra, voxels, wedges,
  * pyramids and their quadratic forms, coordinates that are not finite, no way to match the
  * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
@@ -418,7 +421,7 @@ private:
     vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
-    vtkMorphMonitor& monitor);
+    vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor);
   /// Finds which nodes of the mesh that is kept go where, in that part of their motion.
   vtkMorphBoundaryMatch::Result Match(
     vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const;
@@ -432,7 +435,7 @@ private:
   void Prepare(
     const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor);
   void Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
-    vtkUnstructuredGrid* output, vtkMorphMonitor& monitor);
+    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor);
 
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;

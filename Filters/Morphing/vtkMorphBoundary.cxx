@@ -20,6 +20,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -205,7 +206,7 @@ int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   return this->Internals->Ports.RequestUpdateExtent(
-    this->RestTime, vtkMorphPorts::AskedTime(outputVector), inputVector);
+    this->RestTime, vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(
@@ -223,7 +224,7 @@ int vtkMorphBoundary::RequestData(
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkDataObject* target, vtkPolyData* output, vtkMorphMonitor& monitor)
 {
-  vtkPointSet* given = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* given = vtkMorphInput::RequireBoundary(boundary);
   vtkPolyData* targetSurface =
     target ? vtkMorphInput::RequirePolyData(target, "The target") : nullptr;
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
