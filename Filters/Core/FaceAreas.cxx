@@ -10,36 +10,68 @@ namespace morph
 {
 namespace
 {
-/// For each of faces.nodes the sum of the areas of the faces round it, or of those of them that are chosen.
-Points sums(const Points& areas, const BoundaryFaces& faces, const std::vector<std::uint8_t>* isChosen)
+/// Sums of the faces' areas at each of faces.nodes.
+class NodeSums
 {
-  Points sum = Points::Zero(static_cast<Index>(faces.nodes.size()), 3);
-  std::vector<Index> row;
-  if (!faces.nodes.empty())
+public:
+  explicit NodeSums(const BoundaryFaces& faces)
+    : faces_(faces)
+    , row_(faces.nodes.empty() ? 0 : faces.nodes.back() + 1, -1)
+    , between_(faces.nodes.size())
   {
-    row.assign(faces.nodes.back() + 1, -1);
-  }
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
-  {
-    row[faces.nodes[i]] = static_cast<Index>(i);
-  }
-  for (Index f = 0; f < areas.rows(); ++f)
-  {
-    for (Index k = faces.offsets[f]; (!isChosen || (*isChosen)[f]) && k < faces.offsets[f + 1]; ++k)
+    for (std::size_t i = 0; i < faces.nodes.size(); ++i)
     {
-      sum.row(row[faces.connectivity[k]]) += areas.row(f);
+      this->row_[faces.nodes[i]] = static_cast<Index>(i);
+    }
+    for (Index i = 0; i < static_cast<Index>(faces.nodes.size()); ++i)
+    {
+      if (faces.between.begin(i) != faces.between.end(i))
+      {
+        this->between_[this->row_[*faces.between.begin(i)]].push_back(i);
+      }
     }
   }
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+
+  /// Over the faces with the node as a corner or, for a node between corners, with all of these. Of those that
+  /// `isChosen` says alone, unless it is null.
+  Points sum(const Points& areas, const std::vector<std::uint8_t>* isChosen) const
   {
-    const Index k = static_cast<Index>(i);
-    for (const Index* corner = faces.between.begin(k); corner != faces.between.end(k); ++corner)
+    Points result = Points::Zero(static_cast<Index>(this->faces_.nodes.size()), 3);
+    for (Index f = 0; f < areas.rows(); ++f)
     {
-      sum.row(k) += sum.row(row[*corner]);
+      if (isChosen && !(*isChosen)[f])
+      {
+        continue;
+      }
+      for (Index k = this->faces_.offsets[f]; k < this->faces_.offsets[f + 1]; ++k)
+      {
+        const Index corner = this->row_[this->faces_.connectivity[k]];
+        result.row(corner) += areas.row(f);
+        for (Index node : this->between_[corner])
+        {
+          if (this->liesIn(node, f))
+          {
+            result.row(node) += areas.row(f);
+          }
+        }
+      }
     }
+    return result;
   }
-  return sum;
-}
+
+private:
+  bool liesIn(Index node, Index face) const
+  {
+    const auto begin = this->faces_.connectivity.begin() + this->faces_.offsets[face];
+    const auto end = this->faces_.connectivity.begin() + this->faces_.offsets[face + 1];
+    return std::all_of(this->faces_.between.begin(node), this->faces_.between.end(node),
+      [&](Index corner) { return std::find(begin, end, corner) != end; });
+  }
+
+  const BoundaryFaces& faces_;
+  std::vector<Index> row_;                  ///< of a node in faces.nodes
+  std::vector<std::vector<Index>> between_; ///< for each row the nodes that it is the first corner of
+};
 }
 
 Points faceAreas(const ConstPoints& points, const BoundaryFaces& faces)
@@ -57,7 +89,8 @@ Points faceAreas(const ConstPoints& points, const BoundaryFaces& faces)
 Points nodeNormals(const Points& areas, const BoundaryFaces& faces,
   const std::vector<std::uint8_t>& isChosen, const std::vector<Index>& nodes)
 {
-  const Points chosen = sums(areas, faces, &isChosen), all = sums(areas, faces, nullptr);
+  const NodeSums sums(faces);
+  const Points chosen = sums.sum(areas, &isChosen), all = sums.sum(areas, nullptr);
   const double least = 1e-12 * (areas.rows() > 0 ? areas.rowwise().norm().maxCoeff() : 0);
   Points normals(static_cast<Index>(nodes.size()), 3);
   std::vector<Index> without;

@@ -613,6 +613,7 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
   second->UpdateInformation();
   EXPECT_EQ(second->GetPatchNames()->GetNumberOfValues(), 0);
   extract->Update();
+  second->Modified(); // or the executive sees nothing to do
   second->UpdateInformation();
   EXPECT_EQ(second->GetPatchNames()->GetNumberOfValues(), 18);
 }
