@@ -28,8 +28,7 @@ Points transformed(const Points& from, vtkAbstractTransform* transform)
   return to;
 }
 
-Points arrayRows(
-  vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
+Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
 {
   if (name.empty())
   {
@@ -41,14 +40,14 @@ Points arrayRows(
   if (!array || array->GetNumberOfComponents() != 3 ||
       array->GetNumberOfTuples() != input->GetNumberOfPoints())
   {
-    const std::string what =
-      !any     ? "which the input does not have as a point array"
-      : !array ? "which is not numeric"
-      : array->GetNumberOfComponents() != 3
-        ? "which has " + std::to_string(array->GetNumberOfComponents()) +
-            " components; a displacement has three"
-        : "which has " + std::to_string(array->GetNumberOfTuples()) + " values for the input's " +
-            std::to_string(input->GetNumberOfPoints()) + " points";
+    const std::string what = !any     ? "which the input does not have as a point array"
+                             : !array ? "which is not numeric"
+                             : array->GetNumberOfComponents() != 3
+                               ? "which has " + std::to_string(array->GetNumberOfComponents()) +
+                                   " components; a displacement has three"
+                               : "which has " + std::to_string(array->GetNumberOfTuples()) +
+                                   " values for the input's " +
+                                   std::to_string(input->GetNumberOfPoints()) + " points";
     throw Error("DisplacementArray names '" + name + "', " + what + ".");
   }
   Points rows(static_cast<Index>(nodes.size()), 3);
@@ -78,8 +77,7 @@ Points wholeMotion(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   return transformed(from, options.Transform);
 }
 
-void requireFinite(
-  const Points& targets, const std::vector<Index>& nodes, vtkMorphMotion::Kind how)
+void requireFinite(const Points& targets, const std::vector<Index>& nodes, vtkMorphMotion::Kind how)
 {
   std::vector<Index> wrong;
   for (Index i = 0; i < targets.rows(); ++i)
@@ -127,8 +125,8 @@ Points Targets(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   return targets;
 }
 
-std::vector<Index> Collapsed(const vtkMorphBoundaryModel& model,
-  const vtkMorphChoice::Result& choice, const Points& moved)
+std::vector<Index> Collapsed(
+  const vtkMorphBoundaryModel& model, const vtkMorphChoice::Result& choice, const Points& moved)
 {
   const morph::BoundaryFaces& faces = model.Faces();
   const Points before = morph::faceAreas(model.Points(), faces);
