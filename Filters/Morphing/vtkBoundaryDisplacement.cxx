@@ -54,6 +54,12 @@ vtkMTimeType timeOf(vtkObject* object)
   return object ? object->GetMTime() : 0;
 }
 
+/// Whether that changed the names.
+bool setStatus(std::set<std::string>& names, const std::string& name, bool status)
+{
+  return status ? names.insert(name).second : names.erase(name) > 0;
+}
+
 /// Diagonal of the bounding box of the boundary's nodes.
 double size(const vtkMorphBoundaryModel& model)
 {
@@ -128,9 +134,9 @@ void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extract
   }
 }
 
-void vtkBoundaryDisplacement::AddPatch(const char* name)
+void vtkBoundaryDisplacement::SetPatchStatus(const char* name, int status)
 {
-  if (name && this->Internals->Patches.insert(name).second)
+  if (name && setStatus(this->Internals->Patches, name, status != 0))
   {
     this->Modified();
   }
@@ -145,9 +151,9 @@ void vtkBoundaryDisplacement::RemoveAllPatches()
   }
 }
 
-void vtkBoundaryDisplacement::AddHeldPatch(const char* name)
+void vtkBoundaryDisplacement::SetHeldPatchStatus(const char* name, int status)
 {
-  if (name && this->Internals->HeldPatches.insert(name).second)
+  if (name && setStatus(this->Internals->HeldPatches, name, status != 0))
   {
     this->Modified();
   }

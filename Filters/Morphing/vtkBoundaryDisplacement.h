@@ -105,9 +105,10 @@ public:
   ///@{
   /**
    * The patches that move, by name: "Surface 3" or "Curve 7", with the ids that vtkClassifyBoundary
-   * writes. Default: none.
+   * writes. A status other than 0 adds one, and 0 removes it. Default: none.
    */
-  void AddPatch(const char* name);
+  void SetPatchStatus(const char* name, int status);
+  void AddPatch(const char* name) { this->SetPatchStatus(name, 1); }
   void RemoveAllPatches();
   ///@}
 
@@ -115,7 +116,8 @@ public:
   /**
    * The patches that are held, by name. A node that moves is not held. Default: none.
    */
-  void AddHeldPatch(const char* name);
+  void SetHeldPatchStatus(const char* name, int status);
+  void AddHeldPatch(const char* name) { this->SetHeldPatchStatus(name, 1); }
   void RemoveAllHeldPatches();
   ///@}
 

@@ -146,6 +146,9 @@ TEST(BoundaryDisplacement, WaysToChoose)
     filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[0] == 0; }).c_str());
     filter->Update();
     expectMoved(filter, [](const Row& x) { return x[2] == 4 || x[0] == 0; });
+    filter->SetPatchStatus(surfaceName(filter, onTop).c_str(), 0);
+    filter->Update();
+    expectMoved(filter, [](const Row& x) { return x[0] == 0; });
     filter->RemoveAllPatches();
     filter->AddPatch("Curve 0"); // by lowest node: along x from the origin
     filter->Update();
