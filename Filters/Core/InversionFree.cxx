@@ -58,8 +58,21 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
 
-  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.8);
+  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.7), third(monitor, 0.7, 0.9);
   this->femWarp_.prepare(rest, this->partition(), first);
+  try
+  {
+    this->hasSimplexLinear_ = false;
+    this->simplexLinear_.prepare(rest, this->partition(), third);
+    this->hasSimplexLinear_ = true;
+  }
+  catch (const Error& error)
+  {
+    if (error.kind() == Error::Kind::Cancelled)
+    {
+      throw;
+    }
+  }
   if (this->method_)
   {
     this->method_->prepare(rest, this->partition(), second);
@@ -78,6 +91,21 @@ Points InversionFree::moved(
   SubMonitor part(monitor, 0, 0.05);
   report.iterations += method.evaluate(boundary, result, part).iterations;
   return result * this->scale_;
+}
+
+Points InversionFree::betterGuess(
+  const Points& warped, const Points& boundary, Monitor& monitor) const
+{
+  if (this->hasSimplexLinear_)
+  {
+    EvaluateReport ignored;
+    const Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
+    if (this->leastScaledJacobian(simplex, monitor) > this->leastScaledJacobian(warped, monitor))
+    {
+      return simplex;
+    }
+  }
+  return warped;
 }
 
 bool InversionFree::minimize(
@@ -152,7 +180,7 @@ EvaluateReport InversionFree::report(
     { "LinearIterations", outcome.effort.linearIterations },
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
-    { "KeptFEMWARP", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
+    { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
   return report;
 }
 
@@ -189,7 +217,8 @@ EvaluateReport InversionFree::displace(
     points = warped;
   }
   monitor.progress(0.1);
-  const Outcome outcome = this->improve(points, warped, warped, monitor);
+  const Outcome outcome =
+    this->improve(points, warped, this->betterGuess(warped, boundary, monitor), monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];

@@ -156,7 +156,7 @@ class Validity(unittest.TestCase):
         self.assertArrived(morph)
         for name in ("NewtonSteps", "LinearIterations", "EnergyEvaluations"):
             self.assertGreater(morph.GetProperty(name).GetData(), 0, name)
-        self.assertEqual(morph.KeptFEMWARP, 0)
+        self.assertEqual(morph.KeptLinear, 0)
         least = morph.MinScaledJacobian
         morph.ImproveWorst = 0
         self.assertEqual(updated(morph), "")
