@@ -21,6 +21,7 @@
 #include "vtkMorphSeries.h"
 #include "vtkMorphSteps.h"
 #include "vtkMorphValidity.h"
+#include "vtkMorphVersion.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
@@ -227,6 +228,16 @@ int vtkMorphAlgorithm::RequestData(
       data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
     }
   }
+  vtkUnstructuredGrid* rest = vtkUnstructuredGrid::GetData(inputVector[0]);
+  if (done && !kept.Repeat && rest && output->GetNumberOfPoints() == 0 &&
+      vtkMorphVersion::AbortRequested(this))
+  {
+    // Whoever stops a drag midway wants to see the mesh it began with.
+    vtkMorphVersion::KeepAbortedOutput(this);
+    output->ShallowCopy(rest);
+    kept.Status = "Cancelled";
+    vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
+  }
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
@@ -420,6 +431,16 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   const morph::Quality quality =
     vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
   vtkMorphQuality::Write(quality, output);
+  vtkMorphQuality::RemoveCertificate(output);
+  if (this->Certify)
+  {
+    const morph::CertificateReport report =
+      vtkMorphQuality::Certify(kept.Mesh, output, kept.Orientation, {}, monitor);
+    vtkMorphQuality::Write(report, output);
+    this->CertifiedCells = static_cast<vtkIdType>(report.certified);
+    this->UncertifiedCells = static_cast<vtkIdType>(report.inverted);
+    this->UndecidedCells = static_cast<vtkIdType>(report.undecided);
+  }
   vtkMorphBadCells::Extract(quality, output, badCells);
   this->MinScaledJacobian = quality.minimum;
   this->MeanScaledJacobian = quality.mean;
@@ -520,6 +541,9 @@ void vtkMorphAlgorithm::ResetResults()
   this->DegenerateCells = 0;
   this->WorstCellId = -1;
   this->BoundaryInvertedCells = 0;
+  this->CertifiedCells = 0;
+  this->UncertifiedCells = 0;
+  this->UndecidedCells = 0;
   this->PrepareSeconds = 0;
   this->EvaluateSeconds = 0;
   this->Internals->Status = "None";
@@ -543,6 +567,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "Certify: " << this->Certify << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "PostSmooth: " << this->PostSmooth << "\n";
   os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
@@ -555,6 +580,9 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "BoundaryInvertedCells: " << this->BoundaryInvertedCells << "\n";
+  os << indent << "CertifiedCells: " << this->CertifiedCells << "\n";
+  os << indent << "UncertifiedCells: " << this->UncertifiedCells << "\n";
+  os << indent << "UndecidedCells: " << this->UndecidedCells << "\n";
   os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
   os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
   os << indent << "MorphStatus: " << this->GetMorphStatus() << "\n";

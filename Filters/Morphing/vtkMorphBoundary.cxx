@@ -4,6 +4,7 @@
 #include "CurveMorph.h"
 #include "Error.h"
 #include "FaceQuality.h"
+#include "SurfaceImprovement.h"
 #include "SurfaceMorph.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
@@ -285,6 +286,10 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     place->Orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
+  }
+  if (this->SurfaceMethod == SMOOTHING)
+  {
+    morph::improveSurfaces(faces, geometry, place.get(), motion, monitor);
   }
   monitor.SetRange(0.9, 1);
 

@@ -102,7 +102,19 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
   refuse(input, port, "polygonal data (Extract Surface makes it)");
 }
 
-int RequireOneRankWithCells(vtkUnstructuredGrid* grid)
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
+{
+  if (vtkUnstructuredGrid::SafeDownCast(input) || vtkPolyData::SafeDownCast(input))
+  {
+    return vtkPointSet::SafeDownCast(input);
+  }
+  refuse(input, port,
+    "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
+    "Extract "
+    "Morph Boundary,");
+}
+
+int RequireOneRankWithCells(vtkDataSet* grid)
 {
   const int ranks = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0);
   if (ranks > 1)
