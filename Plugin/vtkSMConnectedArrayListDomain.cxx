@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMConnectedArrayListDomain.h"
 
-#include <vtkClientServerInterpreter.h>
-#include <vtkClientServerInterpreterInitializer.h>
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkSMConnectedArrayListDomain);
@@ -12,14 +10,4 @@ int vtkSMConnectedArrayListDomain::ReadXMLAttributes(vtkSMProperty* prop, vtkPVX
   const int done = this->Superclass::ReadXMLAttributes(prop, element);
   this->SetStrings({});
   return done;
-}
-
-void vtkSMConnectedArrayListDomain::Register()
-{
-  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(
-    [](vtkClientServerInterpreter* interpreter)
-    {
-      interpreter->AddNewInstanceFunction("vtkSMConnectedArrayListDomain",
-        [](void*) -> vtkObjectBase* { return vtkSMConnectedArrayListDomain::New(); });
-    });
 }

@@ -12,9 +12,6 @@ public:
   static vtkSMConnectedArrayListDomain* New();
   vtkTypeMacro(vtkSMConnectedArrayListDomain, vtkSMArrayListDomain);
 
-  /// Called once when the plugin is loaded: lets ParaView make this class by its name.
-  static void Register();
-
 protected:
   vtkSMConnectedArrayListDomain() = default;
   ~vtkSMConnectedArrayListDomain() override = default;
