@@ -40,8 +40,7 @@ std::vector<double> squaredDistances(const Points& nodes, const Points& places, 
 }
 }
 
-void Falloff::prepare(
-  const Points& moving, const Points& places, double radius, Monitor& monitor)
+void Falloff::prepare(const Points& moving, const Points& places, double radius, Monitor& monitor)
 {
   if (!(radius > 0) || !std::isfinite(radius))
   {
@@ -56,7 +55,8 @@ void Falloff::prepare(
   this->sites_ = PrescribedSites(moving, all(moving.rows()));
   this->reached_.clear();
   this->factor_.clear();
-  const std::vector<double> distance2 = squaredDistances(this->sites_.coordinates(), places, monitor);
+  const std::vector<double> distance2 =
+    squaredDistances(this->sites_.coordinates(), places, monitor);
   for (Index i = 0; i < places.rows(); ++i)
   {
     const double t = std::sqrt(distance2[i]) / radius;

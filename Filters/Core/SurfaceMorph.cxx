@@ -112,8 +112,8 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
       else
       {
         SurfaceWeights::Surface& one = weights.surfaces[s];
-        prepareResidual(faces, surface.faces, fixed, free, options.neighbors, motion.rest, weights,
-          one, monitor);
+        prepareResidual(
+          faces, surface.faces, fixed, free, options.neighbors, motion.rest, weights, one, monitor);
         if (moveByResidual(one.residual, fixed, free, motion, monitor))
         {
           report.reflected.push_back(static_cast<Index>(s));

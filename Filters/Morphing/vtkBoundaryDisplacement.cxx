@@ -392,9 +392,10 @@ void vtkBoundaryDisplacement::Displace(
     vtkMorphMotion::Collapsed(own.Model, own.Choice, result.Moved);
   if (!collapsed.empty())
   {
-    monitor.warn("The motion leaves faces of the boundary without area, and no cell behind them can "
-                 "be valid: the output's cell ids " +
-                 morph::listIds(collapsed) + ". Is a scale zero?");
+    monitor.warn(
+      "The motion leaves faces of the boundary without area, and no cell behind them can "
+      "be valid: the output's cell ids " +
+      morph::listIds(collapsed) + ". Is a scale zero?");
   }
   vtkMorphDisplacedSurface::Write(own.Model, result, input, this->OutputPointsPrecision, output);
   const auto count = [&result](vtkMorphSpread::Role role)

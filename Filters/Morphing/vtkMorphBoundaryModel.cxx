@@ -36,8 +36,9 @@ std::string geometryKey(vtkPointSet* input, const vtkMorphGeometry::Options& opt
   key << input->GetClassName() << ' ' << options.FeatureAngle << ' ' << options.CornerAngle << ' '
       << options.FeaturesInside << ' ' << options.UseGeometryArrays << ' '
       << options.SurfaceIdArray;
-  const auto add = [&key](vtkAbstractArray* array)
-  { key << '\n' << array << ' ' << (array ? array->GetMTime() : 0); };
+  const auto add = [&key](vtkAbstractArray* array) {
+    key << '\n' << array << ' ' << (array ? array->GetMTime() : 0);
+  };
   if (!options.SurfaceIdArray.empty())
   {
     add(input->GetCellData()->GetAbstractArray(options.SurfaceIdArray.c_str()));
@@ -60,11 +61,12 @@ vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int compo
   if (!array || array->GetNumberOfComponents() < components ||
       array->GetNumberOfTuples() != surface->GetNumberOfPoints())
   {
-    throw Error(std::string("The input is a surface ") +
-                (array ? "whose point array " : "without the point array ") + name +
-                (array ? " has the wrong number of components or values" : "") +
-                ", so a morph could not tell which nodes of the mesh its points are. Give the volume "
-                "mesh itself, or its boundary from Extract Morph Boundary or Classify Boundary.");
+    throw Error(
+      std::string("The input is a surface ") +
+      (array ? "whose point array " : "without the point array ") + name +
+      (array ? " has the wrong number of components or values" : "") +
+      ", so a morph could not tell which nodes of the mesh its points are. Give the volume "
+      "mesh itself, or its boundary from Extract Morph Boundary or Classify Boundary.");
   }
   return array;
 }
@@ -99,8 +101,7 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
   {
     cells->GetCellAtId(c, corners);
     const vtkIdType* begin = corners->GetPointer(0);
-    faces.connectivity.insert(
-      faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
+    faces.connectivity.insert(faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
     faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
     const bool isInside = std::all_of(begin, begin + corners->GetNumberOfIds(),
       [&](vtkIdType p) { return p >= 0 && p < surface->GetNumberOfPoints(); });
@@ -111,8 +112,9 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
   }
   if (faces.offsets.size() == 1)
   {
-    throw Error("The input is a surface without polygons, so there is no boundary to move. Give the "
-                "volume mesh, or its boundary from Extract Morph Boundary or Classify Boundary.");
+    throw Error(
+      "The input is a surface without polygons, so there is no boundary to move. Give the "
+      "volume mesh, or its boundary from Extract Morph Boundary or Classify Boundary.");
   }
   if (!wrong.empty())
   {
@@ -163,8 +165,7 @@ void vtkMorphBoundaryModel::TakeGrid(vtkUnstructuredGrid* grid,
   const vtkMorphGeometry::Options& options, const std::string& geometryKey, State& next,
   morph::Monitor& monitor)
 {
-  const bool sameMesh = next.Mesh.numberOfCells() > 0 &&
-                        vtkMorphMesh::SameCells(grid, next.Mesh) &&
+  const bool sameMesh = next.Mesh.numberOfCells() > 0 && vtkMorphMesh::SameCells(grid, next.Mesh) &&
                         vtkMorphMesh::SamePoints(grid, next.Mesh);
   if (!sameMesh)
   {
@@ -190,8 +191,7 @@ void vtkMorphBoundaryModel::TakeGrid(vtkUnstructuredGrid* grid,
   next.Surface = vtkSmartPointer<vtkPolyData>::New();
   next.FaceOfPolygon = vtkMorphSurface::Write(grid, next.Mesh, next.Faces, next.Surface);
   next.NodeOfPoint = next.Faces.nodes;
-  vtkMorphGeometry::AddPointArrays(
-    next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
+  vtkMorphGeometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
   vtkMorphGeometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);
 }
 
@@ -201,10 +201,11 @@ void vtkMorphBoundaryModel::TakeSurface(vtkPolyData* surface,
 {
   morph::BoundaryFaces faces = polygons(surface);
   requireExtracted(surface, vtkMorphBoundaryMatch::IdName, 1);
-  morph::Points rest = finitePoints(vtkMorphMesh::FromVectors(requireExtracted(
-                                      surface, vtkMorphBoundaryMatch::RestName, 3)),
+  morph::Points rest = finitePoints(
+    vtkMorphMesh::FromVectors(requireExtracted(surface, vtkMorphBoundaryMatch::RestName, 3)),
     "values of RestPosition");
-  morph::Points points = finitePoints(vtkMorphMesh::FromPoints(surface->GetPoints()), "coordinates");
+  morph::Points points =
+    finitePoints(vtkMorphMesh::FromPoints(surface->GetPoints()), "coordinates");
   const bool sameGeometry =
     next.GeometryKey == geometryKey && sameFaces(next.Faces, faces) && next.Rest == rest;
   if (!sameGeometry)
@@ -228,8 +229,7 @@ void vtkMorphBoundaryModel::TakeSurface(vtkPolyData* surface,
   std::iota(next.NodeOfPoint.begin(), next.NodeOfPoint.end(), Index(0));
   next.FaceOfPolygon.resize(next.Faces.offsets.size() - 1);
   std::iota(next.FaceOfPolygon.begin(), next.FaceOfPolygon.end(), Index(0));
-  vtkMorphGeometry::AddPointArrays(
-    next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
+  vtkMorphGeometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
   if (next.FaceOfPolygon.size() == static_cast<std::size_t>(surface->GetNumberOfCells()))
   {
     vtkMorphGeometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);

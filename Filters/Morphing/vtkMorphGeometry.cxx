@@ -93,8 +93,7 @@ const morph::CellShape* shapeOf(const morph::Mesh& mesh, Index cell, int dimensi
 
 vtkDataArray* requireCellNumbers(vtkDataSet* input, const std::string& name)
 {
-  vtkDataArray* array =
-    findNumbers(input->GetCellData(), name, input->GetNumberOfCells(), "cell");
+  vtkDataArray* array = findNumbers(input->GetCellData(), name, input->GetNumberOfCells(), "cell");
   if (!array)
   {
     throw Error("SurfaceIdArray names '" + name + "', which is no cell array of the input.");
@@ -227,8 +226,8 @@ morph::Classification Classify(vtkPolyData* surface, const morph::Points& points
   if (!options.SurfaceIdArray.empty())
   {
     std::vector<Index> polygons(faces.offsets.size() - 1);
-    std::iota(polygons.begin(), polygons.end(),
-      surface->GetNumberOfVerts() + surface->GetNumberOfLines());
+    std::iota(
+      polygons.begin(), polygons.end(), surface->GetNumberOfVerts() + surface->GetNumberOfLines());
     const std::vector<Index> ids =
       wholeNumbers(requireCellNumbers(surface, options.SurfaceIdArray), polygons, "cell");
     core.given.surface.assign(ids.begin() + polygons[0], ids.begin() + polygons.back() + 1);

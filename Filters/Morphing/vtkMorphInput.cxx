@@ -69,8 +69,8 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
     return vtkPointSet::SafeDownCast(input);
   }
   refuse(input, port,
-    "an unstructured grid (Append Datasets makes one of any data set), or its boundary from Extract "
-    "Morph Boundary,");
+    "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
+    "Extract Morph Boundary,");
 }
 
 int RequireOneRankWithCells(vtkDataSet* grid)

@@ -28,8 +28,31 @@ Points transformed(const Points& from, vtkAbstractTransform* transform)
   return to;
 }
 
-Points arrayRows(
-  vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
+/// What keeps an array from being the displacements of so many points; empty where nothing does.
+std::string problem(vtkAbstractArray* any, vtkIdType points)
+{
+  if (!any)
+  {
+    return "which the input does not have as a point array";
+  }
+  if (!vtkDataArray::SafeDownCast(any))
+  {
+    return "which is not numeric";
+  }
+  if (any->GetNumberOfComponents() != 3)
+  {
+    return "which has " + std::to_string(any->GetNumberOfComponents()) +
+           " components; a displacement has three";
+  }
+  if (any->GetNumberOfTuples() != points)
+  {
+    return "which has " + std::to_string(any->GetNumberOfTuples()) + " values for the input's " +
+           std::to_string(points) + " points";
+  }
+  return {};
+}
+
+Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
 {
   if (name.empty())
   {
@@ -37,20 +60,12 @@ Points arrayRows(
                 "vector array of the input.");
   }
   vtkAbstractArray* any = input->GetPointData()->GetAbstractArray(name.c_str());
-  auto* array = vtkDataArray::SafeDownCast(any);
-  if (!array || array->GetNumberOfComponents() != 3 ||
-      array->GetNumberOfTuples() != input->GetNumberOfPoints())
+  const std::string what = problem(any, input->GetNumberOfPoints());
+  if (!what.empty())
   {
-    const std::string what =
-      !any     ? "which the input does not have as a point array"
-      : !array ? "which is not numeric"
-      : array->GetNumberOfComponents() != 3
-        ? "which has " + std::to_string(array->GetNumberOfComponents()) +
-            " components; a displacement has three"
-        : "which has " + std::to_string(array->GetNumberOfTuples()) + " values for the input's " +
-            std::to_string(input->GetNumberOfPoints()) + " points";
     throw Error("DisplacementArray names '" + name + "', " + what + ".");
   }
+  auto* array = vtkDataArray::SafeDownCast(any);
   Points rows(static_cast<Index>(nodes.size()), 3);
   for (Index i = 0; i < rows.rows(); ++i)
   {
@@ -78,8 +93,7 @@ Points wholeMotion(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   return transformed(from, options.Transform);
 }
 
-void requireFinite(
-  const Points& targets, const std::vector<Index>& nodes, vtkMorphMotion::Kind how)
+void requireFinite(const Points& targets, const std::vector<Index>& nodes, vtkMorphMotion::Kind how)
 {
   std::vector<Index> wrong;
   for (Index i = 0; i < targets.rows(); ++i)
@@ -127,8 +141,8 @@ Points Targets(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   return targets;
 }
 
-std::vector<Index> Collapsed(const vtkMorphBoundaryModel& model,
-  const vtkMorphChoice::Result& choice, const Points& moved)
+std::vector<Index> Collapsed(
+  const vtkMorphBoundaryModel& model, const vtkMorphChoice::Result& choice, const Points& moved)
 {
   const morph::BoundaryFaces& faces = model.Faces();
   const Points before = morph::faceAreas(model.Points(), faces);

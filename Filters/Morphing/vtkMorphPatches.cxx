@@ -20,8 +20,7 @@ std::string curveName(Index id)
 }
 
 template <typename Patches>
-void addNames(
-  const Patches& patches, std::string (*name)(Index), std::vector<std::string>& names)
+void addNames(const Patches& patches, std::string (*name)(Index), std::vector<std::string>& names)
 {
   std::set<Index> ids;
   for (const auto& patch : patches)

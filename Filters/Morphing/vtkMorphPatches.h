@@ -24,8 +24,8 @@ struct Part
 
 /// All nodes, those on their edges included, and all faces of the patches of these names; a curve has no faces.
 /// Throws morph::Error that says `property` and lists what there is for a name that does not exist.
-Part Find(const morph::Classification& geometry, const std::set<std::string>& names,
-  const char* property);
+Part Find(
+  const morph::Classification& geometry, const std::set<std::string>& names, const char* property);
 }
 
 #endif

@@ -43,9 +43,8 @@ int fieldType(vtkSelection* selection)
 }
 
 /// Whether each of `count` points or cells is inside.
-std::vector<std::uint8_t> evaluate(
-  vtkDataSet* input, vtkSelection* selection, vtkExtractSelection* extractor, bool byPoints,
-  vtkIdType count)
+std::vector<std::uint8_t> evaluate(vtkDataSet* input, vtkSelection* selection,
+  vtkExtractSelection* extractor, bool byPoints, vtkIdType count)
 {
   auto copy = vtkSmartPointer<vtkDataSet>::Take(input->NewInstance());
   copy->ShallowCopy(input); // apart from the pipeline, and without what an earlier selection left
@@ -87,8 +86,7 @@ std::vector<std::uint8_t> Points(
 {
   const bool byPoints = fieldType(selection) == vtkSelectionNode::POINT;
   const vtkIdType count = byPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
-  const std::vector<std::uint8_t> isInside =
-    evaluate(input, selection, extractor, byPoints, count);
+  const std::vector<std::uint8_t> isInside = evaluate(input, selection, extractor, byPoints, count);
   if (byPoints)
   {
     return isInside;

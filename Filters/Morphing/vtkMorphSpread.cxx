@@ -101,8 +101,8 @@ void vtkMorphSpread::Follow(const vtkMorphBoundaryModel& model,
   morph::BoundaryMotion motion = morph::beginMotion(
     model.Points(), model.BodyOfNode(), model.Faces(), model.Geometry(), given, places);
   morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
-  const morph::SurfaceMorphReport report = morph::morphSurfaces(
-    model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
+  const morph::SurfaceMorphReport report =
+    morph::morphSurfaces(model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
   result.Moved = motion.moved();
   for (Index node : model.Faces().nodes)
   {
@@ -128,9 +128,8 @@ void vtkMorphSpread::Follow(const vtkMorphBoundaryModel& model,
   }
 }
 
-void vtkMorphSpread::Fade(const vtkMorphBoundaryModel& model,
-  const vtkMorphChoice::Result& choice, const Points& targets, double radius, Result& result,
-  morph::Monitor& monitor)
+void vtkMorphSpread::Fade(const vtkMorphBoundaryModel& model, const vtkMorphChoice::Result& choice,
+  const Points& targets, double radius, Result& result, morph::Monitor& monitor)
 {
   if (radius == 0)
   {
@@ -149,8 +148,8 @@ void vtkMorphSpread::Fade(const vtkMorphBoundaryModel& model,
         this->Others.push_back(node);
       }
     }
-    this->Falloff.prepare(rowsOf(model.Points(), choice.Moving),
-      rowsOf(model.Points(), this->Others), radius, monitor);
+    this->Falloff.prepare(
+      rowsOf(model.Points(), choice.Moving), rowsOf(model.Points(), this->Others), radius, monitor);
     ++this->FalloffCount;
     key.MotionVersion = model.MotionVersion();
     key.Radius = radius;

@@ -78,8 +78,8 @@ TEST(FaceAreas, NormalsOfABallPointOutwards)
   double worst = 1;
   for (std::size_t i = 0; i < ball.faces.nodes.size(); ++i)
   {
-    worst =
-      std::min(worst, normals.row(static_cast<Index>(i)).dot(ball.mesh.points.row(ball.faces.nodes[i])));
+    worst = std::min(
+      worst, normals.row(static_cast<Index>(i)).dot(ball.mesh.points.row(ball.faces.nodes[i])));
   }
   EXPECT_GT(worst, 0.98);
 }

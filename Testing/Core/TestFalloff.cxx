@@ -70,8 +70,7 @@ TEST(Falloff, IsTheFormula)
   for (const double radius : { 0.02, 0.1, 5. })
   {
     const Points result = faded(moving, displacement, places, radius);
-    EXPECT_LE(
-      (result - byHand(moving, displacement, places, radius)).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LE((result - byHand(moving, displacement, places, radius)).cwiseAbs().maxCoeff(), 1e-13);
   }
 }
 
@@ -98,7 +97,8 @@ TEST(Falloff, DoesNotDependOnTheOrderOrTheThreads)
   const Points places = randomPoints(5000, meshes::seed() + 2);
   const Points result = faded(moving, displacement, places, 0.2);
   EXPECT_EQ(faded(moving, displacement, places, 0.2, 3), result);
-  EXPECT_EQ(faded(moving.colwise().reverse(), displacement.colwise().reverse(), places, 0.2), result);
+  EXPECT_EQ(
+    faded(moving.colwise().reverse(), displacement.colwise().reverse(), places, 0.2), result);
   EXPECT_EQ(faded(moving, displacement, places.colwise().reverse(), 0.2),
     Points(result.colwise().reverse()));
 }

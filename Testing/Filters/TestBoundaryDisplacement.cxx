@@ -257,8 +257,7 @@ TEST(BoundaryDisplacement, AlongNormals)
   morph::Points rest = restPositions(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
-    EXPECT_LE(
-      (x.row(i) - rest.row(i) - Row(0, 0, rest(i, 2) == 1 ? 0.25 : -0.25)).norm(), 1e-15);
+    EXPECT_LE((x.row(i) - rest.row(i) - Row(0, 0, rest(i, 2) == 1 ? 0.25 : -0.25)).norm(), 1e-15);
   }
 
   // All of a box: corners move along their diagonals. Inside out it is the same.
@@ -299,8 +298,8 @@ TEST(BoundaryDisplacement, ByAnArrayAndScaled)
   for (const bool asBoundary : { false, true })
   {
     auto grid = grids::hexes(3);
-    const morph::Points shift =
-      grids::mapped(grids::points(grid), [](const Row& x) { return Row(x[1], -x[2], x[0] * x[0]); });
+    const morph::Points shift = grids::mapped(
+      grids::points(grid), [](const Row& x) { return Row(x[1], -x[2], x[0] * x[0]); });
     grids::addVectors(grid, "Shift", shift);
     vtkNew<vtkClassifyBoundary> classify;
     classify->SetInputData(grid);
@@ -353,8 +352,8 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
       {
         if (role(output, i) == 1)
         {
-          ids.push_back(
-            static_cast<morph::Index>(output->GetPointData()->GetArray("MorphPointId")->GetTuple1(i)));
+          ids.push_back(static_cast<morph::Index>(
+            output->GetPointData()->GetArray("MorphPointId")->GetTuple1(i)));
           places.push_back(grids::points(output).row(i));
         }
       }

@@ -177,7 +177,8 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetMotionToArray();
         f->SetDisplacementArray("Short");
       } },
-    { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, 1",
+    { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, "
+      "1",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);
