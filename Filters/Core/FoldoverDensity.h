@@ -33,13 +33,6 @@ struct FoldoverDensity
   /// values (Smith, de Goes, Kim, ACM Trans. Graph. 38(1) (2019)), accurate to some 1e-7: it gives directions of search.
   void hessian(
     const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const;
-
-private:
-  struct Derivatives
-  {
-    double value, I, D, II, ID, DD; ///< by |J|^2 and by the determinant
-  };
-  Derivatives derivatives(double squaredNorm, double determinant) const;
 };
 
 /// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshEnergy.h"
 
-#include "BlockSum.h"
-#include "CellShape.h"
+#include "CellGroupKernel.h"
 #include "NodeUses.h"
-#include "SimplicialDecomposition.h"
-
-#include <Eigen/LU>
+#include "VectorLoop.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,20 +12,10 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 512;
+using namespace foldover;
+
+constexpr Index Grain = 128;     // groups
 constexpr double Barrier = 1e-9; // regularisation that keeps nothing inverted finite
-
-using Corners = Eigen::Matrix<double, 3, 8>;
-
-Eigen::Matrix3d jacobian(const Corners& x, const TargetShapes::Tetrahedron& tetrahedron)
-{
-  Eigen::Matrix3d D;
-  for (int k = 0; k < 3; ++k)
-  {
-    D.col(k) = x.col(tetrahedron.corner[k + 1]) - x.col(tetrahedron.corner[0]);
-  }
-  return D * Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse);
-}
 
 struct Sum
 {
@@ -43,104 +30,139 @@ struct Sum
     return *this;
   }
 };
+
+struct GroupEnergy
+{
+  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+    const FoldoverDensity& density, const Points& points, Sum& sum)
+  {
+    LaneVector x[8];
+    cornersOf(groups, group, points, x);
+    const SimplicialDecomposition parts = simplicialDecomposition(groups.shape(group));
+    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
+    const Lanes zero = {};
+    Lanes energy = {}, most = {}, least = zero + std::numeric_limits<double>::infinity();
+    for (int t = 0; t < parts.count; ++t, ++tetrahedra)
+    {
+      LaneMatrix inverse, J;
+      inverseOf(*tetrahedra, inverse);
+      jacobian(x, parts.tets[t].corner, *tetrahedra, inverse, J);
+      LaneVector normal;
+      cross(J[1], J[2], normal);
+      Lanes determinant, square, phi, value;
+      dot(J[0], normal, determinant);
+      squaredNorm(J, square);
+      Parameters<Lanes> parameters;
+      parametersOf(density, *tetrahedra, parameters);
+      distortion(parameters, square, determinant, phi);
+      stiffen(parameters.stiffness, phi, value);
+      const Lanes weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
+      energy += weight * value;
+      least = (weight > 0.) & (determinant < least) ? determinant : least;
+      most = (stiffened > 0.) & (phi > most) ? phi : most;
+    }
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      sum += { energy[lane], least[lane], most[lane] };
+    }
+  }
+};
+
+/// What each group gives to its corners, at their places in `parts`.
+struct GroupGradient
+{
+  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+    const FoldoverDensity& density, const Points& points, Points& parts)
+  {
+    LaneVector x[8], sum[8] = {};
+    cornersOf(groups, group, points, x);
+    const SimplicialDecomposition decomposition = simplicialDecomposition(groups.shape(group));
+    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
+    for (int t = 0; t < decomposition.count; ++t, ++tetrahedra)
+    {
+      const int* corner = decomposition.tets[t].corner;
+      LaneMatrix inverse, J, normal;
+      inverseOf(*tetrahedra, inverse);
+      jacobian(x, corner, *tetrahedra, inverse, J);
+      cofactor(J, normal);
+      Lanes determinant, square;
+      dot(J[0], normal[0], determinant);
+      squaredNorm(J, square);
+      Parameters<Lanes> parameters;
+      parametersOf(density, *tetrahedra, parameters);
+      Derivatives<Lanes> d;
+      derivatives(parameters, square, determinant, d);
+      const Lanes weight = load(tetrahedra->weight);
+      const Lanes byNorm = 2. * weight * d.I, byVolume = weight * d.D;
+      for (int i = 0; i < 3; ++i)
+      {
+        Lanes row[3], all = {};
+        for (int j = 0; j < 3; ++j)
+        {
+          row[j] = byNorm * J[j][i] + byVolume * normal[j][i];
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          const Lanes force =
+            row[0] * inverse[0][k] + row[1] * inverse[1][k] + row[2] * inverse[2][k];
+          sum[corner[k + 1]][i] += force;
+          all += force;
+        }
+        sum[corner[0]][i] -= all;
+      }
+    }
+    double* out = parts.data() + 3 * groups.firstPlace(group);
+    const int corners = groups.corners(group);
+    for (int a = 0; a < corners; ++a)
+    {
+      for (int lane = 0; lane < LaneCount; ++lane, out += 3)
+      {
+        out[0] = sum[a][0][lane];
+        out[1] = sum[a][1][lane];
+        out[2] = sum[a][2][lane];
+      }
+    }
+  }
+};
+
+std::vector<std::int32_t> rowsOf(const std::vector<Index>& free, Index nodes)
+{
+  std::vector<std::int32_t> row(nodes, -1);
+  for (std::size_t i = 0; i < free.size(); ++i)
+  {
+    row[free[i]] = static_cast<std::int32_t>(i);
+  }
+  return row;
+}
 }
 
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
   : free_(free)
-  , row_(mesh.numberOfNodes(), -1)
+  , groups_(mesh, rowsOf(free, mesh.numberOfNodes()))
 {
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    this->row_[free[i]] = static_cast<std::int32_t>(i);
-  }
-  this->cornerStart_.push_back(0);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    const int corners = morph::numberOfCorners(shape.shape);
-    if (corners == 0)
-    {
-      continue;
-    }
-    for (int a = 0; a < corners; ++a)
-    {
-      this->corner_.push_back(static_cast<std::int32_t>(mesh.cell(c)[shape.cornerNode[a]]));
-    }
-    this->ofCell_.push_back(c);
-    this->cornerStart_.push_back(static_cast<Index>(this->corner_.size()));
-  }
-
-  this->uses_ =
-    placesOfRows(static_cast<Index>(this->corner_.size()), static_cast<Index>(free.size()),
-      [this](Index place) { return this->row_[this->corner_[place]]; });
-}
-
-bool MeshEnergy::isMovable(
-  const std::int32_t* corners, const TargetShapes::Tetrahedron& tetrahedron) const
-{
-  return std::any_of(
-    tetrahedron.corner, tetrahedron.corner + 4, [&](int a) { return this->row_[corners[a]] >= 0; });
-}
-
-void MeshEnergy::setTargets(const TargetShapes& targets)
-{
-  this->start_.assign(1, 0);
-  this->tetrahedra_.clear();
-  this->tetrahedra_.reserve(targets.tetrahedra.size());
-  for (Index c = 0; c < this->cells(); ++c)
-  {
-    for (Index t = targets.start[this->ofCell_[c]]; t < targets.start[this->ofCell_[c] + 1]; ++t)
-    {
-      const TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
-      if (tetrahedron.weight > 0 && this->isMovable(this->corners(c), tetrahedron))
-      {
-        this->tetrahedra_.push_back(tetrahedron);
-      }
-    }
-    this->start_.push_back(static_cast<Index>(this->tetrahedra_.size()));
-  }
-}
-
-MeshEnergy::Corners MeshEnergy::positions(Index cell, const Points& points) const
-{
-  Corners x;
-  const int n = this->numberOfCorners(cell);
-  for (int a = 0; a < n; ++a)
-  {
-    x.col(a) = points.row(this->corners(cell)[a]).transpose();
-  }
-  return x;
-}
-
-FoldoverDensity MeshEnergy::densityOf(const TargetShapes::Tetrahedron& tetrahedron) const
-{
-  FoldoverDensity own = this->density_;
-  own.theta = tetrahedron.theta;
-  own.stiffness = tetrahedron.stiffened ? own.stiffness : 0;
-  return own;
+  this->uses_ = placesOfRows(this->groups_.places(), static_cast<Index>(free.size()),
+    [this](Index place) { return this->groups_.row(place); });
 }
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const Sum sum = blockSum(this->cells(), monitor, Sum{},
-    [&](Index c)
+  // Sums of fixed blocks, in their order: no thread shows.
+  const Index groups = this->groups_.size(), blocks = (groups + Grain - 1) / Grain;
+  std::vector<Sum> part(blocks);
+  monitor.parallelFor(blocks, 1,
+    [&](Index first, Index last)
     {
-      Sum result;
-      const Corners x = this->positions(c, points);
-      for (Index t = this->start_[c]; t < this->start_[c + 1]; ++t)
+      for (Index b = first; b < last; ++b)
       {
-        const TargetShapes::Tetrahedron& tetrahedron = this->tetrahedra_[t];
-        const Eigen::Matrix3d J = jacobian(x, tetrahedron);
-        const FoldoverDensity own = this->densityOf(tetrahedron);
-        const double phi = own.distortion(J);
-        const double gap = 1 - own.stiffness * phi;
-        result.energy +=
-          tetrahedron.weight * (gap > 0 ? phi / gap : std::numeric_limits<double>::infinity());
-        result.least = std::min(result.least, J.determinant());
-        result.most = tetrahedron.stiffened ? std::max(result.most, phi) : result.most;
+        vectorLoop<GroupEnergy>(b * Grain, std::min(groups, (b + 1) * Grain), this->groups_,
+          this->density_, points, part[b]);
       }
-      return result;
     });
+  Sum sum;
+  for (const Sum& p : part)
+  {
+    sum += p;
+  }
   return { sum.energy, sum.least, sum.most };
 }
 
@@ -153,31 +175,10 @@ Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
   // Each cell writes what it gives to its corners; then each node sums up, in the order of the cells.
-  Points parts(static_cast<Index>(this->corner_.size()), 3);
-  monitor.parallelFor(this->cells(), Grain,
+  Points parts(this->groups_.places(), 3);
+  monitor.parallelFor(this->groups_.size(), Grain,
     [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        const Corners x = this->positions(c, points);
-        auto own = parts.middleRows(this->cornerStart_[c], this->numberOfCorners(c));
-        own.setZero();
-        for (Index t = this->start_[c]; t < this->start_[c + 1]; ++t)
-        {
-          const TargetShapes::Tetrahedron& tetrahedron = this->tetrahedra_[t];
-          Eigen::Matrix3d P;
-          this->densityOf(tetrahedron).gradient(jacobian(x, tetrahedron), P);
-          const Eigen::Matrix3d force =
-            tetrahedron.weight * P *
-            Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse).transpose();
-          own.row(tetrahedron.corner[0]) -= force.rowwise().sum().transpose();
-          for (int k = 0; k < 3; ++k)
-          {
-            own.row(tetrahedron.corner[k + 1]) += force.col(k).transpose();
-          }
-        }
-      }
-    });
+    { vectorLoop<GroupGradient>(first, last, this->groups_, this->density_, points, parts); });
   sumOverPlaces(this->uses_, parts, result, monitor);
 }
 }

@@ -1,50 +1,152 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CellGroupKernel.h"
 #include "MeshEnergy.h"
+#include "VectorLoop.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace morph
 {
 namespace
 {
-constexpr Index Grain = 256;
+using namespace foldover;
+
+constexpr Index Grain = 64;      // groups
+constexpr Index RowGrain = 256;  // rows
 constexpr double Largest = 1e20; // of an entry: its square still is a float
+using FloatLanes = float __attribute__((vector_size(16)));
 
 /// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
-int place(int a, int b, int n)
+MORPH_LANES_INLINE int blockOf(int a, int b, int n)
 {
   return a * n - a * (a - 1) / 2 + b - a;
 }
 
-/// The blocks of a tetrahedron's four corners: moving all alike changes nothing, so those of corner 0 follow from the others.
-void completeBlocks(const Eigen::Matrix3d (&three)[3][3], Eigen::Matrix3d (&four)[4][4])
+constexpr int blocksOf(int corners)
 {
-  for (int a = 0; a < 3; ++a)
+  return corners * (corners + 1) / 2;
+}
+
+/// to += block, or its transpose where the corners stand the other way round.
+MORPH_LANES_INLINE void addBlock(
+  const LaneMatrix& block, bool transposed, const Lanes& factor, LaneMatrix& to)
+{
+  for (int j = 0; j < 3; ++j)
   {
-    for (int b = a; b < 3; ++b)
+    for (int i = 0; i < 3; ++i)
     {
-      four[a + 1][b + 1] = three[a][b];
-      four[b + 1][a + 1] = three[a][b].transpose();
+      to[j][i] += factor * (transposed ? block[i][j] : block[j][i]);
     }
   }
-  four[0][0].setZero();
-  for (int b = 1; b < 4; ++b)
-  {
-    four[0][b] = -(four[1][b] + four[2][b] + four[3][b]);
-    four[b][0] = four[0][b].transpose();
-    four[0][0] -= four[0][b];
-  }
 }
+
+/// The second derivatives of a group's tetrahedra, by pairs of corners a <= b of the cell, in single precision: block, row, column, lane.
+struct GroupHessian
+{
+  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+    const FoldoverDensity& density, const Points& points, const std::vector<Index>& start,
+    std::vector<float>& out)
+  {
+    LaneVector x[8];
+    cornersOf(groups, group, points, x);
+    const int n = groups.corners(group);
+    LaneMatrix sum[blocksOf(8)];
+    for (int k = 0; k < blocksOf(n); ++k)
+    {
+      sum[k] = {};
+    }
+    const SimplicialDecomposition parts = simplicialDecomposition(groups.shape(group));
+    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
+    for (int t = 0; t < parts.count; ++t, ++tetrahedra)
+    {
+      addTetrahedra(x, parts.tets[t].corner, *tetrahedra, density, n, sum);
+    }
+    float* to = out.data() + start[group];
+    for (int k = 0; k < blocksOf(n); ++k)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          const FloatLanes entry = __builtin_convertvector(sum[k][j][i], FloatLanes);
+          std::memcpy(to, &entry, sizeof(entry));
+          to += LaneCount;
+        }
+      }
+    }
+  }
+
+private:
+  static MORPH_LANES_INLINE void addTetrahedra(const LaneVector (&x)[8], const int* corner,
+    const CellGroups::Tetrahedra& tetrahedra, const FoldoverDensity& density, int n,
+    LaneMatrix* sum)
+  {
+    LaneMatrix inverse, J, g, block[3][3];
+    inverseOf(tetrahedra, inverse);
+    jacobian(x, corner, tetrahedra, inverse, J);
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        g[j][i] = inverse[i][j];
+      }
+    }
+    Parameters<Lanes> parameters;
+    parametersOf(density, tetrahedra, parameters);
+    hessian(parameters, J, g, block);
+    Lanes most = {};
+    for (int a = 0; a < 3; ++a)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        most = block[a][a][i][i] > most ? block[a][a][i][i] : most;
+      }
+    }
+    const Lanes weight = load(tetrahedra.weight) * (most > Largest ? Largest / most : Lanes{} + 1.);
+
+    // Moving all four corners alike changes nothing: the blocks of corner 0 follow from the others.
+    LaneMatrix first = {};
+    for (int b = 0; b < 3; ++b)
+    {
+      LaneMatrix column = {};
+      for (int a = 0; a < 3; ++a)
+      {
+        const LaneMatrix& own = block[std::min(a, b)][std::max(a, b)];
+        for (int j = 0; j < 3; ++j)
+        {
+          for (int i = 0; i < 3; ++i)
+          {
+            column[j][i] -= a <= b ? own[j][i] : own[i][j];
+          }
+        }
+        if (a <= b)
+        {
+          addPair(own, corner[a + 1], corner[b + 1], weight, n, sum);
+        }
+      }
+      addPair(column, corner[0], corner[b + 1], weight, n, sum);
+      for (int j = 0; j < 3; ++j)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          first[j][i] -= column[j][i];
+        }
+      }
+    }
+    addPair(first, corner[0], corner[0], weight, n, sum);
+  }
+
+  static MORPH_LANES_INLINE void addPair(
+    const LaneMatrix& block, int a, int b, const Lanes& weight, int n, LaneMatrix* sum)
+  {
+    addBlock(block, a > b, weight, sum[a > b ? blockOf(b, a, n) : blockOf(a, b, n)]);
+  }
+};
 }
 
 void MeshEnergy::openMatrix(BlockMatrix& matrix) const
 {
-  std::vector<Index> cellOf(this->corner_.size());
-  for (Index c = 0; c < this->cells(); ++c)
-  {
-    std::fill(
-      cellOf.begin() + this->cornerStart_[c], cellOf.begin() + this->cornerStart_[c + 1], c);
-  }
   std::vector<Index> offsets{ 0 };
   std::vector<std::int32_t> columns, row;
   for (Index i = 0; i < static_cast<Index>(this->free_.size()); ++i)
@@ -52,10 +154,11 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix) const
     row.assign(1, static_cast<std::int32_t>(i));
     for (const Index* use = this->uses_.begin(i); use != this->uses_.end(i); ++use)
     {
-      const Index c = cellOf[*use];
-      for (int a = 0; a < this->numberOfCorners(c); ++a)
+      const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
+      const Index lane = (*use - first) % LaneCount;
+      for (int a = 0; a < this->groups_.corners(group); ++a)
       {
-        const std::int32_t at = this->row_[this->corners(c)[a]];
+        const std::int32_t at = this->groups_.row(first + a * LaneCount + lane);
         if (at >= 0)
         {
           row.push_back(at);
@@ -70,68 +173,22 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix) const
   matrix.open(this, std::move(offsets), std::move(columns));
 }
 
-void MeshEnergy::cellHessian(Index cell, const Points& points, float* blocks) const
-{
-  const int n = this->numberOfCorners(cell);
-  const Corners x = this->positions(cell, points);
-  Eigen::Matrix3d sum[36];
-  std::fill_n(sum, n * (n + 1) / 2, Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
-  Eigen::Matrix3d D, three[3][3], four[4][4];
-  for (Index t = this->start_[cell]; t < this->start_[cell + 1]; ++t)
-  {
-    const TargetShapes::Tetrahedron& tetrahedron = this->tetrahedra_[t];
-    const std::int8_t* corner = tetrahedron.corner;
-    const Eigen::Map<const Eigen::Matrix3d> inverse(tetrahedron.inverse);
-    for (int k = 0; k < 3; ++k)
-    {
-      D.col(k) = x.col(corner[k + 1]) - x.col(corner[0]);
-    }
-    this->densityOf(tetrahedron).hessian(D * inverse, inverse.transpose(), three);
-    double most = 0;
-    for (int a = 0; a < 3; ++a)
-    {
-      most = std::max(most, three[a][a].diagonal().maxCoeff());
-    }
-    const double weight = tetrahedron.weight * (most > Largest ? Largest / most : 1);
-    completeBlocks(three, four);
-    for (int a = 0; a < 4; ++a)
-    {
-      for (int b = 0; b < 4; ++b)
-      {
-        if (corner[a] <= corner[b])
-        {
-          sum[place(corner[a], corner[b], n)] += weight * four[a][b];
-        }
-      }
-    }
-  }
-  for (int k = 0; k < n * (n + 1) / 2; ++k)
-  {
-    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(blocks + 9 * k) = sum[k].cast<float>();
-  }
-}
-
 void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const
 {
   if (!result.isOpenFor(this))
   {
     this->openMatrix(result);
   }
-  // The blocks of each cell, upper triangle of its corners; then each row gathers its own, cell by cell.
-  std::vector<Index> start(this->cells() + 1, 0);
-  for (Index c = 0; c < this->cells(); ++c)
+  // The blocks of each group; then each row gathers its own, cell by cell.
+  std::vector<Index> start(this->groups_.size() + 1, 0);
+  for (Index group = 0; group < this->groups_.size(); ++group)
   {
-    const int n = this->numberOfCorners(c);
-    start[c + 1] = start[c] + 9 * (n * (n + 1) / 2);
+    start[group + 1] = start[group] + 9 * LaneCount * blocksOf(this->groups_.corners(group));
   }
   std::vector<float> blocks(start.back());
-  monitor.parallelFor(this->cells(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        this->cellHessian(c, points, blocks.data() + start[c]);
-      }
+  monitor.parallelFor(this->groups_.size(), Grain,
+    [&](Index first, Index last) {
+      vectorLoop<GroupHessian>(first, last, this->groups_, this->density_, points, start, blocks);
     });
   monitor.check();
   this->gatherBlocks(blocks, start, result, monitor);
@@ -140,16 +197,10 @@ void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& mon
 void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
   BlockMatrix& result, Monitor& monitor) const
 {
-  std::vector<std::int32_t> cellOf(this->corner_.size());
-  for (Index c = 0; c < this->cells(); ++c)
-  {
-    std::fill(cellOf.begin() + this->cornerStart_[c], cellOf.begin() + this->cornerStart_[c + 1],
-      static_cast<std::int32_t>(c));
-  }
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index first, Index last)
+  monitor.parallelFor(result.rows(), RowGrain,
+    [&](Index firstRow, Index lastRow)
     {
-      for (Index row = first; row < last; ++row)
+      for (Index row = firstRow; row < lastRow; ++row)
       {
         const std::int32_t* columns = result.columns(row);
         const Index size = result.offsets()[row + 1] - result.offsets()[row];
@@ -157,24 +208,26 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
         std::fill(out, out + 9 * size, 0.f);
         for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
         {
-          const Index c = cellOf[*use];
-          const int n = this->numberOfCorners(c),
-                    own = static_cast<int>(*use - this->cornerStart_[c]);
+          const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
+          const int n = this->groups_.corners(group),
+                    own = static_cast<int>((*use - first) / LaneCount),
+                    lane = static_cast<int>((*use - first) % LaneCount);
           for (int other = 0; other < n; ++other)
           {
-            const std::int32_t column = this->row_[this->corners(c)[other]];
+            const std::int32_t column = this->groups_.row(first + other * LaneCount + lane);
             if (column < 0)
             {
               continue;
             }
             float* block = out + 9 * (std::lower_bound(columns, columns + size, column) - columns);
             const float* in =
-              blocks.data() + start[c] + 9 * place(std::min(own, other), std::max(own, other), n);
+              blocks.data() + start[group] + lane +
+              9 * LaneCount * blockOf(std::min(own, other), std::max(own, other), n);
             for (int i = 0; i < 3; ++i)
             {
               for (int j = 0; j < 3; ++j)
               {
-                block[3 * i + j] += own <= other ? in[3 * i + j] : in[3 * j + i];
+                block[3 * i + j] += in[LaneCount * (own <= other ? 3 * i + j : 3 * j + i)];
               }
             }
           }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Morpher.h"
 
+#include "BlockSum.h"
 #include "Error.h"
 
 namespace morph
@@ -27,17 +28,27 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   }
   return some;
 }
-/// Leaves a coordinate that does not move bit for bit: -0.0 + 0.0 would be 0.0.
-template <typename Row, typename Displacement>
-void moveBy(Row&& position, const Displacement& displacement)
+
+/// The nodes that the partition does not name.
+std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
-  for (int j = 0; j < 3; ++j)
+  std::vector<bool> named(nodes);
+  for (const std::vector<Index>* ids : { &partition.prescribed, &partition.free })
   {
-    if (displacement[j] != 0)
+    for (Index n : *ids)
     {
-      position[j] += displacement[j];
+      named[n] = true;
     }
   }
+  std::vector<Index> ids;
+  for (Index n = 0; n < nodes; ++n)
+  {
+    if (!named[n])
+    {
+      ids.push_back(n);
+    }
+  }
+  return ids;
 }
 }
 
@@ -61,6 +72,7 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   this->prepared_ = false; // until everything below belongs together
   this->rest_ = rest.points;
   this->partition_ = partition;
+  this->outside_ = outside(partition, rest.points.rows());
   this->followers_.prepare(rest, partition);
   monitor.check();
   this->doPrepare(rest, monitor);
@@ -81,6 +93,43 @@ void Morpher::requirePrepared() const
   }
 }
 
+Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) const
+{
+  const std::vector<Index>& ids = this->partition_.prescribed;
+  Points displacement(static_cast<Index>(ids.size()), 3);
+  const Index notFinite = blockSum(displacement.rows(), monitor, Index(0),
+    [&](Index i)
+    {
+      displacement.row(i) = prescribed.row(i) - this->rest_.row(ids[i]);
+      return Index(!displacement.row(i).allFinite());
+    });
+  if (notFinite > 0)
+  {
+    std::vector<Index> where;
+    for (Index i = 0; i < displacement.rows(); ++i)
+    {
+      if (!displacement.row(i).allFinite())
+      {
+        where.push_back(ids[i]);
+      }
+    }
+    throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
+                listIds(where) + ".");
+  }
+  return displacement;
+}
+
+template <typename Displacement>
+void Morpher::place(Index node, const Displacement& displacement, Points& result) const
+{
+  for (int j = 0; j < 3; ++j)
+  {
+    const double rest = this->rest_(node, j), d = displacement[j];
+    result(node, j) =
+      d != 0 ? rest + d : rest; // bit for bit where nothing moves: -0.0 + 0.0 would be 0.0
+  }
+}
+
 EvaluateReport Morpher::evaluate(
   const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
 {
@@ -89,27 +138,16 @@ EvaluateReport Morpher::evaluate(
   requireRows(
     "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
 
-  Points displacement(static_cast<Index>(ids.size()), 3);
-  std::vector<Index> notFinite;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    const Index k = static_cast<Index>(i);
-    displacement.row(k) = prescribed.row(k) - this->rest_.row(ids[i]);
-    if (!displacement.row(k).allFinite())
-    {
-      notFinite.push_back(ids[i]);
-    }
-  }
-  if (!notFinite.empty())
-  {
-    throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite) + ".");
-  }
-
+  const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
   const EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
 
-  Points result = this->rest_;
+  // A new array only where the caller's does not fit: making its pages takes longer than filling them.
+  const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
+                        prescribed.data() < moved.data() + moved.size();
+  Points fresh;
+  Points& result = moved.rows() == this->rest_.rows() && !overlaps ? moved : fresh;
+  result.resize(this->rest_.rows(), 3);
   if (this->followers_.empty())
   {
     monitor.parallelFor(freeDisplacement.rows(), Grain,
@@ -117,9 +155,13 @@ EvaluateReport Morpher::evaluate(
       {
         for (Index i = first; i < last; ++i)
         {
-          moveBy(result.row(this->partition_.free[i]), freeDisplacement.row(i));
+          this->place(this->partition_.free[i], freeDisplacement.row(i), result);
         }
       });
+    for (Index n : this->outside_)
+    {
+      result.row(n) = this->rest_.row(n);
+    }
   }
   else
   {
@@ -135,7 +177,7 @@ EvaluateReport Morpher::evaluate(
     this->followers_.apply(all);
     for (Index n = 0; n < all.rows(); ++n)
     {
-      moveBy(result.row(n), all.row(n));
+      this->place(n, all.row(n), result);
     }
   }
   // Rest plus displacement may differ from the given position in the last bit.
@@ -143,7 +185,10 @@ EvaluateReport Morpher::evaluate(
   {
     result.row(ids[i]) = prescribed.row(i);
   }
-  moved.swap(result);
+  if (&result == &fresh)
+  {
+    moved.swap(fresh);
+  }
   monitor.progress(1);
   return report;
 }

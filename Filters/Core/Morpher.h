@@ -67,9 +67,15 @@ protected:
   void requirePrepared() const;
 
 private:
+  /// #prescribed x 3; throws Error where it is not finite.
+  Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;
+  template <typename Displacement>
+  void place(Index node, const Displacement& displacement, Points& result) const;
+
   bool prepared_ = false;
   Points rest_;
   NodePartition partition_;
+  std::vector<Index> outside_;
 };
 
 /// A method whose free displacements are a fixed matrix times the prescribed ones: x_free = M x_prescribed.

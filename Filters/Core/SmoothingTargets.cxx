@@ -99,7 +99,6 @@ TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orie
       }
       D.row(0) *= orientation[c];
       TargetShapes::Tetrahedron tetrahedron;
-      std::copy_n(corner, 4, tetrahedron.corner);
       Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
       tetrahedron.weight = 1. / corners;
       tetrahedron.theta = 0;

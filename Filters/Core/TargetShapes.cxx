@@ -294,7 +294,6 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
             continue;
           }
           Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
-          std::copy_n(parts.tets[t].corner, 4, tetrahedron.corner);
           tetrahedron.theta = theta;
           tetrahedron.stiffened = shape != Shape::Tet;
           tetrahedron.weight = parts.tets[t].weight * volume;

@@ -21,14 +21,14 @@ enum class Target
 /// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their target and their weight.
 struct TargetShapes
 {
-  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size.
+  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size. Its
+  /// corners are those of the same place in the shape's simplicialDecomposition(), of which a cell has the first ones or all.
   struct Tetrahedron
   {
-    std::int8_t corner[4]; ///< of the cell
-    bool stiffened;        ///< not in tetrahedral cells: it lowers their scaled Jacobian
-    double inverse[9];     ///< column major
-    double weight;         ///< decomposition weight times target volume; the mean over all is 1
-    double theta;          ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
+    bool stiffened;    ///< not in tetrahedral cells: it lowers their scaled Jacobian
+    double inverse[9]; ///< column major
+    double weight;     ///< decomposition weight times target volume; the mean over all is 1
+    double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
   };
   std::vector<Index> start; ///< #cells + 1
   std::vector<Tetrahedron> tetrahedra;
@@ -37,7 +37,7 @@ struct TargetShapes
 /// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's orientation().
 /// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest whose scaled
 /// Jacobian is 1e-3 or less, which Initial and Stretched would divide by, takes the Ideal shape with the edge lengths of its valid
-/// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 88 bytes a tetrahedron (ten a hexahedron).
+/// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
 TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, Target target, Monitor& monitor);
 }

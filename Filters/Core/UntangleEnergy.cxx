@@ -3,6 +3,7 @@
 
 #include "BlockSum.h"
 #include "NodeUses.h"
+#include "SimplicialDecomposition.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -30,6 +31,7 @@ UntangleEnergy::UntangleEnergy(
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);
+    const SimplicialDecomposition parts = simplicialDecomposition(shape.shape);
     for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
     {
       const TargetShapes::Tetrahedron& target = targets.tetrahedra[t];
@@ -37,7 +39,7 @@ UntangleEnergy::UntangleEnergy(
       bool isMovable = false;
       for (int k = 0; k < 4; ++k)
       {
-        own.node[k] = mesh.cell(c)[shape.cornerNode[target.corner[k]]];
+        own.node[k] = mesh.cell(c)[shape.cornerNode[parts.tets[t - targets.start[c]].corner[k]]];
         isMovable = isMovable || row[own.node[k]] >= 0;
       }
       if (!isMovable || !(target.weight > 0))

@@ -2,11 +2,13 @@
 #include "WeightMatrix.h"
 
 #include "Error.h"
+#include "VectorLoop.h"
 
 #include <algorithm>
 #include <limits>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace morph
 {
@@ -43,42 +45,15 @@ inline __attribute__((always_inline)) void weightedSum(
   sum[2] = even[2];
 }
 
-inline __attribute__((always_inline)) void multiplyRows(
-  const WeightMatrix& matrix, const double* sites, Points& free, Index first, Index last)
+struct MultiplyRow
 {
-  for (Index row = first; row < last; ++row)
+  static inline __attribute__((always_inline)) void run(
+    Index row, const WeightMatrix& matrix, const PaddedPoints& sites, Points& free)
   {
-    weightedSum(
-      matrix.column(row), matrix.weight(row), matrix.entries(row), sites, free.data() + 3 * row);
+    weightedSum(matrix.column(row), matrix.weight(row), matrix.entries(row), sites.data(),
+      free.data() + 3 * row);
   }
-}
-
-void multiplyRowsPortably(
-  const WeightMatrix& matrix, const double* sites, Points& free, Index first, Index last)
-{
-  multiplyRows(matrix, sites, free, first, last);
-}
-
-#if defined(__x86_64__)
-/// The same operations in half the instructions, so the same result to the last bit.
-__attribute__((target("avx2"))) void multiplyRowsWithAvx2(
-  const WeightMatrix& matrix, const double* sites, Points& free, Index first, Index last)
-{
-  multiplyRows(matrix, sites, free, first, last);
-}
-
-bool hasAvx2()
-{
-  return __builtin_cpu_supports("avx2");
-}
-#else
-constexpr auto multiplyRowsWithAvx2 = multiplyRowsPortably;
-
-bool hasAvx2()
-{
-  return false;
-}
-#endif
+};
 }
 
 void WeightMatrix::open(Index columns, std::vector<Index> offsets)
@@ -124,9 +99,9 @@ void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor)
   PaddedPoints padded = PaddedPoints::Zero(this->columns(), 4);
   padded.leftCols<3>() = sites;
   free.resize(this->rows(), 3);
-  const auto multiply = hasAvx2() ? multiplyRowsWithAvx2 : multiplyRowsPortably;
   monitor.parallelFor(this->rows(), Grain,
-    [&](Index first, Index last) { multiply(*this, padded.data(), free, first, last); });
+    [&](Index first, Index last)
+    { vectorLoop<MultiplyRow>(first, last, *this, std::as_const(padded), free); });
 }
 
 void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const

@@ -31,6 +31,21 @@ namespace
   }
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
 }
+
+bool hasVolumeCells(vtkDataObject* data)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const morph::CellShape* shape =
+      morph::cellShape(static_cast<std::uint8_t>(grid->GetCellType(cell)));
+    if (shape && shape->dimension == 3)
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }
 
 namespace vtkMorphInput
@@ -51,6 +66,31 @@ vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
     return points;
   }
   refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
+}
+
+vtkPointSet* RequireBoundary(vtkDataObject* input)
+{
+  if (!input)
+  {
+    throw morph::Error(
+      "Boundary: nothing is connected, so there is nothing to follow. Connect Boundary "
+      "Displacement, or "
+      "Extract Morph Boundary followed by a filter that moves points, Transform for instance (in "
+      "ParaView's window: right-click this filter, Change Input).");
+  }
+  return RequirePointSet(input, "The boundary");
+}
+
+void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary)
+{
+  auto* points = vtkPointSet::SafeDownCast(input);
+  if (points && points->GetNumberOfCells() > 0 && !hasVolumeCells(input) &&
+      hasVolumeCells(boundary))
+  {
+    throw morph::Error("Input and Boundary are swapped: Boundary has volume cells and Input has "
+                       "none. Give the volume mesh as "
+                       "Input and its displaced boundary as Boundary.");
+  }
 }
 
 vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)

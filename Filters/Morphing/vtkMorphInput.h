@@ -22,8 +22,14 @@ namespace vtkMorphInput
 vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
 vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
+
 /// An unstructured grid or polygonal data.
 vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
+/// As RequirePointSet(), for the boundary of a mesh that is to be morphed; null has a message of its own.
+vtkPointSet* RequireBoundary(vtkDataObject* input);
+
+/// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has others alone. Either may be null.
+void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
 /// To be called on every process, before anything can fail there: with the data, or null where their
 /// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how

@@ -3,6 +3,7 @@
 
 #include "CurveMorph.h"
 #include "Error.h"
+#include "SurfaceImprovement.h"
 
 #include <algorithm>
 
@@ -103,6 +104,10 @@ void vtkMorphSpread::Follow(const vtkMorphBoundaryModel& model,
   morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
   const morph::SurfaceMorphReport report =
     morph::morphSurfaces(model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
+  if (options.method == morph::SurfaceMorphOptions::Method::Smoothing)
+  {
+    morph::improveSurfaces(model.Faces(), model.Geometry(), nullptr, motion, monitor);
+  }
   result.Moved = motion.moved();
   for (Index node : model.Faces().nodes)
   {

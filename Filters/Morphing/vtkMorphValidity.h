@@ -42,6 +42,7 @@ public:
 
 private:
   bool AsksForValidMesh() const;
+  /// The worst of these cells, a line for each.
   std::string Describe(const std::vector<morph::Index>& inverted, const morph::Points& points,
     morph::Monitor& monitor) const;
   bool Repair(morph::Points& moved, morph::Monitor& monitor) const;

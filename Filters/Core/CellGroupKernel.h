@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CellGroups.h"
+#include "FoldoverDensity.h"
+#include "FoldoverKernel.h"
+
+namespace morph
+{
+/// What a function on a group of cells needs first: corners, and the Jacobians of their tetrahedra. Included by few sources.
+namespace foldover
+{
+using LaneVector = Vector3<Lanes>;
+using LaneMatrix = Matrix3<Lanes>;
+
+MORPH_LANES_INLINE void cornersOf(
+  const CellGroups& groups, Index group, const Points& points, LaneVector (&x)[8])
+{
+  const std::int32_t* nodes = groups.nodes(group);
+  const int n = groups.corners(group);
+  for (int a = 0; a < n; ++a)
+  {
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const double* point = points.data() + 3 * static_cast<Index>(nodes[a * LaneCount + lane]);
+      x[a][0][lane] = point[0];
+      x[a][1][lane] = point[1];
+      x[a][2][lane] = point[2];
+    }
+  }
+}
+
+MORPH_LANES_INLINE void inverseOf(const CellGroups::Tetrahedra& tetrahedra, LaneMatrix& inverse)
+{
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      inverse[j][i] = load(tetrahedra.inverse[3 * j + i]);
+    }
+  }
+}
+
+/// The identity in lanes of weight 0, which then are harmless numbers.
+MORPH_LANES_INLINE void jacobian(const LaneVector (&x)[8], const int* corner,
+  const CellGroups::Tetrahedra& tetrahedra, const LaneMatrix& inverse, LaneMatrix& J)
+{
+  LaneMatrix D;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      D[k][i] = x[corner[k + 1]][i] - x[corner[0]][i];
+    }
+  }
+  multiply(D, inverse, J);
+  const auto counts = load(tetrahedra.weight) > 0.;
+  const Lanes zero = {}, one = zero + 1.;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      J[j][i] = counts ? J[j][i] : i == j ? one : zero;
+    }
+  }
+}
+
+MORPH_LANES_INLINE void parametersOf(const FoldoverDensity& density,
+  const CellGroups::Tetrahedra& tetrahedra, Parameters<Lanes>& parameters)
+{
+  parameters.theta = load(tetrahedra.theta);
+  parameters.stiffness = density.stiffness * load(tetrahedra.stiffened);
+  parameters.epsilon = density.epsilon;
+}
+}
+}
