@@ -70,8 +70,8 @@ private:
 
   const BoundaryFaces& faces_;
   std::vector<Index> row_; ///< of a node in faces.nodes
-  std::vector<std::vector<Index>>
-    between_; ///< for each row the nodes that it is the first corner of
+  /// For each row the rows of the nodes that it is the first corner of.
+  std::vector<std::vector<Index>> between_;
 };
 }
 

@@ -70,12 +70,13 @@ std::vector<std::uint8_t> facesWithin(
 
 [[noreturn]] void refuseNone(By how)
 {
-  throw Error(how == By::Selection ? "None of the selected points, or of the points of the "
-                                     "selected cells, is on the boundary of "
-                                     "the input. Select something on its surface."
-                                   : "No node of the boundary is inside the region that is to "
-                                     "move. Make it larger, or move it to "
-                                     "the boundary.");
+  if (how == By::Selection)
+  {
+    throw Error("None of the selected points, or of the points of the selected cells, is on the "
+                "boundary of the input. Select something on its surface.");
+  }
+  throw Error("No node of the boundary is inside the region that is to move. Make it larger, or "
+              "move it to the boundary.");
 }
 }
 

@@ -110,8 +110,7 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
   }
   refuse(input, port,
     "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
-    "Extract "
-    "Morph Boundary,");
+    "Extract Morph Boundary,");
 }
 
 int RequireOneRankWithCells(vtkDataSet* grid)

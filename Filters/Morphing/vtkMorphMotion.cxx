@@ -28,6 +28,30 @@ Points transformed(const Points& from, vtkAbstractTransform* transform)
   return to;
 }
 
+/// What keeps an array from being the displacements of so many points; empty where nothing does.
+std::string problem(vtkAbstractArray* any, vtkIdType points)
+{
+  if (!any)
+  {
+    return "which the input does not have as a point array";
+  }
+  if (!vtkDataArray::SafeDownCast(any))
+  {
+    return "which is not numeric";
+  }
+  if (any->GetNumberOfComponents() != 3)
+  {
+    return "which has " + std::to_string(any->GetNumberOfComponents()) +
+           " components; a displacement has three";
+  }
+  if (any->GetNumberOfTuples() != points)
+  {
+    return "which has " + std::to_string(any->GetNumberOfTuples()) + " values for the input's " +
+           std::to_string(points) + " points";
+  }
+  return {};
+}
+
 Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
 {
   if (name.empty())
@@ -36,20 +60,12 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
                 "vector array of the input.");
   }
   vtkAbstractArray* any = input->GetPointData()->GetAbstractArray(name.c_str());
-  auto* array = vtkDataArray::SafeDownCast(any);
-  if (!array || array->GetNumberOfComponents() != 3 ||
-      array->GetNumberOfTuples() != input->GetNumberOfPoints())
+  const std::string what = problem(any, input->GetNumberOfPoints());
+  if (!what.empty())
   {
-    const std::string what = !any     ? "which the input does not have as a point array"
-                             : !array ? "which is not numeric"
-                             : array->GetNumberOfComponents() != 3
-                               ? "which has " + std::to_string(array->GetNumberOfComponents()) +
-                                   " components; a displacement has three"
-                               : "which has " + std::to_string(array->GetNumberOfTuples()) +
-                                   " values for the input's " +
-                                   std::to_string(input->GetNumberOfPoints()) + " points";
     throw Error("DisplacementArray names '" + name + "', " + what + ".");
   }
+  auto* array = vtkDataArray::SafeDownCast(any);
   Points rows(static_cast<Index>(nodes.size()), 3);
   for (Index i = 0; i < rows.rows(); ++i)
   {
