@@ -63,7 +63,7 @@ def _quality_table(records, model, surfaces, steps, picture):
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
     return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", "",
-             "Least scaled Jacobian at S_F (inverted cells; + of those that the boundary inverts by itself), and t*,"
+             "Least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded face or a corner), and t*,"
              " the t of the last step without an inverted cell of the method's own; >= where the series did not end by one.", ""]
             + _table(head, rows))
 
@@ -72,8 +72,8 @@ def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
     final = steps[to_final]
-    own = final.inverted - final.boundary
-    count = f" ({own}{f' + {final.boundary}' if final.boundary else ''})" if final.inverted else ""
+    parts = [final.own] + [count for count in (final.boundary + final.folded,) if count]
+    count = f" ({' + '.join(f'{part:,}' for part in parts)})" if final.inverted else ""
     last = last_valid(steps)
     open_end = ">= " if all(step.valid for step in steps) else ""
     return f"{final.minimum:.3f}{count}; t* {'none' if last is None else f'{open_end}{last:.2f}'}"
