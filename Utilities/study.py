@@ -45,7 +45,7 @@ def study(arguments, records):
                         series = Series(name, kind, surfaces, stepping, method)
                         boundaries = read_boundaries(arguments.output, series, mesh, ts)
                         run(series, mesh, boundaries, ts[:len(boundaries.positions)],
-                            arguments.steps, records)
+                            arguments.steps, records, arguments.threads)
                         print(f"done: {series}", flush=True)
 
 
@@ -60,6 +60,8 @@ def parse_arguments():
     parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
                         metavar="METHOD", help="default: all seven")
     parser.add_argument("--steps", type=int, default=STEPS, help="from S_0 to S_F (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N",
+                        help="for each filter (default: one for each core, %(default)s)")
     parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
     parser.add_argument("--quick", action="store_true",
@@ -86,7 +88,8 @@ def main():
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
         study(arguments, records)
         if not arguments.no_scaling:
-            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats)
+            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats,
+                              arguments.threads)
     write_report(arguments.output, records, scaling, arguments.steps)
 
 

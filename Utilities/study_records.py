@@ -23,7 +23,7 @@ class Series(NamedTuple):
 class Step(NamedTuple):
     """minimum, mean: scaled Jacobian. inverted: cells at or below 0, the degenerate ones included; boundary: of
     these, the cells that the boundary inverts by itself, at a corner whose four nodes are all prescribed; folded: of the others, those with a
-    folded boundary face. What remains is the method's own. prepare, evaluate: seconds. cells: ids of the first of the method's own."""
+    folded boundary face. What remains is the method's own. prepare, evaluate: seconds, with so many threads. cells: ids of the first of the method's own."""
 
     step: int
     t: float
@@ -34,6 +34,7 @@ class Step(NamedTuple):
     folded: int
     prepare: float
     evaluate: float
+    threads: int
     cells: str
 
     @property

@@ -52,15 +52,16 @@ class BoundarySource(VTKPythonAlgorithmBase):
 
 
 class SeriesRun:
-    """A method at work on a mesh. `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"."""
+    """A method at work on a mesh. `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"; `threads`: 1 or more."""
 
-    def __init__(self, method, mesh, boundaries, ts, stepping):
-        self._ts, self._lost = ts, boundaries.lost
+    def __init__(self, method, mesh, boundaries, ts, stepping, threads):
+        self._ts, self._lost, self._threads = ts, boundaries.lost, threads
         self._rest, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
         self._source = BoundarySource(mesh, boundaries.positions)
         self._proxy = getattr(simple, METHODS[method])(Input=self._rest, Boundary=self._boundary)
         self._proxy.Validity = "None"
         self._proxy.Stepping = stepping.capitalize()
+        self._proxy.NumberOfThreads = threads
         self._proxy.UpdateVTKObjects()
         # ParaView's TimeKeeper has no part in this: the source hangs on the filter itself.
         self._filter = self._proxy.GetClientSideObject()
@@ -85,7 +86,7 @@ class SeriesRun:
         return Step(number, float(self._ts[number]), value("MinScaledJacobian"),
                     value("MeanScaledJacobian"), len(inverted), boundary,
                     len(inverted) - len(own) - boundary, value("PrepareSeconds"),
-                    value("EvaluateSeconds"), " ".join(map(str, own[:NAMED_CELLS])))
+                    value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])))
 
     def mesh(self):
         """The mesh (vtkUnstructuredGrid) of the last step, with the arrays that the filter makes."""
@@ -105,12 +106,12 @@ def finished(steps, to_final, ts):
     return len(steps) > to_final and not all(step.valid for step in steps)
 
 
-def run(series, mesh, boundaries, ts, to_final, records):
+def run(series, mesh, boundaries, ts, to_final, records, threads):
     """Runs what is missing of the series, and records each step. A method that gives no mesh ends it."""
     steps = records.steps(series)
     if finished(steps, to_final, ts):
         return
-    work = SeriesRun(series.method, mesh, boundaries, ts, series.stepping)
+    work = SeriesRun(series.method, mesh, boundaries, ts, series.stepping, threads)
     try:
         while not finished(steps, to_final, ts):
             steps.append(work.step(len(steps)))

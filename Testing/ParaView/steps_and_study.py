@@ -154,7 +154,7 @@ class StudyBoundary(unittest.TestCase):
         lost = lost_cells(mesh, positions)
         self.assertEqual(set(lost[0]), set(np.concatenate(owners)))
 
-        run = SeriesRun("FEMWARP", mesh, Boundaries(positions, lost), [1.0], "absolute")
+        run = SeriesRun("FEMWARP", mesh, Boundaries(positions, lost), [1.0], "absolute", 2)
         step = run.step(0)
         inverted = vtk_to_numpy(run.mesh().GetCellData().GetArray("ScaledJacobian")) <= 0
         run.remove()
@@ -174,7 +174,8 @@ class StudyBoundary(unittest.TestCase):
             scrambled = positions + random.uniform(-edge, edge, positions.shape)
             both = np.concatenate([positions, scrambled])
             determined = determined_cells(mesh, both)
-            run = SeriesRun("Simplex-linear", mesh, Boundaries(both, determined), [0, 1], "absolute")
+            run = SeriesRun("Simplex-linear", mesh, Boundaries(both, determined), [0, 1],
+                            "absolute", 2)
             steps = [run.step(0), run.step(1)]
             run.remove()
             counts = [len(cells) for cells in determined]
@@ -186,7 +187,7 @@ class StudyBoundary(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "results.csv"
             Records(file).add(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"),
-                              Step(0, 0.0, 0.5, 0.9, 3, 1, 2, 0.0, 0.0, ""))
+                              Step(0, 0.0, 0.5, 0.9, 3, 1, 2, 0.0, 0.0, 2, ""))
             steps = Records(file).steps(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"))
             self.assertEqual((steps[0].own, last_valid(steps)), (0, 0.0))
             text = file.read_text(encoding="utf-8")
