@@ -16,31 +16,20 @@ import os
 import sys
 from pathlib import Path
 
-import numpy as np
+from vtkmodules.vtkCommonCore import vtkLogger
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 import study_scaling  # noqa: E402
 from models_folds import load_plugin  # noqa: E402
+from study_boundary import read_boundaries, times  # noqa: E402
 from study_paper import PANELS, STEPS  # noqa: E402
 from study_records import Records, Series  # noqa: E402
 from study_report import write_report  # noqa: E402
-from study_series import (  # noqa: E402
-    METHODS, exact_boundaries, residual_boundaries, run, times)
+from study_series import METHODS, run  # noqa: E402
 
 SURFACES = ("weighted residual", "exact")
-
-
-def boundaries(folder, series, mesh, ts):
-    """The boundary at each t of the series; those by weighted residual are kept in the folder."""
-    if series.surfaces == "exact":
-        return exact_boundaries(mesh, ts)
-    file = folder / f"boundary-{series.model}-{series.kind}-{series.stepping}-{len(mesh.nodes)}-{len(ts)}.npy"
-    if not file.is_file():
-        found = residual_boundaries(mesh, ts, series.stepping == "relative")
-        np.save(file, found)
-    return np.load(file)
 
 
 def study(arguments, records):
@@ -54,8 +43,9 @@ def study(arguments, records):
                 for stepping in [panel[1] for panel in PANELS[:2]]:
                     for method in arguments.methods:
                         series = Series(name, kind, surfaces, stepping, method)
-                        positions = boundaries(arguments.output, series, mesh, ts)
-                        run(series, mesh, positions, ts[:len(positions)], arguments.steps, records)
+                        boundaries = read_boundaries(arguments.output, series, mesh, ts)
+                        run(series, mesh, boundaries, ts[:len(boundaries.positions)],
+                            arguments.steps, records, arguments.threads)
                         print(f"done: {series}", flush=True)
 
 
@@ -70,6 +60,8 @@ def parse_arguments():
     parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
                         metavar="METHOD", help="default: all seven")
     parser.add_argument("--steps", type=int, default=STEPS, help="from S_0 to S_F (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N",
+                        help="for each filter (default: one for each core, %(default)s)")
     parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
     parser.add_argument("--quick", action="store_true",
@@ -92,9 +84,12 @@ def main():
     scaling = arguments.output / "scaling.csv"
     if not arguments.report:
         load_plugin(arguments.plugin)
+        # Folded faces and inverted cells, of which filters warn at each step, are in the tables.
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
         study(arguments, records)
         if not arguments.no_scaling:
-            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats)
+            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats,
+                              arguments.threads)
     write_report(arguments.output, records, scaling, arguments.steps)
 
 

@@ -63,7 +63,7 @@ def _quality_table(records, model, surfaces, steps, picture):
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
     return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", "",
-             "Least scaled Jacobian at S_F (inverted cells; + of those that the boundary inverts by itself), and t*,"
+             "Least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded face or a corner), and t*,"
              " the t of the last step without an inverted cell of the method's own; >= where the series did not end by one.", ""]
             + _table(head, rows))
 
@@ -72,8 +72,8 @@ def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
     final = steps[to_final]
-    own = final.inverted - final.boundary
-    count = f" ({own}{f' + {final.boundary}' if final.boundary else ''})" if final.inverted else ""
+    parts = [final.own] + [count for count in (final.boundary + final.folded,) if count]
+    count = f" ({' + '.join(f'{part:,}' for part in parts)})" if final.inverted else ""
     last = last_valid(steps)
     open_end = ">= " if all(step.valid for step in steps) else ""
     return f"{final.minimum:.3f}{count}; t* {'none' if last is None else f'{open_end}{last:.2f}'}"
@@ -119,7 +119,15 @@ def _seconds_table(records, model, steps):
     head = ["method"] + [f"{kind} {stepping}: ours; paper" for kind, stepping in paper.PANELS]
     return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})", "",
              "Ours: medians over steps 1 to the last, of prepare and evaluate together for relative steps, which prepare each time;"
-             " for absolute steps evaluate alone, and in brackets prepare, once for all steps.", ""] + _table(head, rows))
+             " for absolute steps evaluate alone, and in brackets prepare, once for all steps."
+             f" {_threads(records, model)}", ""] + _table(head, rows))
+
+
+def _threads(records, model):
+    """A sentence."""
+    counts = sorted({step.threads for series in records.series() if series.model == model
+                     for step in records.steps(series)})
+    return f"Threads: {' or '.join(map(str, counts))}."
 
 
 def _seconds_cell(records, model, method, kind, stepping, steps):
@@ -139,7 +147,7 @@ def _seconds_cell(records, model, method, kind, stepping, steps):
 def _scaling_table(folder, rows):
     text = ["## Time against size (the paper's Section 4.5 and Figure 10)", "",
             "Bricks of N x 20 x 20 hexahedra. The power of the number of nodes that prepare and evaluate together, and evaluate alone, grow with"
-            f" over N = 60 and more, and seconds of both at the largest N. {scaling.REPEATS} runs each, their median.", ""]
+            f" over N = 60 and more, and seconds of both at the largest N. {scaling.REPEATS} runs each, their median. Threads: {' or '.join(sorted({row['threads'] for row in rows}))}.", ""]
     table = []
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.5), sharey=True)
     for axis, motion in zip(axes, scaling.MOTIONS):

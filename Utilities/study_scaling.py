@@ -17,7 +17,7 @@ SIZES = tuple(range(20, 261, 10))
 REPEATS = 3
 LEAST_NODES = 61 * 21 * 21  # of the fit: N = 60
 MOTIONS = ("stretch", "twist")
-FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate")
+FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate", "threads")
 
 
 def brick(n):
@@ -43,10 +43,11 @@ def moved(points, motion):
     return np.stack([x, y, z], axis=1)
 
 
-def seconds(method, rest, boundary):
+def seconds(method, rest, boundary, threads):
     """(prepare, evaluate): of a new filter."""
     proxy = getattr(simple, METHODS[method])(Input=rest, Boundary=boundary)
     proxy.Validity = "None"
+    proxy.NumberOfThreads = threads
     proxy.UpdatePipeline()
     field = proxy.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
     result = tuple(field.GetArray(name).GetValue(0)
@@ -55,7 +56,7 @@ def seconds(method, rest, boundary):
     return result
 
 
-def run(path, methods, sizes=SIZES, repeats=REPEATS):
+def run(path, methods, sizes, repeats, threads):
     """Writes medians of `repeats` runs to the CSV file `path`, and goes on where an earlier call has stopped."""
     file = RowFile(path, FIELDS)
     done = {(row["motion"], row["method"], int(row["n"])) for row in file.rows()}
@@ -70,9 +71,9 @@ def run(path, methods, sizes=SIZES, repeats=REPEATS):
             target = mesh.to_vtk()
             target.SetPoints(vtk_points(moved(mesh.points, motion)))
             boundary = producer(target)
-            found = [seconds(method, rest, boundary) for _ in range(repeats)]
+            found = [seconds(method, rest, boundary, threads) for _ in range(repeats)]
             prepare, evaluate = (median(values) for values in zip(*found))
-            file.add((motion, method, n, len(mesh.points), prepare, evaluate))
+            file.add((motion, method, n, len(mesh.points), prepare, evaluate, threads))
             simple.Delete(boundary)
         simple.Delete(rest)
 

@@ -3,13 +3,13 @@
 
 import numpy as np
 from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from demo_picture import producer
 from Models.model_mesh import vtk_points
-from models_folds import MovedSurfaces
 from study_records import Step
 
 #: Proxies of the methods, with their default options. In the order of the figures.
@@ -23,32 +23,8 @@ METHODS = {
     "Inversion-free": "MorphInversionFree",
 }
 
-
-def times(model, steps):
-    """(n,): t of each step: `steps` equal ones to S_F, and on to the end of the geometry."""
-    last = int(np.floor(model.last * steps + 1e-9))
-    return np.arange(last + 1) / steps
-
-
-def exact_boundaries(mesh, steps):
-    """(n, #boundary nodes, 3): the boundary on the model's true surfaces at each t of `steps`."""
-    return np.stack([mesh.boundary_positions(t) for t in steps])
-
-
-def residual_boundaries(mesh, steps, relative):
-    """As exact_boundaries, with surfaces moved after their exact curves by weighted residual, from S_0 or
-    from the step before. Ends before the first step at which that gives no surface."""
-    surfaces = MovedSurfaces(mesh)
-    found = []
-    try:
-        for t in steps:
-            surfaces.move_to(t, relative)
-            found.append(surfaces.moved[mesh.nodes])
-    except RuntimeError:
-        pass
-    finally:
-        surfaces.remove()
-    return np.stack(found)
+#: How many of a step's inverted cells are named.
+NAMED_CELLS = 20
 
 
 class BoundarySource(VTKPythonAlgorithmBase):
@@ -76,15 +52,16 @@ class BoundarySource(VTKPythonAlgorithmBase):
 
 
 class SeriesRun:
-    """A method at work on a mesh. `positions`: see BoundarySource, at times `ts`; `stepping`: "absolute" or "relative"."""
+    """A method at work on a mesh. `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"; `threads`: 1 or more."""
 
-    def __init__(self, method, mesh, positions, ts, stepping):
-        self._ts = ts
-        self._mesh, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
-        self._source = BoundarySource(mesh, positions)
-        self._proxy = getattr(simple, METHODS[method])(Input=self._mesh, Boundary=self._boundary)
+    def __init__(self, method, mesh, boundaries, ts, stepping, threads):
+        self._ts, self._lost, self._threads = ts, boundaries.lost, threads
+        self._rest, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
+        self._source = BoundarySource(mesh, boundaries.positions)
+        self._proxy = getattr(simple, METHODS[method])(Input=self._rest, Boundary=self._boundary)
         self._proxy.Validity = "None"
         self._proxy.Stepping = stepping.capitalize()
+        self._proxy.NumberOfThreads = threads
         self._proxy.UpdateVTKObjects()
         # ParaView's TimeKeeper has no part in this: the source hangs on the filter itself.
         self._filter = self._proxy.GetClientSideObject()
@@ -94,7 +71,7 @@ class SeriesRun:
         """The Step of that number; relative steps before it that were not asked for are made on the way. Raises RuntimeError
         where the method gives no mesh."""
         self._filter.UpdateTimeStep(float(number))
-        output = self._filter.GetOutputDataObject(0)
+        output = self.mesh()
         if output.GetNumberOfPoints() == 0:
             raise RuntimeError(f"no mesh at step {number}")
         field = output.GetFieldData()
@@ -102,32 +79,39 @@ class SeriesRun:
         def value(name):
             return field.GetArray(name).GetValue(0)
 
+        quality = vtk_to_numpy(output.GetCellData().GetArray("ScaledJacobian"))
+        inverted = np.flatnonzero(~(quality > 0))
+        own = np.setdiff1d(inverted, self._lost[number])
+        boundary = int(value("BoundaryInvertedCells"))
         return Step(number, float(self._ts[number]), value("MinScaledJacobian"),
-                    value("MeanScaledJacobian"),
-                    int(value("InvertedCells")) + int(value("DegenerateCells")),
-                    int(value("BoundaryInvertedCells")), value("PrepareSeconds"),
-                    value("EvaluateSeconds"))
+                    value("MeanScaledJacobian"), len(inverted), boundary,
+                    len(inverted) - len(own) - boundary, value("PrepareSeconds"),
+                    value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])))
+
+    def mesh(self):
+        """The mesh (vtkUnstructuredGrid) of the last step, with the arrays that the filter makes."""
+        return self._filter.GetOutputDataObject(0)
 
     def remove(self):
         """Takes the filter and its inputs out of the pipeline."""
-        for proxy in (self._proxy, self._boundary, self._mesh):
+        for proxy in (self._proxy, self._boundary, self._rest):
             simple.Delete(proxy)
 
 
 def finished(steps, to_final, ts):
     """Whether a series of these Steps ends here: `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F it goes on
-    while all cells are valid."""
+    until the method inverts a cell."""
     if len(steps) >= len(ts):
         return True
     return len(steps) > to_final and not all(step.valid for step in steps)
 
 
-def run(series, mesh, positions, ts, to_final, records):
+def run(series, mesh, boundaries, ts, to_final, records, threads):
     """Runs what is missing of the series, and records each step. A method that gives no mesh ends it."""
     steps = records.steps(series)
     if finished(steps, to_final, ts):
         return
-    work = SeriesRun(series.method, mesh, positions, ts, series.stepping)
+    work = SeriesRun(series.method, mesh, boundaries, ts, series.stepping, threads)
     try:
         while not finished(steps, to_final, ts):
             steps.append(work.step(len(steps)))

@@ -3,6 +3,8 @@
 
 #include "LinearSystem.h"
 
+#include <optional>
+
 namespace benchmark
 {
 /// What a direct solver took for a system with three right-hand sides.
@@ -18,9 +20,9 @@ struct DirectResult
 /// std::runtime_error if the factorisation fails.
 DirectResult solveByCholmod(const LinearSystem& system);
 
-/// KLU with its default options, as in the measurements of Staten et al.; the matrix need not be symmetric. Throws
-/// std::runtime_error if it fails.
-DirectResult solveByKlu(const LinearSystem& system);
+/// KLU with its default options, as in the measurements of Staten et al.; the matrix need not be symmetric. Nothing where it takes more
+/// than `limit` seconds: it works in a child process, which is ended then. Throws std::runtime_error if it fails.
+std::optional<DirectResult> solveByKlu(const LinearSystem& system, double limit);
 
 struct IterativeResult
 {

@@ -23,6 +23,7 @@ constexpr const char* Choices =
   "  --wait-idle S wait up to S seconds before each measurement, 0 to 3600, until other\n"
   "                processes are idle (default 0)\n"
   "  --skip-klu    leave out KLU, which takes about a minute\n"
+  "  --klu-limit S stop KLU after S seconds, 1 to 86400 (default 600)\n"
   "  --quick       small meshes: checks the answers, holds no figure against a target\n"
   "  --help        print this\n"
   "Exit status: 0 all results correct (targets missed or not), 1 a result is wrong,\n"
@@ -38,13 +39,15 @@ bool parse(const char* text, long least, long most, long& value)
 }
 
 int commandLine(int argc, char** argv, const std::string& name, const std::string& about,
-  const std::string& libraries, Measure measure)
+  const std::string& libraries, Measure measure, const std::string& files)
 {
-  const std::string usage = "Usage: " + name + " [options]\n" + about + Choices;
+  const std::string usage =
+    "Usage: " + name + " [options]" + (files.empty() ? "" : " " + files) + "\n" + about + Choices;
   const option longOptions[] = { { "csv", required_argument, nullptr, 'c' },
     { "repeat", required_argument, nullptr, 'r' }, { "wait-idle", required_argument, nullptr, 'w' },
-    { "skip-klu", no_argument, nullptr, 'k' }, { "quick", no_argument, nullptr, 'q' },
-    { "help", no_argument, nullptr, 'h' }, { nullptr, 0, nullptr, 0 } };
+    { "skip-klu", no_argument, nullptr, 'k' }, { "klu-limit", required_argument, nullptr, 'l' },
+    { "quick", no_argument, nullptr, 'q' }, { "help", no_argument, nullptr, 'h' },
+    { nullptr, 0, nullptr, 0 } };
   Options options;
   std::string csv;
   long number = 0;
@@ -75,6 +78,14 @@ int commandLine(int argc, char** argv, const std::string& name, const std::strin
       case 'k':
         options.skipKlu = true;
         break;
+      case 'l':
+        if (!parse(optarg, 1, 86400, number))
+        {
+          std::fprintf(stderr, "--klu-limit takes seconds from 1 to 86400, not \"%s\".\n", optarg);
+          return WrongUsage;
+        }
+        options.kluLimit = static_cast<double>(number);
+        break;
       case 'q':
         options.quick = true;
         break;
@@ -86,9 +97,13 @@ int commandLine(int argc, char** argv, const std::string& name, const std::strin
         return WrongUsage;
     }
   }
-  if (optind != argc)
+  options.files.assign(argv + optind, argv + argc);
+  if (options.files.empty() != files.empty())
   {
-    std::fprintf(stderr, "Unexpected argument \"%s\".\n%s", argv[optind], usage.c_str());
+    std::fprintf(stderr, "%s\n%s",
+      files.empty() ? ("Unexpected argument \"" + options.files[0] + "\".").c_str()
+                    : "A file is needed.",
+      usage.c_str());
     return WrongUsage;
   }
 

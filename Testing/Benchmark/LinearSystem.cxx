@@ -15,16 +15,15 @@ morph::Points prescribedDisplacement(const Problem& problem)
   return displacement;
 }
 
-morph::Points freeDisplacement(const Problem& problem, const morph::Points& moved)
+morph::Points displacement(
+  const Problem& problem, const std::vector<morph::Index>& ids, const morph::Points& moved)
 {
-  const std::vector<morph::Index>& ids = problem.partition.free;
-  morph::Points displacement(static_cast<morph::Index>(ids.size()), 3);
+  morph::Points result(static_cast<morph::Index>(ids.size()), 3);
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    displacement.row(static_cast<morph::Index>(i)) =
-      moved.row(ids[i]) - problem.mesh.points.row(ids[i]);
+    result.row(static_cast<morph::Index>(i)) = moved.row(ids[i]) - problem.mesh.points.row(ids[i]);
   }
-  return displacement;
+  return result;
 }
 
 double relativeResidual(const LinearSystem& system, const morph::Points& x)

@@ -24,8 +24,16 @@ LinearSystem linearSystem(const Method& method, const Problem& problem)
   return { method.solver().matrix(), -(method.coupling() * prescribedDisplacement(problem)) };
 }
 
-/// Displacements of the free nodes, #free x 3, from the moved mesh.
-morph::Points freeDisplacement(const Problem& problem, const morph::Points& moved);
+/// Displacements of these nodes, #ids x 3, from the moved mesh.
+morph::Points displacement(
+  const Problem& problem, const std::vector<morph::Index>& ids, const morph::Points& moved);
+
+/// What the method found for the unknowns of its linearSystem(), #free x 3.
+template <typename Method>
+morph::Points solution(const Method& method, const Problem& problem, const morph::Points& moved)
+{
+  return displacement(problem, method.rows(), moved);
+}
 
 /// Largest over the three columns of |b - A x| / |b|, recomputed from the matrix.
 double relativeResidual(const LinearSystem& system, const morph::Points& x);

@@ -12,11 +12,21 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=vars(simple))
+import Models  # noqa: E402  (needs the path above)
+from models_folds import MovedSurfaces  # noqa: E402
+from study_boundary import Boundaries, determined_cells, lost_cells  # noqa: E402
+from study_records import Records, Series as StudySeries, Step, last_valid  # noqa: E402
+from study_series import SeriesRun  # noqa: E402
+
+SEED = int(os.environ.get("MORPH_TEST_SEED", "7"))
 
 
 def inputs():
@@ -96,13 +106,14 @@ class Study(unittest.TestCase):
                 mine = [row for row in rows if tuple(row.values())[:5] == one]
                 self.assertEqual([int(row["step"]) for row in mine], list(range(len(mine))))
                 self.assertGreaterEqual(len(mine), 5)
-                own = [int(row["inverted"]) > int(row["boundary"]) for row in mine]
+                own = [int(row["inverted"]) > int(row["boundary"]) + int(row["folded"])
+                       for row in mine]
                 # Past S_F a series ends with its first inverted cell, or with the geometry, at t = 1.5.
                 self.assertFalse(any(own[5:-1]))
                 self.assertTrue(any(own) or float(mine[-1]["t"]) == 1.5, one)
             self.assertFalse([row for row in rows
                               if row["method"] == "Inversion-free" and int(row["step"]) <= 4
-                              and int(row["inverted"]) > int(row["boundary"])])
+                              and int(row["inverted"]) > 0])
             report = (Path(folder) / "Study.md").read_text(encoding="utf-8")
             for text in ("Figure 2", "Table 2", "Section 4.5"):
                 self.assertIn(text, report)
@@ -119,12 +130,71 @@ class Study(unittest.TestCase):
             self.run_study(folder, "--methods", *methods, "--no-scaling")
             again = rows_of(results)
             self.assertEqual(again[:len(kept)], kept)
-            quality = ("minimum", "mean", "inverted", "boundary")
+            quality = ("minimum", "mean", "inverted", "boundary", "folded", "cells")
 
             def table(all_rows):
                 return {tuple(row.values())[:6]: [row[name] for name in quality]
                         for row in all_rows if None not in row.values()}
             self.assertEqual(table(again), table(rows))
+
+
+class StudyBoundary(unittest.TestCase):
+    """Which inverted cells the study puts down to the boundary."""
+
+    def test_folded_faces_take_their_cells(self):
+        mesh = Models.get("canister").read_small("hex")
+        surfaces = MovedSurfaces(mesh)
+        surfaces.move_to(1)
+        folded = mesh.faces[surfaces.folded(1)]
+        owners = [np.flatnonzero(np.isin(mesh.cells, face).sum(axis=1) == 4) for face in folded]
+        positions = surfaces.moved[mesh.nodes][None]
+        surfaces.remove()
+        self.assertTrue(owners)
+        # Two measures of a fold: against the true surface's corners, and against a normal that the surface's motion carries along.
+        lost = lost_cells(mesh, positions)
+        self.assertEqual(set(lost[0]), set(np.concatenate(owners)))
+
+        run = SeriesRun("FEMWARP", mesh, Boundaries(positions, lost), [1.0], "absolute", 2)
+        step = run.step(0)
+        inverted = vtk_to_numpy(run.mesh().GetCellData().GetArray("ScaledJacobian")) <= 0
+        run.remove()
+        self.assertEqual(step.inverted, inverted.sum())
+        self.assertEqual(step.boundary + step.folded, inverted[lost[0]].sum())
+        self.assertGreater(step.folded, 0)
+        self.assertGreater(step.own, 0)
+        named = [int(cell) for cell in step.cells.split()]
+        self.assertTrue(inverted[named].all() and not np.isin(named, lost[0]).any())
+
+    def test_finds_inverted_corners_as_the_filter_counts_them(self):
+        for name, kind in (("canister", "hex"), ("bore", "tet")):
+            mesh = Models.get(name).read_small(kind)
+            positions = mesh.boundary_positions(0)[None]
+            edge = np.linalg.norm(np.diff(mesh.points[mesh.cells[:, :2]], axis=1), axis=2).mean()
+            random = np.random.default_rng(SEED)
+            scrambled = positions + random.uniform(-edge, edge, positions.shape)
+            both = np.concatenate([positions, scrambled])
+            determined = determined_cells(mesh, both)
+            run = SeriesRun("Simplex-linear", mesh, Boundaries(both, determined), [0, 1],
+                            "absolute", 2)
+            steps = [run.step(0), run.step(1)]
+            run.remove()
+            counts = [len(cells) for cells in determined]
+            self.assertEqual([step.boundary for step in steps], counts, (name, SEED))
+            self.assertEqual((counts[0], steps[1].folded), (0, 0), (name, SEED))
+            self.assertGreater(counts[1], 0, (name, SEED))
+
+    def test_refuses_results_without_the_column(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "results.csv"
+            Records(file).add(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"),
+                              Step(0, 0.0, 0.5, 0.9, 3, 1, 2, 0.0, 0.0, 2, ""))
+            steps = Records(file).steps(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"))
+            self.assertEqual((steps[0].own, last_valid(steps)), (0, 0.0))
+            text = file.read_text(encoding="utf-8")
+            old = text.replace(",folded", "")
+            file.write_text(old, encoding="utf-8")
+            self.assertRaises(ValueError, Records, file)
+            self.assertEqual(file.read_text(encoding="utf-8"), old)
 
 
 if __name__ == "__main__":
