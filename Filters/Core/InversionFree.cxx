@@ -96,7 +96,8 @@ Points InversionFree::moved(
 Points InversionFree::betterGuess(
   const Points& warped, const Points& boundary, Monitor& monitor) const
 {
-  if (this->hasSimplexLinear_)
+  // Who asks for a certain target wants its minimum.
+  if (this->hasSimplexLinear_ && this->target_ == Target::Stretched)
   {
     EvaluateReport ignored;
     const Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
