@@ -157,7 +157,8 @@ InversionFree::Outcome InversionFree::improve(
   outcome.effort = stages.effort();
 
   const double known = this->leastScaledJacobian(alternative, monitor);
-  if (known > 0 && !(this->leastScaledJacobian(points, monitor) >= known))
+  // A gain that is none would cost the other cells.
+  if (known > 0 && !((1 + LeastGain) * this->leastScaledJacobian(points, monitor) >= known))
   {
     points = alternative;
     outcome.kept = outcome.untangled = true;

@@ -18,6 +18,11 @@ from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+import Models  # noqa: E402  (needs the path above)
+from demo_picture import producer  # noqa: E402
+
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 
@@ -168,6 +173,16 @@ class Validity(unittest.TestCase):
                 updated(morph)
                 self.assertValid(morph)
                 self.assertArrived(morph)
+
+    def test_inversion_free_is_never_worse_than_simplex_linear(self):
+        mesh = Models.get("bore").read_small("hex")
+        rest, boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(1))
+        free, linear = (method(Input=rest, Boundary=boundary) for method in (MorphInversionFree, MorphSimplexLinear))
+        updated(free)
+        updated(linear)
+        self.assertGreater(linear.MinScaledJacobian, 0.5)
+        self.assertEqual(free.MinScaledJacobian, linear.MinScaledJacobian)
+        self.assertEqual(free.KeptLinear, 1)
 
     def test_partial_is_an_error_with_a_valid_output(self):
         for method in ("MorphFEMWARP", "MorphInversionFree"):
