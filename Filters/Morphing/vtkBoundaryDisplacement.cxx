@@ -13,6 +13,7 @@
 #include "vtkMorphSpread.h"
 
 #include <vtkAbstractTransform.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
@@ -24,7 +25,6 @@
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkTrivialProducer.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ vtkDataObject* upToDateInput(vtkAlgorithm* filter, vtkInformationVector** inputV
 struct vtkBoundaryDisplacement::vtkInternals
 {
   std::set<std::string> Patches, HeldPatches;
-  vtkNew<vtkStringArray> PatchNames;
+  vtkNew<vtkDataArraySelection> PatchList;
   vtkSmartPointer<vtkImplicitFunction> Region;
   vtkSmartPointer<vtkAbstractTransform> Transform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
@@ -168,9 +168,9 @@ void vtkBoundaryDisplacement::RemoveAllHeldPatches()
   }
 }
 
-vtkStringArray* vtkBoundaryDisplacement::GetPatchNames()
+vtkDataArraySelection* vtkBoundaryDisplacement::GetPatchList()
 {
-  return this->Internals->PatchNames;
+  return this->Internals->PatchList;
 }
 
 void vtkBoundaryDisplacement::SetRegion(vtkImplicitFunction* region)
@@ -254,7 +254,7 @@ int vtkBoundaryDisplacement::RequestInformation(
   catch (const std::exception&)
   {
     // The execution will meet with it again, and report it.
-    this->Internals->PatchNames->Initialize();
+    this->Internals->PatchList->RemoveAllArrays();
   }
   return 1;
 }
@@ -299,13 +299,13 @@ void vtkBoundaryDisplacement::Classify(vtkPointSet* input, vtkMorphMonitor& moni
   options.UseGeometryArrays = this->UseGeometryArrays;
   const int before = own.Model.ClassifyCount();
   own.Model.Update(input, options, monitor);
-  if (own.Model.ClassifyCount() != before || own.PatchNames->GetNumberOfValues() == 0)
+  if (own.Model.ClassifyCount() != before || own.PatchList->GetNumberOfArrays() == 0)
   {
     own.Warnings = monitor.TakeWarnings();
-    own.PatchNames->Initialize();
+    own.PatchList->RemoveAllArrays();
     for (const std::string& name : vtkMorphPatches::Names(own.Model.Geometry()))
     {
-      own.PatchNames->InsertNextValue(name);
+      own.PatchList->AddArray(name.c_str(), false);
     }
   }
 }
@@ -360,7 +360,7 @@ void vtkBoundaryDisplacement::Displace(
   }
   catch (...)
   {
-    own.PatchNames->Initialize();
+    own.PatchList->RemoveAllArrays();
     throw;
   }
   for (const std::string& warning : own.Warnings)

@@ -53,12 +53,12 @@
 #include <memory> // for std::unique_ptr
 
 class vtkAbstractTransform;
+class vtkDataArraySelection;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkMorphMonitor;
 class vtkPointSet;
 class vtkSelection;
-class vtkStringArray;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkPolyDataAlgorithm
 {
@@ -122,10 +122,11 @@ public:
   ///@}
 
   /**
-   * Names of all patches, surfaces first: as of the last execution, or, as soon as the information is
-   * updated, of input data that are up to date. Empty where there was an error.
+   * Names of all patches, surfaces first, as a list to choose from, with nothing enabled: as of the
+   * last execution, or, as soon as the information is updated, of input data that are up to date.
+   * Empty where there was an error.
    */
-  vtkStringArray* GetPatchNames();
+  vtkDataArraySelection* GetPatchList();
 
   ///@{
   /**

@@ -9,6 +9,7 @@
 
 #include <vtkBox.h>
 #include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
@@ -16,7 +17,6 @@
 #include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
-#include <vtkStringArray.h>
 #include <vtkTransform.h>
 
 #include <gtest/gtest.h>
@@ -595,17 +595,17 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
 {
   auto grid = grids::hexes(3);
   auto filter = displaced::make(grid);
-  EXPECT_EQ(filter->GetPatchNames()->GetNumberOfValues(), 0);
+  EXPECT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 0);
   filter->UpdateInformation();
-  ASSERT_EQ(filter->GetPatchNames()->GetNumberOfValues(), 6 + 12);
-  EXPECT_EQ(filter->GetPatchNames()->GetValue(0), "Surface 0");
-  EXPECT_EQ(filter->GetPatchNames()->GetValue(5), "Surface 5");
-  EXPECT_EQ(filter->GetPatchNames()->GetValue(17), "Curve 11");
+  ASSERT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 6 + 12);
+  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(0), "Surface 0");
+  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(5), "Surface 5");
+  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(17), "Curve 11");
   filter->Update();
   EXPECT_EQ(filter->GetClassifyCount(), 1);
   filter->SetFeatureAngle(180);
   filter->UpdateInformation();
-  EXPECT_EQ(filter->GetPatchNames()->GetNumberOfValues(), 1);
+  EXPECT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 1);
 
   // Data that an update would replace say nothing.
   vtkNew<vtkExtractMorphBoundary> extract;
@@ -613,9 +613,9 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
   auto second = displaced::make(nullptr);
   second->SetInputConnection(extract->GetOutputPort());
   second->UpdateInformation();
-  EXPECT_EQ(second->GetPatchNames()->GetNumberOfValues(), 0);
+  EXPECT_EQ(second->GetPatchList()->GetNumberOfArrays(), 0);
   extract->Update();
   second->Modified(); // or the executive sees nothing to do
   second->UpdateInformation();
-  EXPECT_EQ(second->GetPatchNames()->GetNumberOfValues(), 18);
+  EXPECT_EQ(second->GetPatchList()->GetNumberOfArrays(), 18);
 }
