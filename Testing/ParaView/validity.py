@@ -127,7 +127,7 @@ class Validity(unittest.TestCase):
         self.assertIn(f"{morph.InvertedCells:.0f} cells are inverted", text)
         measured = quality(morph)
         self.assertEqual(np.count_nonzero(measured <= 0), morph.InvertedCells)
-        named = re.findall(r"(\d+) at \(([^)]*)\) with (\S+?)[;.]*(?:\s|$)", text)
+        named = re.findall(r"cell (\d+) at \(([^)]*)\), scaled Jacobian (\S+)", text)
         self.assertEqual(len(named), 10)
         worst = np.sort(measured)[:10]
         grid = servermanager.Fetch(morph)
