@@ -323,9 +323,11 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     const auto progress = [&](int n) { return 0.9 * (n - first) / (kept.Step - first); };
     try
     {
-      result = std::make_shared<vtkMorphStepResult>(
+      auto made = std::make_shared<vtkMorphStepResult>(
         this->MorphStep(from, this->Match(displaced, kept.Steps.Fraction(step), monitor),
           silent ? VALIDITY_NONE : this->Validity, progress(step - 1), progress(step), monitor));
+      made->Valid.Measured = {}; // a series keeps meshes alone
+      result = std::move(made);
     }
     catch (const morph::Error& error)
     {
@@ -428,8 +430,11 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   this->UnmatchedPoints = static_cast<vtkIdType>(result.Unmatched);
 
   vtkMorphOutput::Write(grid, kept.Mesh.points, result.Moved, this->OutputPointsPrecision, output);
+  const bool known =
+    !result.Valid.Measured.scaledJacobian.empty() && vtkMorphQuality::IsThatOfComputed(output);
   const morph::Quality quality =
-    vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
+    known ? result.Valid.Measured
+          : vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
   vtkMorphQuality::Write(quality, output);
   vtkMorphQuality::RemoveCertificate(output);
   if (this->Certify)

@@ -55,12 +55,9 @@ void Extract(
   const morph::Quality& quality, vtkUnstructuredGrid* morphed, vtkUnstructuredGrid* output)
 {
   vtkNew<vtkIdList> cells;
-  for (std::size_t cell = 0; cell < quality.scaledJacobian.size(); ++cell)
+  for (const morph::Index cell : morph::invertedCells(quality))
   {
-    if (quality.scaledJacobian[cell] <= 0)
-    {
-      cells->InsertNextId(static_cast<vtkIdType>(cell));
-    }
+    cells->InsertNextId(static_cast<vtkIdType>(cell));
   }
 
   output->Initialize();

@@ -43,11 +43,9 @@ void vtkMorphValidity::RequireFeasible() const
 }
 
 std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted,
-  const morph::Points& points, morph::Monitor& monitor) const
+  const morph::Quality& quality, const morph::Points& points) const
 {
   constexpr std::size_t Most = 10;
-  const morph::Quality quality =
-    morph::measureQuality(this->Mesh, points, this->Orientation, {}, monitor);
   std::vector<morph::Index> worst = inverted;
   std::stable_sort(worst.begin(), worst.end(),
     [&](morph::Index a, morph::Index b)
@@ -105,7 +103,9 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
          << " steps came as far as " << result.reached
          << " of it, and the result is the valid mesh there. The next step inverted "
          << result.inverted.size() << " cells, at the result's places:"
-         << this->Describe(result.inverted, result.moved, monitor)
+         << this->Describe(result.inverted,
+              morph::measureQuality(this->Mesh, result.moved, this->Orientation, {}, monitor),
+              result.moved)
          << "Move the boundary less, or refine the mesh there.";
     outcome.Status = "Partial";
     outcome.Error = text.str();
@@ -117,15 +117,16 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
   morph::Points& moved, morph::Monitor& monitor) const
 {
   Outcome outcome;
-  const std::vector<morph::Index> inverted =
-    morph::invertedCells(this->Mesh, moved, this->Orientation, monitor);
+  morph::Quality quality = morph::measureQuality(this->Mesh, moved, this->Orientation, {}, monitor);
+  const std::vector<morph::Index> inverted = morph::invertedCells(quality);
   if (inverted.empty())
   {
+    outcome.Measured = std::move(quality);
     return outcome;
   }
   const std::string found = std::to_string(inverted.size()) +
                             " cells are inverted or degenerate. The worst, with their centres:" +
-                            this->Describe(inverted, moved, monitor);
+                            this->Describe(inverted, quality, moved);
   switch (this->Mode)
   {
     case vtkMorphAlgorithm::VALIDITY_SUB_STEP:
@@ -149,6 +150,7 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
     default:
       break;
   }
+  outcome.Measured = std::move(quality);
   outcome.Status = "Inverted";
   outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
   return outcome;
