@@ -44,7 +44,7 @@ Points BoundaryMotion::moved() const
 
 namespace
 {
-void validate(const Mesh& rest, const BoundaryFaces& faces, const std::vector<Index>& ids,
+void validate(Index numberOfNodes, const BoundaryFaces& faces, const std::vector<Index>& ids,
   const ConstPoints& targets)
 {
   if (ids.empty())
@@ -58,11 +58,11 @@ void validate(const Mesh& rest, const BoundaryFaces& faces, const std::vector<In
                 std::to_string(targets.rows()) + " new positions; each needs one.");
   }
   std::vector<Index> wrong, inside, twice, notFinite;
-  std::vector<std::uint8_t> seen(rest.numberOfNodes(), 0);
+  std::vector<std::uint8_t> seen(numberOfNodes, 0);
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     const Index id = ids[i];
-    if (id < 0 || id >= rest.numberOfNodes())
+    if (id < 0 || id >= numberOfNodes)
     {
       wrong.push_back(id);
       continue;
@@ -98,18 +98,25 @@ void validate(const Mesh& rest, const BoundaryFaces& faces, const std::vector<In
 BoundaryMotion beginMotion(const Mesh& rest, const BoundaryFaces& faces,
   const Classification& geometry, const std::vector<Index>& ids, const ConstPoints& targets)
 {
-  validate(rest, faces, ids, targets);
+  return beginMotion(rest.points, bodies(rest).ofNode, faces, geometry, ids, targets);
+}
+
+BoundaryMotion beginMotion(const ConstPoints& rest, const std::vector<Index>& bodyOfNode,
+  const BoundaryFaces& faces, const Classification& geometry, const std::vector<Index>& ids,
+  const ConstPoints& targets)
+{
+  validate(rest.rows(), faces, ids, targets);
   BoundaryMotion motion;
-  motion.rest = rest.points;
-  motion.displacement = Points::Zero(rest.numberOfNodes(), 3);
-  motion.state.assign(rest.numberOfNodes(), BoundaryMotion::Unknown);
-  motion.bodyOfNode = bodies(rest).ofNode;
+  motion.rest = rest;
+  motion.displacement = Points::Zero(rest.rows(), 3);
+  motion.state.assign(rest.rows(), BoundaryMotion::Unknown);
+  motion.bodyOfNode = bodyOfNode;
   motion.givenIds = ids;
   motion.givenTargets = targets;
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     motion.state[ids[i]] = BoundaryMotion::Given;
-    motion.displacement.row(ids[i]) = targets.row(static_cast<Index>(i)) - rest.points.row(ids[i]);
+    motion.displacement.row(ids[i]) = targets.row(static_cast<Index>(i)) - rest.row(ids[i]);
   }
   for (const GeometryVertex& vertex : geometry.vertices)
   {

@@ -51,4 +51,10 @@ struct BoundaryMotion
 /// boundary, targets that are not finite or not as many, and where nothing is given at all.
 BoundaryMotion beginMotion(const Mesh& rest, const BoundaryFaces& faces,
   const Classification& geometry, const std::vector<Index>& ids, const ConstPoints& targets);
+
+/// The same for a boundary whose volume cells are not at hand. `rest`: #nodes x 3; `bodyOfNode`: #nodes, as in
+/// BoundaryMotion.
+BoundaryMotion beginMotion(const ConstPoints& rest, const std::vector<Index>& bodyOfNode,
+  const BoundaryFaces& faces, const Classification& geometry, const std::vector<Index>& ids,
+  const ConstPoints& targets);
 }

@@ -58,8 +58,21 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
 
-  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.8);
+  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.7), third(monitor, 0.7, 0.9);
   this->femWarp_.prepare(rest, this->partition(), first);
+  try
+  {
+    this->hasSimplexLinear_ = false;
+    this->simplexLinear_.prepare(rest, this->partition(), third);
+    this->hasSimplexLinear_ = true;
+  }
+  catch (const Error& error)
+  {
+    if (error.kind() == Error::Kind::Cancelled)
+    {
+      throw;
+    }
+  }
   if (this->method_)
   {
     this->method_->prepare(rest, this->partition(), second);
@@ -78,6 +91,22 @@ Points InversionFree::moved(
   SubMonitor part(monitor, 0, 0.05);
   report.iterations += method.evaluate(boundary, result, part).iterations;
   return result * this->scale_;
+}
+
+Points InversionFree::betterGuess(
+  const Points& warped, const Points& boundary, Monitor& monitor) const
+{
+  // Who asks for a certain target wants its minimum.
+  if (this->hasSimplexLinear_ && this->target_ == Target::Stretched)
+  {
+    EvaluateReport ignored;
+    const Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
+    if (this->leastScaledJacobian(simplex, monitor) > this->leastScaledJacobian(warped, monitor))
+    {
+      return simplex;
+    }
+  }
+  return warped;
 }
 
 bool InversionFree::minimize(
@@ -128,7 +157,8 @@ InversionFree::Outcome InversionFree::improve(
   outcome.effort = stages.effort();
 
   const double known = this->leastScaledJacobian(alternative, monitor);
-  if (known > 0 && !(this->leastScaledJacobian(points, monitor) >= known))
+  // A gain that is none would cost the other cells.
+  if (known > 0 && !((1 + LeastGain) * this->leastScaledJacobian(points, monitor) >= known))
   {
     points = alternative;
     outcome.kept = outcome.untangled = true;
@@ -152,7 +182,7 @@ EvaluateReport InversionFree::report(
     { "LinearIterations", outcome.effort.linearIterations },
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
-    { "KeptFEMWARP", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
+    { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
   return report;
 }
 
@@ -189,7 +219,8 @@ EvaluateReport InversionFree::displace(
     points = warped;
   }
   monitor.progress(0.1);
-  const Outcome outcome = this->improve(points, warped, warped, monitor);
+  const Outcome outcome =
+    this->improve(points, warped, this->betterGuess(warped, boundary, monitor), monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];

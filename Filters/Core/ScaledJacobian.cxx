@@ -17,9 +17,13 @@ using Vector = Eigen::Vector3d;
 
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// The three neighbors of each corner, in the order that makes the triple product positive.
-constexpr int HexCorners[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 }, { 3, 0, 2, 7 },
-  { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
+// The edges at each corner, in the order that makes the triple product positive: e + 1 for edge e, which goes from HexEdges[e][0] to
+// HexEdges[e][1], or -(e + 1) where it ends at the corner.
+constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 },
+  { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
+constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },
+  { -12, 9, -5 }, { -9, 10, -6 }, { -10, 11, -7 }, { -11, 12, -8 } };
+// The three neighbors of each corner, in that order.
 constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
   { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
 constexpr int PyramidCorners[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
@@ -73,8 +77,23 @@ double hex(const Vector* x, bool& collapsed)
   // The mean edges may vanish while every edge has a length: that is an inverted cell, not a
   // collapsed one.
   bool noMeanEdge = false;
-  const double center = normalizedDeterminant(r, s, t, noMeanEdge);
-  return std::min(center, leastCorner(x, HexCorners, collapsed));
+  double least = normalizedDeterminant(r, s, t, noMeanEdge);
+  // Each edge is at two corners: roots and divisions, most of the time, are taken once.
+  Vector direction[12];
+  for (int e = 0; e < 12; ++e)
+  {
+    const Vector edge = x[HexEdges[e][1]] - x[HexEdges[e][0]];
+    const double length = edge.norm();
+    collapsed = collapsed || length == 0;
+    direction[e] = edge / length;
+  }
+  const auto from = [&direction](int edge) -> Vector
+  { return edge > 0 ? direction[edge - 1] : Vector(-direction[-edge - 1]); };
+  for (const int(&c)[3] : HexCornerEdges)
+  {
+    least = std::min(least, from(c[0]).dot(from(c[1]).cross(from(c[2]))));
+  }
+  return least;
 }
 
 double pyramid(const Vector* x, bool& collapsed)
@@ -250,5 +269,18 @@ Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
     quality.mean = sum / static_cast<double>(quality.measured);
   }
   return quality;
+}
+
+std::vector<Index> invertedCells(const Quality& quality)
+{
+  std::vector<Index> result;
+  for (std::size_t c = 0; c < quality.scaledJacobian.size(); ++c)
+  {
+    if (quality.scaledJacobian[c] <= 0)
+    {
+      result.push_back(static_cast<Index>(c));
+    }
+  }
+  return result;
 }
 }

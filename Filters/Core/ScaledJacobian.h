@@ -41,4 +41,7 @@ struct Quality
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);
+
+/// Ids of the cells with a scaled Jacobian of 0 or less: inverted and degenerate ones, in ascending order.
+std::vector<Index> invertedCells(const Quality& quality);
 }

@@ -26,16 +26,7 @@ BoundaryPath straightPath(const Points& rest, const NodePartition& partition, co
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
-  const Quality quality = measureQuality(mesh, points, orientation, {}, monitor);
-  std::vector<Index> result;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    if (quality.scaledJacobian[c] <= 0)
-    {
-      result.push_back(c);
-    }
-  }
-  return result;
+  return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
 }
 
 SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,

@@ -3,7 +3,6 @@
 
 #include "MotionFit.h"
 #include "SurfaceLoops.h"
-#include "SurfaceResidual.h"
 #include "SurfaceSmoothing.h"
 
 #include <algorithm>
@@ -43,16 +42,27 @@ SurfaceResidual::Loops loopRows(
   return loops;
 }
 
-/// Returns whether the affine map had to be replaced.
-bool moveByResidual(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
+void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
   const std::vector<Index>& fixed, const std::vector<Index>& free, Index neighbors,
-  BoundaryMotion& motion, Monitor& monitor)
+  const Points& rest, SurfaceWeights& weights, SurfaceWeights::Surface& surface, Monitor& monitor)
 {
-  const Points prescribed = rows(motion.rest, fixed);
-  const Points target = prescribed + rows(motion.displacement, fixed);
-  SurfaceResidual residual;
-  residual.setNumberOfNeighbors(neighbors);
-  residual.prepare(prescribed, rows(motion.rest, free), loopRows(faces, faceIds, fixed), monitor);
+  if (surface.fixed == fixed)
+  {
+    return;
+  }
+  surface.fixed.clear(); // should it throw
+  surface.residual.setNumberOfNeighbors(neighbors);
+  surface.residual.prepare(
+    rows(rest, fixed), rows(rest, free), loopRows(faces, faceIds, fixed), monitor);
+  surface.fixed = fixed;
+  ++weights.prepared;
+}
+
+/// Returns whether the affine map had to be replaced.
+bool moveByResidual(const SurfaceResidual& residual, const std::vector<Index>& fixed,
+  const std::vector<Index>& free, BoundaryMotion& motion, Monitor& monitor)
+{
+  const Points target = rows(motion.rest, fixed) + rows(motion.displacement, fixed);
   Points moved;
   const bool replaced = residual.evaluate(target, moved, monitor).replaced();
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -64,9 +74,13 @@ bool moveByResidual(const BoundaryFaces& faces, const std::vector<Index>& faceId
 }
 
 SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classification& geometry,
-  const SurfaceMorphOptions& options, BoundaryMotion& motion, Monitor& monitor)
+  const SurfaceMorphOptions& options, BoundaryMotion& motion, Monitor& monitor,
+  SurfaceWeights* kept)
 {
   SurfaceMorphReport report;
+  SurfaceWeights own;
+  SurfaceWeights& weights = kept ? *kept : own;
+  weights.surfaces.resize(geometry.surfaces.size());
   const std::vector<Index> known = motion.known();
   const double count = static_cast<double>(geometry.surfaces.size());
   for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
@@ -95,10 +109,19 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
       {
         smoothSurface(faces, surface.faces, fixed, free, motion, monitor);
       }
-      else if (moveByResidual(
-                 faces, surface.faces, fixed, free, options.neighbors, motion, monitor))
+      else
       {
-        report.reflected.push_back(static_cast<Index>(s));
+        SurfaceWeights::Surface& one = weights.surfaces[s];
+        prepareResidual(
+          faces, surface.faces, fixed, free, options.neighbors, motion.rest, weights, one, monitor);
+        if (moveByResidual(one.residual, fixed, free, motion, monitor))
+        {
+          report.reflected.push_back(static_cast<Index>(s));
+        }
+        if (!kept)
+        {
+          one = {}; // the memory of one surface's weights at a time
+        }
       }
     }
     for (Index node : free)

@@ -275,7 +275,7 @@ int vtkCompareMorphMethods::RequestData(
   const vtkMorphPorts::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
     {
-      vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+      vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
       vtkSmartPointer<vtkDataObject> copy;
       copy.TakeReference(points->NewInstance());
       copy->ShallowCopy(points);

@@ -35,6 +35,7 @@ std::unique_ptr<morph::Morpher> guessMethod(int guess)
 vtkInversionFreeMorph::vtkInversionFreeMorph()
 {
   this->Validity = VALIDITY_SUB_STEP;
+  this->Certify = true;
 }
 
 vtkInversionFreeMorph::~vtkInversionFreeMorph() = default;

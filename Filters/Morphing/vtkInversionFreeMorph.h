@@ -6,8 +6,8 @@
  * From a first guess, a minimisation of the foldover-free energy of all cells drives inverted cells
  * out, and then improves the worst ones. Cells other than tetrahedra aim for their shape at rest,
  * stretched to the sizes that the moved boundary asks for; tetrahedra for their shape at rest. The
- * result is never worse than FEMWARP's: where FEMWARP's mesh is valid and its least scaled Jacobian
- * is higher, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
+ * result is never worse than FEMWARP's or, with the target Stretched, simplex-linear's: where one of their
+ * meshes is valid and its least scaled Jacobian is higher by 0.1 % or more, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
  * quadratic forms, whose corners move as the linear cell. Not linear in the boundary's motion: there
  * is no adjoint.
  *
@@ -115,14 +115,14 @@ public:
   ///@{
   /**
    * As of the last execution: steps of the minimiser, iterations of its linear solver, evaluations
-   * of the energy; cells that the boundary itself inverts; and whether FEMWARP's mesh was the better
-   * one.
+   * of the energy; cells that the boundary itself inverts; and whether FEMWARP's or simplex-linear's mesh was
+   * the better one.
    */
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
   vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
   vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
-  vtkIdType GetKeptFEMWARP() { return this->GetCount("KeptFEMWARP"); }
+  vtkIdType GetKeptLinear() { return this->GetCount("KeptLinear"); }
   ///@}
 
 protected:

@@ -141,8 +141,8 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
     vtkMorphAlgorithm* morph = this->FindMorph();
-    return this->Ports->RequestUpdateExtent(
-      morph ? morph->GetRestTime() : 0, vtkMorphPorts::AskedTime(outputVector), inputVector);
+    return this->Ports->RequestUpdateExtent(morph ? morph->GetRestTime() : 0,
+      vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
@@ -188,7 +188,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
     throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
                        "the gradient on port 2 by a pipeline with that filter in it.");
   }
-  vtkPointSet* points = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
   vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");

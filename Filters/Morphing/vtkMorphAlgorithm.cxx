@@ -6,6 +6,7 @@
 #include "Morpher.h"
 #include "SmoothMesh.h"
 #include "Topology.h"
+#include "vtkMorphBadCells.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphCrewMonitor.h"
 #include "vtkMorphExecution.h"
@@ -20,6 +21,7 @@
 #include "vtkMorphSeries.h"
 #include "vtkMorphSteps.h"
 #include "vtkMorphValidity.h"
+#include "vtkMorphVersion.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
@@ -131,6 +133,7 @@ vtkMorphAlgorithm::vtkMorphAlgorithm()
   : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
   this->ResetResults();
 }
 
@@ -160,18 +163,22 @@ int vtkMorphAlgorithm::RequestInformation(
 {
   const int done = vtkMorphPorts::RequestInformation(inputVector, outputVector);
   const vtkMorphSteps steps(this->NumberOfSteps, inputVector[1]->GetInformationObject(0));
-  steps.Write(outputVector->GetInformationObject(0));
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    steps.Write(outputVector->GetInformationObject(port));
+  }
   return done;
 }
 
 int vtkMorphAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& kept = *this->Internals;
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
-  std::optional<double> time = vtkMorphPorts::AskedTime(outputVector);
+  vtkInformation* asked = vtkMorphPorts::Asked(request, outputVector);
+  std::optional<double> time = vtkMorphPorts::AskedTime(asked);
   kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
-  kept.Step = kept.Steps.Asked(outputVector->GetInformationObject(0));
+  kept.Step = kept.Steps.Asked(asked);
   kept.BoundaryStep = kept.Step;
   if (kept.IsSeries(this->Stepping))
   {
@@ -193,6 +200,7 @@ int vtkMorphAlgorithm::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkInternals& kept = *this->Internals;
   std::string partial;
   kept.Repeat = false;
@@ -207,7 +215,7 @@ int vtkMorphAlgorithm::RequestData(
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { partial = this->Morph(grid, boundary, output, monitor); } };
+    { partial = this->Morph(grid, boundary, output, badCells, monitor); } };
   const int done = kept.Ports.RequestData(task, request, inputVector, outputVector);
   if (kept.Repeat)
   {
@@ -215,7 +223,20 @@ int vtkMorphAlgorithm::RequestData(
   }
   else if (done && kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
+    for (vtkUnstructuredGrid* data : { output, badCells })
+    {
+      data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
+    }
+  }
+  vtkUnstructuredGrid* rest = vtkUnstructuredGrid::GetData(inputVector[0]);
+  if (done && !kept.Repeat && rest && output->GetNumberOfPoints() == 0 &&
+      vtkMorphVersion::AbortRequested(this))
+  {
+    // Whoever stops a drag midway wants to see the mesh it began with.
+    vtkMorphVersion::KeepAbortedOutput(this);
+    output->ShallowCopy(rest);
+    kept.Status = "Cancelled";
+    vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
   }
   if (!partial.empty())
   {
@@ -225,10 +246,10 @@ int vtkMorphAlgorithm::RequestData(
 }
 
 std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
   kept.SetGrid(grid, monitor);
   std::shared_ptr<const vtkMorphStepResult> result;
   if (kept.IsSeries(this->Stepping))
@@ -247,7 +268,7 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
       kept.Mesh, this->Match(displaced, part, monitor), this->Validity, 0, 0.9, monitor));
   }
   monitor.SetRange(0.9, 1);
-  this->Write(grid, *result, output, monitor);
+  this->Write(grid, *result, output, badCells, monitor);
   return result->Valid.Error;
 }
 
@@ -302,9 +323,11 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     const auto progress = [&](int n) { return 0.9 * (n - first) / (kept.Step - first); };
     try
     {
-      result = std::make_shared<vtkMorphStepResult>(
+      auto made = std::make_shared<vtkMorphStepResult>(
         this->MorphStep(from, this->Match(displaced, kept.Steps.Fraction(step), monitor),
           silent ? VALIDITY_NONE : this->Validity, progress(step - 1), progress(step), monitor));
+      made->Valid.Measured = {}; // a series keeps meshes alone
+      result = std::move(made);
     }
     catch (const morph::Error& error)
     {
@@ -395,7 +418,7 @@ void vtkMorphAlgorithm::Prepare(
 }
 
 void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
-  vtkUnstructuredGrid* output, vtkMorphMonitor& monitor)
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   this->SolverIterations = result.Iterations;
@@ -407,9 +430,23 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   this->UnmatchedPoints = static_cast<vtkIdType>(result.Unmatched);
 
   vtkMorphOutput::Write(grid, kept.Mesh.points, result.Moved, this->OutputPointsPrecision, output);
+  const bool known =
+    !result.Valid.Measured.scaledJacobian.empty() && vtkMorphQuality::IsThatOfComputed(output);
   const morph::Quality quality =
-    vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
+    known ? result.Valid.Measured
+          : vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
   vtkMorphQuality::Write(quality, output);
+  vtkMorphQuality::RemoveCertificate(output);
+  if (this->Certify)
+  {
+    const morph::CertificateReport report =
+      vtkMorphQuality::Certify(kept.Mesh, output, kept.Orientation, {}, monitor);
+    vtkMorphQuality::Write(report, output);
+    this->CertifiedCells = static_cast<vtkIdType>(report.certified);
+    this->UncertifiedCells = static_cast<vtkIdType>(report.inverted);
+    this->UndecidedCells = static_cast<vtkIdType>(report.undecided);
+  }
+  vtkMorphBadCells::Extract(quality, output, badCells);
   this->MinScaledJacobian = quality.minimum;
   this->MeanScaledJacobian = quality.mean;
   this->InvertedCells = quality.inverted;
@@ -462,7 +499,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
                        "Stepping to Absolute.");
   }
   const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
-  vtkPointSet* displaced = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
   kept.SetGrid(rest, monitor);
   const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);
   monitor.SetRange(0.05, 0.5);
@@ -509,6 +546,9 @@ void vtkMorphAlgorithm::ResetResults()
   this->DegenerateCells = 0;
   this->WorstCellId = -1;
   this->BoundaryInvertedCells = 0;
+  this->CertifiedCells = 0;
+  this->UncertifiedCells = 0;
+  this->UndecidedCells = 0;
   this->PrepareSeconds = 0;
   this->EvaluateSeconds = 0;
   this->Internals->Status = "None";
@@ -532,6 +572,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "Certify: " << this->Certify << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "PostSmooth: " << this->PostSmooth << "\n";
   os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
@@ -544,6 +585,9 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "BoundaryInvertedCells: " << this->BoundaryInvertedCells << "\n";
+  os << indent << "CertifiedCells: " << this->CertifiedCells << "\n";
+  os << indent << "UncertifiedCells: " << this->UncertifiedCells << "\n";
+  os << indent << "UndecidedCells: " << this->UndecidedCells << "\n";
   os << indent << "PrepareSeconds: " << this->PrepareSeconds << "\n";
   os << indent << "EvaluateSeconds: " << this->EvaluateSeconds << "\n";
   os << indent << "MorphStatus: " << this->GetMorphStatus() << "\n";

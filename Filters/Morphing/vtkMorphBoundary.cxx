@@ -4,6 +4,7 @@
 #include "CurveMorph.h"
 #include "Error.h"
 #include "FaceQuality.h"
+#include "SurfaceImprovement.h"
 #include "SurfaceMorph.h"
 #include "Topology.h"
 #include "vtkMorphBoundaryMatch.h"
@@ -19,6 +20,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -204,7 +206,7 @@ int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   return this->Internals->Ports.RequestUpdateExtent(
-    this->RestTime, vtkMorphPorts::AskedTime(outputVector), inputVector);
+    this->RestTime, vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(
@@ -222,7 +224,7 @@ int vtkMorphBoundary::RequestData(
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkDataObject* target, vtkPolyData* output, vtkMorphMonitor& monitor)
 {
-  vtkPointSet* given = vtkMorphInput::RequirePointSet(boundary, "The boundary");
+  vtkPointSet* given = vtkMorphInput::RequireBoundary(boundary);
   vtkPolyData* targetSurface =
     target ? vtkMorphInput::RequirePolyData(target, "The target") : nullptr;
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
@@ -284,6 +286,10 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     place->Orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
+  }
+  if (this->SurfaceMethod == SMOOTHING)
+  {
+    morph::improveSurfaces(faces, geometry, place.get(), motion, monitor);
   }
   monitor.SetRange(0.9, 1);
 

@@ -101,7 +101,8 @@ public:
   };
   ///@{
   /**
-   * How surfaces follow. Default WEIGHTED_RESIDUAL.
+   * How surfaces follow. With SMOOTHING faces that come out poor (scaled Jacobian below 0.2, and below half
+   * of that at rest) are improved by nodes that move along the surface. Default WEIGHTED_RESIDUAL.
    */
   vtkSetClampMacro(SurfaceMethod, int, WEIGHTED_RESIDUAL, SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);

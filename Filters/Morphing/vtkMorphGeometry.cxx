@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace
 {
@@ -90,16 +91,22 @@ const morph::CellShape* shapeOf(const morph::Mesh& mesh, Index cell, int dimensi
   return shape && shape->dimension == dimension ? shape : nullptr;
 }
 
+vtkDataArray* requireCellNumbers(vtkDataSet* input, const std::string& name)
+{
+  vtkDataArray* array = findNumbers(input->GetCellData(), name, input->GetNumberOfCells(), "cell");
+  if (!array)
+  {
+    throw Error("SurfaceIdArray names '" + name + "', which is no cell array of the input.");
+  }
+  return array;
+}
+
 /// Ids of the faces from the cells on them, or from the cells behind them where the grid has volume
 /// cells alone.
 std::vector<Index> surfaceIds(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const std::string& name)
 {
-  vtkDataArray* array = findNumbers(grid->GetCellData(), name, grid->GetNumberOfCells(), "cell");
-  if (!array)
-  {
-    throw Error("SurfaceIdArray names '" + name + "', which is no cell array of the input.");
-  }
+  vtkDataArray* array = requireCellNumbers(grid, name);
   std::vector<Index> flat;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -146,7 +153,7 @@ std::vector<Index> surfaceIds(vtkUnstructuredGrid* grid, const morph::Mesh& mesh
 }
 
 void readGeometryArrays(
-  vtkUnstructuredGrid* grid, const std::vector<Index>& nodes, morph::GivenGeometry& given)
+  vtkDataSet* grid, const std::vector<Index>& nodes, morph::GivenGeometry& given)
 {
   vtkPointData* data = grid->GetPointData();
   const auto find = [&](const char* name)
@@ -176,6 +183,15 @@ void readGeometryArrays(
   }
 }
 
+morph::ClassificationOptions coreOptions(const vtkMorphGeometry::Options& options)
+{
+  morph::ClassificationOptions core;
+  core.featureAngle = options.FeatureAngle;
+  core.cornerAngle = options.CornerAngle;
+  core.featuresInside = options.FeaturesInside;
+  return core;
+}
+
 template <typename Array>
 vtkSmartPointer<Array> makeArray(const char* name, std::size_t size)
 {
@@ -191,10 +207,7 @@ namespace vtkMorphGeometry
 morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor)
 {
-  morph::ClassificationOptions core;
-  core.featureAngle = options.FeatureAngle;
-  core.cornerAngle = options.CornerAngle;
-  core.featuresInside = options.FeaturesInside;
+  morph::ClassificationOptions core = coreOptions(options);
   if (!options.SurfaceIdArray.empty())
   {
     core.given.surface = surfaceIds(grid, mesh, faces, options.SurfaceIdArray);
@@ -204,6 +217,26 @@ morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mes
     readGeometryArrays(grid, faces.nodes, core.given);
   }
   return morph::classify(mesh, faces, core, monitor);
+}
+
+morph::Classification Classify(vtkPolyData* surface, const morph::Points& points,
+  const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor)
+{
+  morph::ClassificationOptions core = coreOptions(options);
+  if (!options.SurfaceIdArray.empty())
+  {
+    std::vector<Index> polygons(faces.offsets.size() - 1);
+    std::iota(
+      polygons.begin(), polygons.end(), surface->GetNumberOfVerts() + surface->GetNumberOfLines());
+    const std::vector<Index> ids =
+      wholeNumbers(requireCellNumbers(surface, options.SurfaceIdArray), polygons, "cell");
+    core.given.surface.assign(ids.begin() + polygons[0], ids.begin() + polygons.back() + 1);
+  }
+  else if (options.UseGeometryArrays)
+  {
+    readGeometryArrays(surface, faces.nodes, core.given);
+  }
+  return morph::classify(points, faces, core, monitor);
 }
 
 void AddPointArrays(const morph::Classification& geometry, const std::vector<morph::Index>& nodes,

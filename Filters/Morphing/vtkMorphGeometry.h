@@ -36,6 +36,11 @@ struct Options
 morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
 
+/// The same for a surface that was extracted before. `faces`: its polygons, each a face, of nodes that are its points.
+/// `points`: #points x 3, where they are looked at. SurfaceIdArray is a cell array of the surface.
+morph::Classification Classify(vtkPolyData* surface, const morph::Points& points,
+  const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
+
 /// Adds the three arrays above for `nodes` (one tuple each), replacing arrays of these names:
 /// signed char, vtkIdType and double.
 void AddPointArrays(const morph::Classification& geometry, const std::vector<morph::Index>& nodes,

@@ -31,6 +31,21 @@ namespace
   }
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
 }
+
+bool hasVolumeCells(vtkDataObject* data)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const morph::CellShape* shape =
+      morph::cellShape(static_cast<std::uint8_t>(grid->GetCellType(cell)));
+    if (shape && shape->dimension == 3)
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }
 
 namespace vtkMorphInput
@@ -53,6 +68,31 @@ vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
   refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
 }
 
+vtkPointSet* RequireBoundary(vtkDataObject* input)
+{
+  if (!input)
+  {
+    throw morph::Error(
+      "Boundary: nothing is connected, so there is nothing to follow. Connect Boundary "
+      "Displacement, or "
+      "Extract Morph Boundary followed by a filter that moves points, Transform for instance (in "
+      "ParaView's window: right-click this filter, Change Input).");
+  }
+  return RequirePointSet(input, "The boundary");
+}
+
+void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary)
+{
+  auto* points = vtkPointSet::SafeDownCast(input);
+  if (points && points->GetNumberOfCells() > 0 && !hasVolumeCells(input) &&
+      hasVolumeCells(boundary))
+  {
+    throw morph::Error("Input and Boundary are swapped: Boundary has volume cells and Input has "
+                       "none. Give the volume mesh as "
+                       "Input and its displaced boundary as Boundary.");
+  }
+}
+
 vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(input))
@@ -62,7 +102,18 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
   refuse(input, port, "polygonal data (Extract Surface makes it)");
 }
 
-int RequireOneRankWithCells(vtkUnstructuredGrid* grid)
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
+{
+  if (vtkUnstructuredGrid::SafeDownCast(input) || vtkPolyData::SafeDownCast(input))
+  {
+    return vtkPointSet::SafeDownCast(input);
+  }
+  refuse(input, port,
+    "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
+    "Extract Morph Boundary,");
+}
+
+int RequireOneRankWithCells(vtkDataSet* grid)
 {
   const int ranks = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0);
   if (ranks > 1)

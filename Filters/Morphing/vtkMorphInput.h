@@ -7,6 +7,7 @@
 #include <string>
 
 class vtkDataObject;
+class vtkDataSet;
 class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -22,10 +23,18 @@ vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
 vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
-/// To be called on every process, before anything can fail there: with the grid, or null where its
+/// An unstructured grid or polygonal data.
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
+/// As RequirePointSet(), for the boundary of a mesh that is to be morphed; null has a message of its own.
+vtkPointSet* RequireBoundary(vtkDataObject* input);
+
+/// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has others alone. Either may be null.
+void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
+
+/// To be called on every process, before anything can fail there: with the data, or null where their
 /// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how
 /// many have: 0 or 1.
-int RequireOneRankWithCells(vtkUnstructuredGrid* grid);
+int RequireOneRankWithCells(vtkDataSet* grid);
 
 /// Throws morph::Error unless there is a cell of dimension 3. All types have to be known to the
 /// core.

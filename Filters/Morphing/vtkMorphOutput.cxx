@@ -9,6 +9,7 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -67,11 +68,11 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
   }
 }
 
-bool IsFloat(vtkUnstructuredGrid* grid, int precision)
+bool IsFloat(vtkPointSet* input, int precision)
 {
   return precision == vtkAlgorithm::SINGLE_PRECISION ||
          (precision == vtkAlgorithm::DEFAULT_PRECISION &&
-           grid->GetPoints()->GetDataType() == VTK_FLOAT);
+           input->GetPoints()->GetDataType() == VTK_FLOAT);
 }
 
 void AddField(vtkDataObject* output, const char* name, double value)

@@ -7,6 +7,7 @@
 #include <vtkType.h>
 
 class vtkDataObject;
+class vtkPointSet;
 class vtkUnstructuredGrid;
 
 /// The moved mesh as every morphing filter writes it.
@@ -18,8 +19,8 @@ namespace vtkMorphOutput
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
   int precision, vtkUnstructuredGrid* output);
 
-/// Whether points for `grid` are written as float at this precision.
-bool IsFloat(vtkUnstructuredGrid* grid, int precision);
+/// Whether points for `input` are written as float at this precision.
+bool IsFloat(vtkPointSet* input, int precision);
 
 /// Field data of one number or text; replaces an array of that name.
 void AddField(vtkDataObject* output, const char* name, double value);

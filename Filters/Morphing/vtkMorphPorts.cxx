@@ -7,13 +7,17 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationIntegerVectorKey.h>
 #include <vtkInformationVector.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <string>
 
 int vtkMorphPorts::FillInformation(int port, vtkInformation* info)
@@ -39,9 +43,16 @@ int vtkMorphPorts::RequestInformation(
   return 1;
 }
 
-std::optional<double> vtkMorphPorts::AskedTime(vtkInformationVector* outputVector)
+vtkInformation* vtkMorphPorts::Asked(vtkInformation* request, vtkInformationVector* outputVector)
 {
-  vtkInformation* output = outputVector->GetInformationObject(0);
+  const int port = request->Has(vtkExecutive::FROM_OUTPUT_PORT())
+                     ? request->Get(vtkExecutive::FROM_OUTPUT_PORT())
+                     : -1;
+  return outputVector->GetInformationObject(std::max(0, port));
+}
+
+std::optional<double> vtkMorphPorts::AskedTime(vtkInformation* output)
+{
   if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
     return std::nullopt;
@@ -52,6 +63,16 @@ std::optional<double> vtkMorphPorts::AskedTime(vtkInformationVector* outputVecto
 int vtkMorphPorts::RequestUpdateExtent(
   double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector)
 {
+  for (int port = 0; port < this->Filter->GetNumberOfInputPorts(); ++port)
+  {
+    // The executive asks all ports for the extent of port 0: too little of a larger image behind another.
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
   if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
   {
     auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetInputExecutive(0, 0));
@@ -74,13 +95,20 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   {
     return 1;
   }
-  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const auto forOutputs = [outputVector](const auto& action)
+  {
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      action(vtkDataObject::GetData(outputVector, port));
+    }
+  };
   task.Reset();
   vtkMorphCrewMonitor monitor(this->Filter, task.NumberOfThreads);
   const auto work = [&]
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
     const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
+    vtkMorphInput::RequireNotSwapped(input, boundary);
     grid = vtkMorphInput::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {
@@ -89,7 +117,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   };
   const auto clear = [&]
   {
-    output->Initialize();
+    forOutputs([](vtkDataObject* output) { output->Initialize(); });
     task.Reset();
   };
   const int done = vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
@@ -100,7 +128,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   }
   if (done)
   {
-    vtkMorphTime::CopyDataTime(boundary, output);
+    forOutputs([boundary](vtkDataObject* output) { vtkMorphTime::CopyDataTime(boundary, output); });
   }
   return done;
 }

@@ -27,8 +27,10 @@ public:
   static int FillInformation(int port, vtkInformation* info);
   static int RequestInformation(
     vtkInformationVector** inputVector, vtkInformationVector* outputVector);
-  /// The time that the filter's output is asked for.
-  static std::optional<double> AskedTime(vtkInformationVector* outputVector);
+  /// For RequestUpdateExtent: what the output port is asked for that `request` comes from.
+  static vtkInformation* Asked(vtkInformation* request, vtkInformationVector* outputVector);
+  /// The time that an output port is asked for.
+  static std::optional<double> AskedTime(vtkInformation* output);
   /// `restTime`, `boundaryTime`: see vtkMorphTime.
   int RequestUpdateExtent(
     double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector);
@@ -43,7 +45,7 @@ public:
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor&)> Work;
   };
   /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
-  /// the output is empty; errors and warnings are the filter's.
+  /// the outputs are empty; errors and warnings are the filter's.
   int RequestData(const Task& task, vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 

@@ -77,6 +77,12 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
     { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
 }
 
+bool IsThatOfComputed(vtkUnstructuredGrid* output)
+{
+  return output->GetPoints()->GetDataType() == VTK_DOUBLE &&
+         !output->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName());
+}
+
 morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor)

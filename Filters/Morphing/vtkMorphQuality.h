@@ -25,6 +25,9 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
 
+/// Whether Measure() of these cells gives what measuring the points that were computed, in double, has given.
+bool IsThatOfComputed(vtkUnstructuredGrid* output);
+
 /// Adds to `output` the cell array `ScaledJacobian` (double, NaN where not measured) as active
 /// scalars (point arrays stay, but none is active: viewers would color by that one), and the field
 /// data MinScaledJacobian, MeanScaledJacobian (double, NaN if nothing was measured), InvertedCells,

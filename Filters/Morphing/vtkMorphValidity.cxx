@@ -43,11 +43,9 @@ void vtkMorphValidity::RequireFeasible() const
 }
 
 std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted,
-  const morph::Points& points, morph::Monitor& monitor) const
+  const morph::Quality& quality, const morph::Points& points) const
 {
   constexpr std::size_t Most = 10;
-  const morph::Quality quality =
-    morph::measureQuality(this->Mesh, points, this->Orientation, {}, monitor);
   std::vector<morph::Index> worst = inverted;
   std::stable_sort(worst.begin(), worst.end(),
     [&](morph::Index a, morph::Index b)
@@ -62,10 +60,10 @@ std::string vtkMorphValidity::Describe(const std::vector<morph::Index>& inverted
     {
       centre += points.row(this->Mesh.cell(cell)[k]) / corners;
     }
-    text << (cell == worst.front() ? "" : "; ") << cell << " at (" << centre[0] << ", " << centre[1]
-         << ", " << centre[2] << ") with " << quality.scaledJacobian[cell];
+    text << "\n  cell " << cell << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
+         << "), scaled Jacobian " << quality.scaledJacobian[cell];
   }
-  text << (inverted.size() > worst.size() ? "; ..." : "");
+  text << (inverted.size() > worst.size() ? "\n  ...\n" : "\n");
   return text.str();
 }
 
@@ -104,9 +102,11 @@ vtkMorphValidity::Outcome vtkMorphValidity::SubStep(
     text << "No valid mesh was found for the whole motion: " << result.attempts
          << " steps came as far as " << result.reached
          << " of it, and the result is the valid mesh there. The next step inverted "
-         << result.inverted.size() << " cells, at the result's places: "
-         << this->Describe(result.inverted, result.moved, monitor)
-         << ". Move the boundary less, or refine the mesh there.";
+         << result.inverted.size() << " cells, at the result's places:"
+         << this->Describe(result.inverted,
+              morph::measureQuality(this->Mesh, result.moved, this->Orientation, {}, monitor),
+              result.moved)
+         << "Move the boundary less, or refine the mesh there.";
     outcome.Status = "Partial";
     outcome.Error = text.str();
   }
@@ -117,16 +117,16 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
   morph::Points& moved, morph::Monitor& monitor) const
 {
   Outcome outcome;
-  const std::vector<morph::Index> inverted =
-    morph::invertedCells(this->Mesh, moved, this->Orientation, monitor);
+  morph::Quality quality = morph::measureQuality(this->Mesh, moved, this->Orientation, {}, monitor);
+  const std::vector<morph::Index> inverted = morph::invertedCells(quality);
   if (inverted.empty())
   {
+    outcome.Measured = std::move(quality);
     return outcome;
   }
-  const std::string found =
-    std::to_string(inverted.size()) +
-    " cells are inverted or degenerate. Worst cell ids, centres and scaled Jacobians: " +
-    this->Describe(inverted, moved, monitor) + ".";
+  const std::string found = std::to_string(inverted.size()) +
+                            " cells are inverted or degenerate. The worst, with their centres:" +
+                            this->Describe(inverted, quality, moved);
   switch (this->Mode)
   {
     case vtkMorphAlgorithm::VALIDITY_SUB_STEP:
@@ -140,14 +140,17 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
       return this->SubStep([] { return std::make_unique<morph::InversionFree>(); }, moved, monitor);
     case vtkMorphAlgorithm::VALIDITY_REFUSE:
       throw morph::Error("The morph is refused: " + found +
-                         " Set Validity to Repair or Sub Step, move the boundary less, or use "
+                         "Set Validity to Repair or Sub Step, move the boundary less, or use "
                          "Morph Inversion Free.");
     case vtkMorphAlgorithm::VALIDITY_REPORT:
-      monitor.warn(found + " Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
+      monitor.warn(found + "The output Bad cells holds them all. Morph Inversion Free, or Validity "
+                           "set to Repair, keeps "
+                           "cells valid.");
       break;
     default:
       break;
   }
+  outcome.Measured = std::move(quality);
   outcome.Status = "Inverted";
   outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
   return outcome;

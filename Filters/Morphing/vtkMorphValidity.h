@@ -3,6 +3,7 @@
 #define vtkMorphValidity_h
 
 #include "Morpher.h"
+#include "ScaledJacobian.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,7 +32,8 @@ public:
     std::string Status = "Valid"; ///< see vtkMorphAlgorithm::GetMorphStatus()
     double LargestValidStep = 1;
     morph::Index SubSteps = 0;
-    std::string Error; ///< not empty: the mesh is valid but has not gone all the way
+    std::string Error;       ///< not empty: the mesh is valid but has not gone all the way
+    morph::Quality Measured; ///< of the method's own mesh where that is the result; else empty
   };
 
   /// Before the method is evaluated, where Mode asks for a valid mesh: throws morph::Error naming the cells that the targets
@@ -42,8 +44,9 @@ public:
 
 private:
   bool AsksForValidMesh() const;
-  std::string Describe(const std::vector<morph::Index>& inverted, const morph::Points& points,
-    morph::Monitor& monitor) const;
+  /// The worst of these cells, a line for each.
+  std::string Describe(const std::vector<morph::Index>& inverted, const morph::Quality& quality,
+    const morph::Points& points) const;
   bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
   Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
     morph::Points& moved, morph::Monitor& monitor) const;

@@ -18,6 +18,14 @@ inline bool AbortRequested(vtkAlgorithm* algorithm)
   return algorithm->GetAbortExecute() != 0;
 #endif
 }
+
+/// Keeps the executive from emptying the output of an execution that was aborted.
+inline void KeepAbortedOutput([[maybe_unused]] vtkAlgorithm* algorithm)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220817)
+  algorithm->SetAbortOutput(false);
+#endif
+}
 }
 
 #endif

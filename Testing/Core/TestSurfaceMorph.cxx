@@ -536,3 +536,34 @@ TEST(FaceQuality, IdealAndFoldedFaces)
   EXPECT_FALSE(quality.folded.empty());
   EXPECT_GE(quality.minimum, -1);
 }
+
+TEST(SurfaceMorph, KeptWeightsAreUsedAgainAndDoNotShow)
+{
+  const Case c(shapes::boxWithHole(16, 3, 3));
+  const std::vector<Index> curves = c.upTo(1), vertices = c.upTo(0);
+  SurfaceWeights kept;
+  const auto morph = [&](const std::vector<Index>& ids, double amount)
+  {
+    const Map map = [amount](const Row& x)
+    { return Row(x[0] + amount * x[2] * x[2], x[1] * (1 + amount * x[0]), x[2]); };
+    Monitor monitor;
+    BoundaryMotion motion = c.begin(ids, map);
+    morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+    morphSurfaces(c.faces, c.geometry, {}, motion, monitor, &kept);
+    const Points moved = motion.moved();
+    EXPECT_EQ(moved, c.morph(ids, map));
+    return kept.prepared;
+  };
+  EXPECT_EQ(morph(curves, 0), 0); // where nothing moves no weights are needed
+  const Index all = morph(curves, 0.1);
+  EXPECT_GT(all, 0);
+  EXPECT_EQ(morph(curves, -0.2), all);
+  EXPECT_EQ(morph(curves, 0.3), all);
+  // Curves that follow are fixed when the surfaces' turn comes, so the vertices alone fix the same nodes.
+  EXPECT_EQ(morph(vertices, 0.1), all);
+  // One more node on a surface: its weights alone are made anew.
+  std::vector<Index> more = curves;
+  more.push_back(*std::find_if(c.faces.nodes.begin(), c.faces.nodes.end(),
+    [&](Index n) { return c.geometry.dimension[n] == 2; }));
+  EXPECT_EQ(morph(more, 0.1), all + 1);
+}

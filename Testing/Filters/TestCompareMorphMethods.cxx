@@ -322,7 +322,7 @@ TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
   errorAfter("Neither absolute nor relative");
   this->Filter->SetAbsolute(true);
   this->Filter->SetBoundaryConnection(nullptr);
-  errorAfter("boundary");
+  errorAfter("Boundary: nothing is connected");
   this->Filter->SetBoundaryData(grids::boundary(this->Grid, waves));
   this->Filter->Update();
   EXPECT_EQ(this->Rows(0), 5);

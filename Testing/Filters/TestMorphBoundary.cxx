@@ -548,7 +548,7 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
     vtkSmartPointer<vtkDataObject> Target;
     std::string Telling;
   };
-  const std::vector<Case> cases = { { grid, nullptr, nullptr, "The boundary has no data" },
+  const std::vector<Case> cases = { { grid, nullptr, nullptr, "Boundary: nothing is connected" },
     { grid, empty.Get(), nullptr, "no points" }, { grid, moved, empty.Get(), "no polygons" },
     { grid, moved, wrongTarget, "not finite" }, { grid, moved, grid, "polygonal data" },
     { ball, grids::boundary(ball, same), nullptr, "Raise PrescribedDimension" },

@@ -173,12 +173,27 @@ TEST_F(MorphErrors, NoBoundary)
   this->Filter->SetBoundaryConnection(nullptr);
   // ParaView asks for this as soon as the filter is made.
   EXPECT_EQ(this->Filter->GetExecutive()->UpdateInformation(), 1);
-  this->ExpectError({ "The boundary has no data", "points" });
+  this->ExpectError({ "Boundary: nothing is connected", "Extract Morph Boundary" });
 }
 
 TEST_F(MorphErrors, GridOfAnotherType)
 {
   this->ExpectGridError(this->Boundary, { "The input", "vtkPolyData", "unstructured grid" });
+}
+
+TEST_F(MorphErrors, SwappedInputs)
+{
+  const auto expect = [this](vtkDataObject* grid)
+  {
+    this->Filter->SetInputDataObject(grid);
+    this->Filter->SetBoundaryData(this->Grid);
+    this->ExpectError({ "swapped", "volume mesh as Input" });
+  };
+  expect(this->Boundary);
+  vtkNew<vtkUnstructuredGrid> faces;
+  faces->SetPoints(this->Boundary->GetPoints());
+  faces->SetCells(VTK_QUAD, this->Boundary->GetPolys());
+  expect(faces);
 }
 
 TEST_F(MorphErrors, UnknownIds)
@@ -433,6 +448,6 @@ TEST_F(MorphErrors, InvertedRestCellsOnlyWarn)
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[0].find("positive Jacobian"), std::string::npos);
-  EXPECT_NE(listener.Warnings[1].find("Worst cell ids"), std::string::npos);
+  EXPECT_NE(listener.Warnings[1].find("The worst, with their centres"), std::string::npos);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 64);
 }

@@ -10,6 +10,7 @@
 #include "vtkScaledJacobian.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkSMPTools.h>
 
@@ -98,7 +99,7 @@ TEST(MorphExecution, ProgressGoesUp)
   EXPECT_EQ(values.back(), 1);
 }
 
-TEST(MorphExecution, AbortGivesAnEmptyOutputAndNoError)
+TEST(MorphExecution, AbortGivesTheMeshAtRestAndNoError)
 {
   auto grid = grids::hexes(16);
   vtkNew<vtkFEMWarpMorph> filter;
@@ -119,8 +120,14 @@ TEST(MorphExecution, AbortGivesAnEmptyOutputAndNoError)
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 17 * 17 * 17);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 16 * 16 * 16);
+  for (vtkIdType i = 0; i < 17 * 17 * 17; ++i)
+  {
+    EXPECT_EQ(grids::Row(filter->GetOutput()->GetPoint(i)), grids::Row(grid->GetPoint(i)));
+  }
+  EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
+  EXPECT_EQ(grid->GetFieldData()->GetNumberOfArrays(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);
   EXPECT_LT(last, 0.9);
 
@@ -128,6 +135,7 @@ TEST(MorphExecution, AbortGivesAnEmptyOutputAndNoError)
   filter->SetAbortExecute(0);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 17 * 17 * 17);
+  EXPECT_STREQ(filter->GetMorphStatus(), "Inverted");
   EXPECT_TRUE(listener.Errors.empty());
 }
 

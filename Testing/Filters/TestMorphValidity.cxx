@@ -7,7 +7,9 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkSimplexLinearMorph.h"
 
+#include <vtkCellData.h>
 #include <vtkCommand.h>
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkStringArray.h>
 
@@ -195,4 +197,41 @@ TEST_F(MorphValidity, TheLargestValidStepIsTheResultWhereThereIsNoMore)
   filter->Update();
   EXPECT_EQ(filter->GetSubSteps(), 2);
   EXPECT_LT(filter->GetLargestValidStep(), 0.8);
+}
+
+TEST_F(MorphValidity, CertifiesOnRequest)
+{
+  auto warp = morphed<vtkFEMWarpMorph>(this->Grid, grids::twist);
+  warp->Update();
+  EXPECT_FALSE(warp->GetOutput()->GetCellData()->HasArray("JacobianCertificate"));
+  EXPECT_EQ(warp->GetCertifiedCells(), 0);
+
+  warp->CertifyOn();
+  warp->Update();
+  EXPECT_EQ(warp->GetPrepareCount(), 1);
+  EXPECT_EQ(warp->GetCertifiedCells(), 216);
+  EXPECT_EQ(warp->GetUncertifiedCells(), 0);
+  EXPECT_EQ(warp->GetUndecidedCells(), 0);
+  vtkDataArray* certificate = warp->GetOutput()->GetCellData()->GetArray("JacobianCertificate");
+  ASSERT_NE(certificate, nullptr);
+  EXPECT_EQ(certificate->GetRange()[0], 1);
+
+  // An input's certificate is not that of the morphed mesh.
+  vtkNew<vtkFEMWarpMorph> again;
+  again->SetInputData(warp->GetOutput());
+  again->SetBoundaryData(grids::boundary(warp->GetOutput(), grids::twist));
+  again->Update();
+  EXPECT_FALSE(again->GetOutput()->GetCellData()->HasArray("JacobianCertificate"));
+  EXPECT_FALSE(again->GetOutput()->GetFieldData()->HasArray("CertifiedCells"));
+
+  auto inverted = morphed<vtkFEMWarpMorph>(this->Grid, waves);
+  inverted->CertifyOn();
+  inverted->SetValidityToNone();
+  inverted->Update();
+  EXPECT_GE(inverted->GetUncertifiedCells(), inverted->GetInvertedCells());
+  EXPECT_GT(inverted->GetInvertedCells(), 0);
+
+  auto valid = morphed<vtkInversionFreeMorph>(this->Grid, waves);
+  valid->Update();
+  EXPECT_EQ(valid->GetCertifiedCells(), 216);
 }

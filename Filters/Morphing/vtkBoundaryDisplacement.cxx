@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkBoundaryDisplacement.h"
+
+#include "Error.h"
+#include "vtkMorphBoundaryModel.h"
+#include "vtkMorphChoice.h"
+#include "vtkMorphDisplacedSurface.h"
+#include "vtkMorphExecution.h"
+#include "vtkMorphInput.h"
+#include "vtkMorphMonitor.h"
+#include "vtkMorphMotion.h"
+#include "vtkMorphPatches.h"
+#include "vtkMorphSpread.h"
+
+#include <vtkAbstractTransform.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkExtractSelection.h>
+#include <vtkImplicitFunction.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkSmartPointer.h>
+#include <vtkTrivialProducer.h>
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkBoundaryDisplacement);
+
+namespace
+{
+/// What a choice was made from. Times tell an object apart from any other that was there before.
+struct ChoiceKey
+{
+  vtkIdType InputVersion = -1;
+  int Moving = -1;
+  std::set<std::string> Patches, HeldPatches;
+  vtkMTimeType Region = 0, Selection = 0;
+
+  bool operator==(const ChoiceKey& other) const
+  {
+    return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
+           this->Patches == other.Patches && this->HeldPatches == other.HeldPatches &&
+           this->Region == other.Region && this->Selection == other.Selection;
+  }
+};
+
+vtkMTimeType timeOf(vtkObject* object)
+{
+  return object ? object->GetMTime() : 0;
+}
+
+/// Whether that changed the names.
+bool setStatus(std::set<std::string>& names, const std::string& name, bool status)
+{
+  return status ? names.insert(name).second : names.erase(name) > 0;
+}
+
+/// Diagonal of the bounding box of the boundary's nodes.
+double size(const vtkMorphBoundaryModel& model)
+{
+  const std::vector<morph::Index>& nodes = model.Faces().nodes;
+  Eigen::RowVector3d low = model.Points().row(nodes.front()), high = low;
+  for (morph::Index node : nodes)
+  {
+    low = low.cwiseMin(model.Points().row(node));
+    high = high.cwiseMax(model.Points().row(node));
+  }
+  return (high - low).norm();
+}
+
+/// The data on a port, where an update would not change them.
+vtkDataObject* upToDateInput(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
+  if (vtkTrivialProducer::SafeDownCast(filter->GetInputAlgorithm(0, 0)))
+  {
+    return data;
+  }
+  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
+  return data && upstream && data->GetUpdateTime() > upstream->GetPipelineMTime() ? data : nullptr;
+}
+}
+
+struct vtkBoundaryDisplacement::vtkInternals
+{
+  std::set<std::string> Patches, HeldPatches;
+  vtkNew<vtkDataArraySelection> PatchList;
+  vtkSmartPointer<vtkImplicitFunction> Region;
+  vtkSmartPointer<vtkAbstractTransform> Transform;
+  vtkSmartPointer<vtkExtractSelection> Extractor;
+
+  vtkMorphBoundaryModel Model;
+  std::vector<std::string> Warnings; ///< of the geometry, not reported yet
+  ChoiceKey ChosenFrom;
+  vtkMorphChoice::Result Choice;
+  vtkMorphSpread Spread;
+};
+
+vtkBoundaryDisplacement::vtkBoundaryDisplacement()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->ResetResults();
+}
+
+vtkBoundaryDisplacement::~vtkBoundaryDisplacement()
+{
+  this->SetDisplacementArray(nullptr);
+  this->SetSurfaceIdArray(nullptr);
+}
+
+void vtkBoundaryDisplacement::SetSelectionConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkBoundaryDisplacement::SetSelectionData(vtkSelection* selection)
+{
+  this->SetInputDataObject(1, selection);
+}
+
+void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extractor)
+{
+  if (this->Internals->Extractor != extractor)
+  {
+    this->Internals->Extractor = extractor;
+    this->Internals->ChosenFrom = ChoiceKey();
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::SetPatchStatus(const char* name, int status)
+{
+  if (name && setStatus(this->Internals->Patches, name, status != 0))
+  {
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::RemoveAllPatches()
+{
+  if (!this->Internals->Patches.empty())
+  {
+    this->Internals->Patches.clear();
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::SetHeldPatchStatus(const char* name, int status)
+{
+  if (name && setStatus(this->Internals->HeldPatches, name, status != 0))
+  {
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::RemoveAllHeldPatches()
+{
+  if (!this->Internals->HeldPatches.empty())
+  {
+    this->Internals->HeldPatches.clear();
+    this->Modified();
+  }
+}
+
+vtkDataArraySelection* vtkBoundaryDisplacement::GetPatchList()
+{
+  return this->Internals->PatchList;
+}
+
+void vtkBoundaryDisplacement::SetRegion(vtkImplicitFunction* region)
+{
+  if (this->Internals->Region != region)
+  {
+    this->Internals->Region = region;
+    this->Modified();
+  }
+}
+
+vtkImplicitFunction* vtkBoundaryDisplacement::GetRegion()
+{
+  return this->Internals->Region;
+}
+
+void vtkBoundaryDisplacement::SetTransform(vtkAbstractTransform* transform)
+{
+  if (this->Internals->Transform != transform)
+  {
+    this->Internals->Transform = transform;
+    this->Modified();
+  }
+}
+
+vtkAbstractTransform* vtkBoundaryDisplacement::GetTransform()
+{
+  return this->Internals->Transform;
+}
+
+int vtkBoundaryDisplacement::GetClassifyCount() const
+{
+  return this->Internals->Model.ClassifyCount();
+}
+
+int vtkBoundaryDisplacement::GetPrepareCount() const
+{
+  return this->Internals->Spread.PrepareCount();
+}
+
+vtkMTimeType vtkBoundaryDisplacement::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  // What is not in use may change without an execution.
+  if (this->Motion == TRANSFORM)
+  {
+    time = std::max(time, timeOf(this->Internals->Transform));
+  }
+  if (this->Moving == MOVE_REGION)
+  {
+    time = std::max(time, timeOf(this->Internals->Region));
+  }
+  return time;
+}
+
+int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataObject" : "vtkSelection");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkBoundaryDisplacement::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  // A user who is about to choose patches wants to see their names before the first execution.
+  auto* input = vtkPointSet::SafeDownCast(upToDateInput(this, inputVector));
+  if (!input || input->GetNumberOfCells() == 0)
+  {
+    return 1;
+  }
+  vtkMorphMonitor monitor(nullptr, this->NumberOfThreads);
+  try
+  {
+    this->Classify(vtkMorphInput::RequireGridOrPolyData(input, "The input"), monitor);
+  }
+  catch (const std::exception&)
+  {
+    // The execution will meet with it again, and report it.
+    this->Internals->PatchList->RemoveAllArrays();
+  }
+  return 1;
+}
+
+int vtkBoundaryDisplacement::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
+  vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->ResetResults();
+  vtkMorphMonitor monitor(this, this->NumberOfThreads);
+  const auto displace = [&]
+  {
+    const int ranks = vtkMorphInput::RequireOneRankWithCells(vtkDataSet::SafeDownCast(data));
+    vtkPointSet* input = vtkMorphInput::RequireGridOrPolyData(data, "The input");
+    if (ranks == 0 || input->GetNumberOfCells() > 0)
+    {
+      this->Displace(input, selection, output, monitor);
+    }
+  };
+  const auto clear = [&]
+  {
+    output->Initialize();
+    this->ResetResults();
+  };
+  const int done = vtkMorphExecution::Run(this, "displace this mesh's boundary", displace, clear);
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return done;
+}
+
+void vtkBoundaryDisplacement::Classify(vtkPointSet* input, vtkMorphMonitor& monitor)
+{
+  vtkInternals& own = *this->Internals;
+  vtkMorphGeometry::Options options;
+  options.FeatureAngle = this->FeatureAngle;
+  options.CornerAngle = this->CornerAngle;
+  options.SurfaceIdArray = vtkMorphInput::ArrayName(this->SurfaceIdArray);
+  options.UseGeometryArrays = this->UseGeometryArrays;
+  const int before = own.Model.ClassifyCount();
+  own.Model.Update(input, options, monitor);
+  if (own.Model.ClassifyCount() != before || own.PatchList->GetNumberOfArrays() == 0)
+  {
+    own.Warnings = monitor.TakeWarnings();
+    own.PatchList->RemoveAllArrays();
+    for (const std::string& name : vtkMorphPatches::Names(own.Model.Geometry()))
+    {
+      own.PatchList->AddArray(name.c_str(), false);
+    }
+  }
+}
+
+void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
+{
+  vtkInternals& own = *this->Internals;
+  ChoiceKey key;
+  key.InputVersion = own.Model.InputVersion();
+  key.Moving = this->Moving;
+  key.HeldPatches = own.HeldPatches;
+  vtkMorphChoice::Options options;
+  options.How = static_cast<vtkMorphChoice::By>(this->Moving);
+  options.HeldPatches = own.HeldPatches;
+  vtkSmartPointer<vtkExtractSelection> extractor = own.Extractor;
+  if (this->Moving == MOVE_SELECTION)
+  {
+    key.Selection = timeOf(selection);
+    if (!extractor)
+    {
+      extractor = vtkSmartPointer<vtkExtractSelection>::New();
+    }
+    options.Selection = selection;
+    options.Extractor = extractor;
+  }
+  else if (this->Moving == MOVE_PATCHES)
+  {
+    key.Patches = options.Patches = own.Patches;
+  }
+  else if (this->Moving == MOVE_REGION)
+  {
+    key.Region = timeOf(own.Region);
+    options.Region = own.Region;
+  }
+  if (!(key == own.ChosenFrom))
+  {
+    own.ChosenFrom = ChoiceKey(); // should it throw
+    own.Choice = vtkMorphChoice::Choose(input, own.Model, options);
+    own.ChosenFrom = key;
+    ++this->ChooseCount;
+  }
+}
+
+void vtkBoundaryDisplacement::Displace(
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, vtkMorphMonitor& monitor)
+{
+  vtkInternals& own = *this->Internals;
+  try
+  {
+    monitor.SetRange(0, 0.5);
+    this->Classify(input, monitor);
+  }
+  catch (...)
+  {
+    own.PatchList->RemoveAllArrays();
+    throw;
+  }
+  for (const std::string& warning : own.Warnings)
+  {
+    monitor.warn(warning);
+  }
+  own.Warnings.clear();
+  this->Choose(input, selection);
+  monitor.check();
+
+  vtkMorphMotion::Options motion;
+  motion.How = static_cast<vtkMorphMotion::Kind>(this->Motion);
+  motion.Transform = own.Transform;
+  motion.Vector = { this->Vector[0], this->Vector[1], this->Vector[2] };
+  motion.Distance = this->Distance;
+  motion.ArrayName = vtkMorphInput::ArrayName(this->DisplacementArray);
+  motion.ScaleFactor = this->ScaleFactor;
+  const morph::Points targets = vtkMorphMotion::Targets(input, own.Model, own.Choice, motion);
+
+  vtkMorphSpread::Options rest;
+  rest.How = static_cast<vtkMorphSpread::Kind>(this->Surroundings);
+  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
+  rest.Follow.unattached = static_cast<morph::Unattached>(this->UnattachedMotion);
+  rest.Radius = this->FalloffRadius * size(own.Model);
+  monitor.SetRange(0.5, 0.9);
+  const vtkMorphSpread::Result result =
+    own.Spread.Spread(own.Model, own.Choice, targets, rest, monitor);
+  const std::vector<morph::Index> collapsed =
+    vtkMorphMotion::Collapsed(own.Model, own.Choice, result.Moved);
+  if (!collapsed.empty())
+  {
+    monitor.warn(
+      "The motion leaves faces of the boundary without area, and no cell behind them can "
+      "be valid: the output's cell ids " +
+      morph::listIds(collapsed) + ". Is a scale zero?");
+  }
+  vtkMorphDisplacedSurface::Write(own.Model, result, input, this->OutputPointsPrecision, output);
+  const auto count = [&result](vtkMorphSpread::Role role)
+  { return std::count(result.Roles.begin(), result.Roles.end(), role); };
+  this->MovingPoints = count(vtkMorphSpread::Moves);
+  this->HeldPoints = count(vtkMorphSpread::IsHeld);
+  this->FollowingPoints = count(vtkMorphSpread::Follows);
+}
+
+void vtkBoundaryDisplacement::ResetResults()
+{
+  this->MovingPoints = this->HeldPoints = this->FollowingPoints = 0;
+}
+
+void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  const auto list = [&](const char* name, const std::set<std::string>& values)
+  {
+    os << indent << name << ": ";
+    for (const std::string& value : values)
+    {
+      os << (value == *values.begin() ? "" : ", ") << value;
+    }
+    os << "\n";
+  };
+  os << indent << "Moving: " << this->Moving << "\n";
+  list("Patches", this->Internals->Patches);
+  list("HeldPatches", this->Internals->HeldPatches);
+  os << indent << "Region: " << this->Internals->Region.Get() << "\n";
+  os << indent << "Motion: " << this->Motion << "\n";
+  os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
+  os << indent << "Vector: " << this->Vector[0] << " " << this->Vector[1] << " " << this->Vector[2]
+     << "\n";
+  os << indent << "Distance: " << this->Distance << "\n";
+  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
+  os << indent << "Surroundings: " << this->Surroundings << "\n";
+  os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
+  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
+  os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
+  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
+  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
+  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MovingPoints: " << this->MovingPoints << "\n";
+  os << indent << "HeldPoints: " << this->HeldPoints << "\n";
+  os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
+  os << indent << "ClassifyCount: " << this->GetClassifyCount() << "\n";
+  os << indent << "ChooseCount: " << this->ChooseCount << "\n";
+  os << indent << "PrepareCount: " << this->GetPrepareCount() << "\n";
+}

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkBoundaryDisplacement
+ * @brief   moves a part of a mesh's boundary, and says what the rest of the boundary does
+ *
+ * The way from a mesh to a displaced boundary in one filter: what moves, how, and what the rest does.
+ *
+ * - Moving says what: all of the boundary, a selection of points or cells, patches (the surfaces and
+ *   curves that vtkClassifyBoundary finds), or what is inside an implicit function, a box for
+ *   instance.
+ * - Motion says how: by a transform, by a vector, along the normals, or by a point vector array of
+ *   the input; each times ScaleFactor.
+ * - Surroundings says what the rest does: stay, follow as with vtkMorphBoundary (curves first, then
+ *   surfaces; vertices are held), or fade out with the distance from what moves. HeldPatches stay in
+ *   any case, but for the nodes that they share with what moves.
+ *
+ * Port 0 takes the mesh (vtkUnstructuredGrid), or its boundary (vtkPolyData) as
+ * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
+ * in a row move several parts, each in its own way. Such a boundary moves from where it is; its
+ * geometry is that of its point arrays GeometryDimension and GeometryId, or is found at its
+ * RestPosition. Port 1, optional, takes the vtkSelection that Moving Selection means. Selected cells
+ * move all of their nodes that are on the boundary.
+ *
+ * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced points:
+ * what a morph filter takes on its port 1. Added are the point arrays
+ * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades;
+ * - `BoundaryDisplacement` (active vectors): the point as written minus its RestPosition.
+ * No motion gives the input's points bit for bit.
+ *
+ * Made for dragging: boundary, geometry and weights are kept while the input, what is chosen and the
+ * options that they depend on are the same (ClassifyCount, PrepareCount). The result does not depend
+ * on what was kept.
+ *
+ * Warnings: faces that the motion leaves without area (a scale of zero, for instance), and surfaces
+ * that it would reflect. Errors, with an empty output: those of vtkClassifyBoundary; a surface
+ * without polygons, MorphPointId or RestPosition; nothing chosen, or nothing on the boundary; patches
+ * or arrays that do not exist; places that are not finite; nodes without a normal. An execution that
+ * is aborted gives an empty output and no message. With several MPI processes an execution is
+ * collective. Cost, where all is kept: a few passes over the boundary.
+ *
+ * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
+ * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
+ *
+ * @sa vtkMorphBoundary vtkClassifyBoundary vtkExtractMorphBoundary vtkMorphAlgorithm
+ */
+#ifndef vtkBoundaryDisplacement_h
+#define vtkBoundaryDisplacement_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkPolyDataAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+
+class vtkAbstractTransform;
+class vtkDataArraySelection;
+class vtkExtractSelection;
+class vtkImplicitFunction;
+class vtkMorphMonitor;
+class vtkPointSet;
+class vtkSelection;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkBoundaryDisplacement* New();
+  vtkTypeMacro(vtkBoundaryDisplacement, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkMTimeType GetMTime() override;
+
+  ///@{
+  /**
+   * The selection (port 1): the same as SetInputConnection() and SetInputData() on that port.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output);
+  void SetSelectionData(vtkSelection* selection);
+  ///@}
+
+  /**
+   * What evaluates the selection, for applications whose selections vtkExtractSelection does not
+   * know. Null: a vtkExtractSelection. Default: null.
+   */
+  void SetSelectionExtractor(vtkExtractSelection* extractor);
+
+  enum MovingParts
+  {
+    MOVE_EVERYTHING = 0,
+    MOVE_SELECTION = 1,
+    MOVE_PATCHES = 2,
+    MOVE_REGION = 3
+  };
+  ///@{
+  /**
+   * What moves: the whole boundary; what is selected; the patches of AddPatch(); what is inside
+   * Region. Default MOVE_EVERYTHING.
+   */
+  vtkSetClampMacro(Moving, int, MOVE_EVERYTHING, MOVE_REGION);
+  vtkGetMacro(Moving, int);
+  void SetMovingToEverything() { this->SetMoving(MOVE_EVERYTHING); }
+  void SetMovingToSelection() { this->SetMoving(MOVE_SELECTION); }
+  void SetMovingToPatches() { this->SetMoving(MOVE_PATCHES); }
+  void SetMovingToRegion() { this->SetMoving(MOVE_REGION); }
+  ///@}
+
+  ///@{
+  /**
+   * The patches that move, by name: "Surface 3" or "Curve 7", with the ids that vtkClassifyBoundary
+   * writes. A status other than 0 adds one, and 0 removes it. Default: none.
+   */
+  void SetPatchStatus(const char* name, int status);
+  void AddPatch(const char* name) { this->SetPatchStatus(name, 1); }
+  void RemoveAllPatches();
+  ///@}
+
+  ///@{
+  /**
+   * The patches that are held, by name. A node that moves is not held. Default: none.
+   */
+  void SetHeldPatchStatus(const char* name, int status);
+  void AddHeldPatch(const char* name) { this->SetHeldPatchStatus(name, 1); }
+  void RemoveAllHeldPatches();
+  ///@}
+
+  /**
+   * Names of all patches, surfaces first, as a list to choose from, with nothing enabled: as of the
+   * last execution, or, as soon as the information is updated, of input data that are up to date.
+   * Empty where there was an error.
+   */
+  vtkDataArraySelection* GetPatchList();
+
+  ///@{
+  /**
+   * Nodes at which this function is zero or less are those of MOVE_REGION. Default: null.
+   */
+  void SetRegion(vtkImplicitFunction* region);
+  vtkImplicitFunction* GetRegion();
+  ///@}
+
+  enum Motions
+  {
+    TRANSFORM = 0,
+    VECTOR = 1,
+    ALONG_NORMALS = 2,
+    ARRAY = 3
+  };
+  ///@{
+  /**
+   * How it moves: by Transform, by Vector, by Distance along its normals, or by DisplacementArray.
+   * Default TRANSFORM.
+   */
+  vtkSetClampMacro(Motion, int, TRANSFORM, ARRAY);
+  vtkGetMacro(Motion, int);
+  void SetMotionToTransform() { this->SetMotion(TRANSFORM); }
+  void SetMotionToVector() { this->SetMotion(VECTOR); }
+  void SetMotionToAlongNormals() { this->SetMotion(ALONG_NORMALS); }
+  void SetMotionToArray() { this->SetMotion(ARRAY); }
+  ///@}
+
+  ///@{
+  /**
+   * Takes moving nodes to their new places; null is the identity. A scale of zero is allowed: faces
+   * that it collapses are named in a warning. Default: null.
+   */
+  void SetTransform(vtkAbstractTransform* transform);
+  vtkAbstractTransform* GetTransform();
+  ///@}
+
+  ///@{
+  /**
+   * The displacement of all moving nodes, in the unit of the points. Default 0, 0, 0.
+   */
+  vtkSetVector3Macro(Vector, double);
+  vtkGetVector3Macro(Vector, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far nodes move along their normal, which points out of the mesh, in the unit of the points;
+   * negative is inwards. Normals are area-weighted over the faces that move, or, at nodes without
+   * one, over all faces round the node. Default 0.
+   */
+  vtkSetMacro(Distance, double);
+  vtkGetMacro(Distance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a point array of the input with three components, in the unit of the points. Empty or
+   * "None": none. Default: none.
+   */
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  ///@}
+
+  ///@{
+  /**
+   * How much of the motion to apply; 0 leaves the boundary where it is. Default 1, any finite number.
+   */
+  vtkSetMacro(ScaleFactor, double);
+  vtkGetMacro(ScaleFactor, double);
+  ///@}
+
+  enum SurroundingsMotions
+  {
+    STAY = 0,
+    FOLLOW = 1,
+    FADE = 2
+  };
+  ///@{
+  /**
+   * What the nodes do that neither move nor are held: stay; follow curves first and then surfaces, as
+   * with vtkMorphBoundary, vertices being held; or take part in the motion the less, the farther they
+   * are from the nearest moving node, up to FalloffRadius. Default FOLLOW.
+   */
+  vtkSetClampMacro(Surroundings, int, STAY, FADE);
+  vtkGetMacro(Surroundings, int);
+  void SetSurroundingsToStay() { this->SetSurroundings(STAY); }
+  void SetSurroundingsToFollow() { this->SetSurroundings(FOLLOW); }
+  void SetSurroundingsToFade() { this->SetSurroundings(FADE); }
+  ///@}
+
+  ///@{
+  /**
+   * The distance at which FADE has come to nothing, in units of the diagonal of the boundary's
+   * bounding box. At the distance d the displacement is that of the 20 nearest moving nodes, by
+   * inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1, range
+   * [0, 10]; 0 is as STAY.
+   */
+  vtkSetClampMacro(FalloffRadius, double, 0.0, 10.0);
+  vtkGetMacro(FalloffRadius, double);
+  ///@}
+
+  enum SurfaceMethods
+  {
+    WEIGHTED_RESIDUAL = 0,
+    SMOOTHING = 1
+  };
+  ///@{
+  /**
+   * How surfaces FOLLOW; see vtkMorphBoundary. Default WEIGHTED_RESIDUAL.
+   */
+  vtkSetClampMacro(SurfaceMethod, int, WEIGHTED_RESIDUAL, SMOOTHING);
+  vtkGetMacro(SurfaceMethod, int);
+  void SetSurfaceMethodToWeightedResidual() { this->SetSurfaceMethod(WEIGHTED_RESIDUAL); }
+  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SMOOTHING); }
+  ///@}
+
+  enum UnattachedMotions
+  {
+    UNATTACHED_AFFINELY = 0,
+    UNATTACHED_RIGIDLY = 1,
+    UNATTACHED_STAY = 2
+  };
+  ///@{
+  /**
+   * How closed curves without a vertex, and closed surfaces without a curve, FOLLOW where nothing
+   * moves or is held on them; see vtkMorphBoundary. Default UNATTACHED_AFFINELY.
+   */
+  vtkSetClampMacro(UnattachedMotion, int, UNATTACHED_AFFINELY, UNATTACHED_STAY);
+  vtkGetMacro(UnattachedMotion, int);
+  ///@}
+
+  ///@{
+  /**
+   * How the geometry is found: see vtkClassifyBoundary. Of a boundary on port 0, SurfaceIdArray is a
+   * cell array of it.
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  vtkSetStringMacro(SurfaceIdArray);
+  vtkGetStringMacro(SurfaceIdArray);
+  vtkSetMacro(UseGeometryArrays, bool);
+  vtkGetMacro(UseGeometryArrays, bool);
+  vtkBooleanMacro(UseGeometryArrays, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION for that of the input's (double where they are neither). Default
+   * DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
+   * [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution: the numbers of points with each Role. 0 where there was no result.
+   */
+  vtkGetMacro(MovingPoints, vtkIdType);
+  vtkGetMacro(HeldPoints, vtkIdType);
+  vtkGetMacro(FollowingPoints, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * How often this object has found the boundary's geometry, evaluated what is chosen, and made the
+   * weights by which a surface follows or the boundary fades, since it was made.
+   */
+  int GetClassifyCount() const;
+  vtkGetMacro(ChooseCount, int);
+  int GetPrepareCount() const;
+  ///@}
+
+protected:
+  vtkBoundaryDisplacement();
+  ~vtkBoundaryDisplacement() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkBoundaryDisplacement(const vtkBoundaryDisplacement&) = delete;
+  void operator=(const vtkBoundaryDisplacement&) = delete;
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  void ResetResults();
+  /// Finds the boundary and its geometry, and its patches' names.
+  void Classify(vtkPointSet* input, vtkMorphMonitor& monitor);
+  void Choose(vtkPointSet* input, vtkSelection* selection);
+  void Displace(
+    vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, vtkMorphMonitor& monitor);
+
+  int Moving = MOVE_EVERYTHING;
+  int Motion = TRANSFORM;
+  double Vector[3] = { 0, 0, 0 };
+  double Distance = 0;
+  char* DisplacementArray = nullptr;
+  double ScaleFactor = 1;
+  int Surroundings = FOLLOW;
+  double FalloffRadius = 0.1;
+  int SurfaceMethod = WEIGHTED_RESIDUAL;
+  int UnattachedMotion = UNATTACHED_AFFINELY;
+  double FeatureAngle = 25;
+  double CornerAngle = 45;
+  char* SurfaceIdArray = nullptr;
+  bool UseGeometryArrays = true;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  int NumberOfThreads = 0;
+
+  vtkIdType MovingPoints;
+  vtkIdType HeldPoints;
+  vtkIdType FollowingPoints;
+  int ChooseCount = 0;
+};
+
+#endif

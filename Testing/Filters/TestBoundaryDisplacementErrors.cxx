@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DisplacedBoundaries.h"
+
+#include "../Core/BoundaryShapes.h"
+#include "vtkClassifyBoundary.h"
+#include "vtkExtractMorphBoundary.h"
+
+#include <vtkBox.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkSphereSource.h>
+#include <vtkStringArray.h>
+#include <vtkTransform.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace displaced;
+using grids::Row;
+
+namespace
+{
+using Change = std::function<void(vtkBoundaryDisplacement*)>;
+
+vtkSmartPointer<vtkTransform> transformWith(int row, int column, double value)
+{
+  auto transform = vtkSmartPointer<vtkTransform>::New();
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->SetElement(row, column, value);
+  transform->SetMatrix(matrix);
+  return transform;
+}
+
+void addNumbers(vtkDataSet* data, const char* name, int components, vtkIdType n, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(n);
+  array->Fill(value);
+  data->GetPointData()->AddArray(array);
+}
+
+/// One error with that text, nothing on the output, and a good input afterwards works.
+void expectError(vtkBoundaryDisplacement* filter, const std::string& telling)
+{
+  SCOPED_TRACE(telling);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find(telling), std::string::npos) << listener.Errors[0];
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetMovingPoints(), 0);
+  filter->SetInputData(grids::hexes(2));
+  filter->SetMovingToEverything();
+  filter->SetMotionToVector();
+  filter->RemoveAllHeldPatches();
+  filter->SetSurfaceIdArray(nullptr);
+  filter->SetScaleFactor(1);
+  filter->SetVector(1, 1, 1);
+  filter->Update();
+  EXPECT_EQ(filter->GetMovingPoints(), 26);
+  EXPECT_EQ(listener.Errors.size(), 1u);
+}
+}
+
+TEST(BoundaryDisplacementErrors, WhatIsChosen)
+{
+  const std::vector<std::pair<std::string, Change>> cases = {
+    { "Nothing is selected", [](auto* f) { f->SetMovingToSelection(); } },
+    { "Nothing is selected",
+      [](auto* f)
+      {
+        f->SetMovingToSelection();
+        f->SetSelectionData(vtkSmartPointer<vtkSelection>::New());
+      } },
+    { "is on the boundary",
+      [](auto* f)
+      {
+        f->SetMovingToSelection();
+        f->SetSelectionData(indices(vtkSelectionNode::POINT, {}));
+      } },
+    { "is on the boundary",
+      [](auto* f)
+      {
+        f->SetMovingToSelection();
+        f->SetSelectionData(indices(vtkSelectionNode::POINT, { 13 })); // the one inside
+      } },
+    { "is on the boundary",
+      [](auto* f)
+      {
+        f->SetMovingToSelection();
+        f->SetSelectionData(indices(vtkSelectionNode::CELL, { 5000 }));
+      } },
+    { "neither points nor cells",
+      [](auto* f)
+      {
+        f->SetMovingToSelection();
+        f->SetSelectionData(indices(vtkSelectionNode::ROW, { 0 }));
+      } },
+    { "No patch is chosen", [](auto* f) { f->SetMovingToPatches(); } },
+    { "'Surface 99', which the boundary does not have; it has Surface 0, Surface 1",
+      [](auto* f)
+      {
+        f->SetMovingToPatches();
+        f->AddPatch("Surface 0");
+        f->AddPatch("Surface 99");
+      } },
+    { "HeldPatches names 'Top'", [](auto* f) { f->AddHeldPatch("Top"); } },
+    { "No region", [](auto* f) { f->SetMovingToRegion(); } },
+    { "inside the region",
+      [](auto* f)
+      {
+        vtkNew<vtkBox> box;
+        box->SetBounds(0.5, 1.5, 0.5, 1.5, 0.5, 1.5);
+        f->SetMovingToRegion();
+        f->SetRegion(box);
+      } },
+    { "SurfaceIdArray names 'Absent'", [](auto* f) { f->SetSurfaceIdArray("Absent"); } },
+  };
+  for (const auto& [telling, change] : cases)
+  {
+    auto filter = displaced::make(grids::hexes(2));
+    change(filter);
+    expectError(filter, telling);
+  }
+}
+
+TEST(BoundaryDisplacementErrors, TheMotion)
+{
+  const std::vector<std::pair<std::string, Change>> cases = {
+    { "Transform moves nodes to places that are not finite",
+      [](auto* f) { f->SetTransform(transformWith(0, 3, NAN)); } },
+    { "Transform moves nodes to places that are not finite",
+      [](auto* f) { f->SetTransform(transformWith(1, 1, INFINITY)); } },
+    { "Vector moves nodes",
+      [](auto* f)
+      {
+        f->SetMotionToVector();
+        f->SetVector(0, NAN, 0);
+      } },
+    { "Distance moves nodes",
+      [](auto* f)
+      {
+        f->SetMotionToAlongNormals();
+        f->SetDistance(NAN);
+      } },
+    { "ScaleFactor is not finite", [](auto* f) { f->SetScaleFactor(NAN); } },
+    { "No array is named", [](auto* f) { f->SetMotionToArray(); } },
+    { "'Gone', which the input does not have",
+      [](auto* f)
+      {
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Gone");
+      } },
+    { "has 2 components",
+      [](auto* f)
+      {
+        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Two", 2, 27, 1);
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Two");
+      } },
+    { "has 26 values for the input's 27 points",
+      [](auto* f)
+      {
+        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Short", 3, 26, 1);
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Short");
+      } },
+    { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, "
+      "1",
+      [](auto* f)
+      {
+        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Wild");
+      } },
+    { "is not numeric",
+      [](auto* f)
+      {
+        vtkNew<vtkStringArray> text;
+        text->SetName("Text");
+        text->SetNumberOfValues(27);
+        vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0))->GetPointData()->AddArray(text);
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Text");
+      } },
+  };
+  for (const auto& [telling, change] : cases)
+  {
+    auto filter = displaced::make(grids::hexes(2));
+    change(filter);
+    expectError(filter, telling);
+  }
+}
+
+TEST(BoundaryDisplacementErrors, TheInput)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, grids::hexes(2));
+  vtkNew<vtkUnstructuredGrid> flat;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  points->InsertNextPoint(1, 0, 0);
+  points->InsertNextPoint(0, 1, 0);
+  flat->SetPoints(points);
+  const vtkIdType corners[] = { 0, 1, 2 };
+  flat->InsertNextCell(VTK_TRIANGLE, 3, corners);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkNew<vtkClassifyBoundary> classify;
+  classify->SetInputData(grids::hexes(2));
+  classify->Update();
+  auto moved = grids::boundary(grids::hexes(2), grids::affine);
+  moved->GetPoints()->SetPoint(3, NAN, 0, 0);
+  auto broken = grids::copy(grids::hexes(2));
+  broken->GetPoints()->SetPoint(3, NAN, 0, 0);
+  const std::vector<std::pair<std::string, vtkSmartPointer<vtkDataObject>>> cases = {
+    { "is a vtkImageData", image.Get() },
+    { "Merge Blocks", blocks.Get() },
+    { "no cells", vtkSmartPointer<vtkUnstructuredGrid>::New() },
+    { "is a volume cell", flat.Get() },
+    { "without polygons", vtkSmartPointer<vtkPolyData>::New() },
+    { "without polygons", classify->GetCurves() },
+    { "without the point array MorphPointId", sphere->GetOutput() },
+    { "not finite", moved },
+    { "not finite", broken },
+  };
+  for (const auto& [telling, input] : cases)
+  {
+    expectError(displaced::make(input), telling);
+  }
+}
+
+TEST(BoundaryDisplacementErrors, ACollapseIsAllowedAndNamed)
+{
+  auto filter = displaced::make(grids::make(meshes::hexes(2, 2, 2)));
+  filter->SetMovingToPatches();
+  filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[2] == 2; }).c_str());
+  vtkNew<vtkTransform> transform;
+  transform->Scale(0, 1, 1);
+  filter->SetTransform(transform);
+  filter->SetSurroundingsToStay();
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("without area"), std::string::npos) << listener.Warnings[0];
+  EXPECT_EQ(filter->GetMovingPoints(), 9);
+  // Across the flat patch a scale of zero moves it, and collapses nothing.
+  transform->Identity();
+  transform->Scale(1, 1, 0);
+  filter->Update();
+  EXPECT_EQ(listener.Warnings.size(), 1u);
+}
+
+TEST(BoundaryDisplacementErrors, AnExecutionThatIsAbortedIsSilent)
+{
+  auto filter = displaced::make(grids::hexes(3));
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Boundary Displacement as a user works with it: selections of each kind, the list of patches, the box, and a morph after it.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython boundary_displacement.py
+"""
+import os
+import unittest
+
+import numpy as np
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+CELLS = 6
+
+
+def points(proxy):
+    proxy.UpdatePipeline()
+    return vtk_to_numpy(servermanager.Fetch(proxy).GetPoints().GetData()).astype(float)
+
+
+def array(proxy, name):
+    return vtk_to_numpy(servermanager.Fetch(proxy).GetPointData().GetArray(name))
+
+
+def number(proxy, name):
+    """What the panel shows after Apply."""
+    proxy.UpdatePipeline()
+    proxy.UpdatePropertyInformation()
+    return getattr(proxy, name)
+
+
+class BoundaryDisplacementTests(unittest.TestCase):
+    def setUp(self):
+        wavelet = simple.Wavelet(WholeExtent=[0, CELLS, 0, CELLS, 0, CELLS])
+        self.mesh = simple.AppendDatasets(Input=[wavelet])
+        self.rest = points(self.mesh)
+        self.displacement = BoundaryDisplacement(Input=self.mesh)
+        self.addCleanup(self.clear)
+
+    def clear(self):
+        simple.ClearSelection(self.mesh)
+        for view in simple.GetRenderViews():
+            simple.Delete(view)
+
+    def top_surface(self):
+        """The name of the surface at the top, as the result shows it."""
+        output = servermanager.Fetch(BoundaryDisplacement(Input=self.mesh))
+        ids = vtk_to_numpy(output.GetCellData().GetArray("GeometryId"))
+        for cell, number_ in enumerate(ids):
+            bounds = output.GetCell(cell).GetBounds()
+            if bounds[4] == CELLS:
+                return f"Surface {number_}"
+        return self.fail("no surface is at the top")
+
+    def assert_moves(self, where):
+        """Exactly the boundary nodes at rest where `where` (a function of points) holds move."""
+        self.displacement.UpdatePipeline()
+        role = array(self.displacement, "Role")
+        rest = array(self.displacement, "RestPosition")[:, :3]
+        np.testing.assert_array_equal(role == 1, where(rest))
+        self.assertEqual(number(self.displacement, "MovingPoints"), where(rest).sum())
+
+    def select(self, field, query):
+        simple.Show(self.mesh, simple.CreateRenderView())
+        simple.QuerySelect(QueryString=query, FieldType=field, Source=self.mesh)
+        self.displacement.Moving = "Selection"
+        self.displacement.Selection = self.mesh.GetSelectionInput(0)
+
+    def test_patches_are_listed_before_the_first_apply(self):
+        available = self.displacement.GetProperty("Patches").GetAvailable()
+        self.assertEqual(available[:6], [f"Surface {i}" for i in range(6)])
+        self.assertEqual(len(available), 6 + 12)
+        self.assertEqual(list(self.displacement.Patches), [])
+        self.assertEqual(list(self.displacement.HeldPatches), [])
+        self.displacement.FeatureAngle = 180
+        number(self.displacement, "MovingPoints")
+        self.assertEqual(self.displacement.GetProperty("Patches").GetAvailable(), ["Surface 0"])
+
+    def test_a_patch_by_the_box_and_the_volume_follows(self):
+        move = self.displacement
+        move.Moving = "Patches"
+        move.Patches = [self.top_surface()]
+        move.Transform.Translate = [1, 0, 2]
+        move.Transform.Scale = [1, 1, 1.5]
+        self.assert_moves(lambda x: x[:, 2] == CELLS)
+        morph = MorphFEMWARP(Input=self.mesh, Boundary=move)
+        moved = points(morph)
+        # The whole mesh follows as the sides do: linear in the height.
+        expected = self.rest + np.outer(self.rest[:, 2] / CELLS, [1, 0, 0.5 * CELLS + 2])
+        np.testing.assert_allclose(moved, expected, atol=2e-5)
+        self.assertEqual(number(morph, "InvertedCells"), 0)
+        self.assertEqual(morph.UnmatchedPoints, 0)
+        self.assertEqual(morph.PrescribedPoints, (CELLS + 1) ** 3 - (CELLS - 1) ** 3)
+
+    def test_dragging_the_box_repeats_nothing(self):
+        move = self.displacement
+        move.Moving = "Patches"
+        move.Patches = [self.top_surface()]
+        morph = MorphFEMWARP(Input=self.mesh, Boundary=move)
+        for step in range(1, 5):
+            move.Transform.Rotate = [0, 0, 5 * step]
+            move.Transform.Translate = [0, 0.1 * step, 0.2 * step]
+            morph.UpdatePipeline()
+            c, s = np.cos(np.radians(5 * step)), np.sin(np.radians(5 * step))
+            top = self.rest[:, 2] == CELLS
+            expected = self.rest[top] @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [0, 0.1 * step, 0.2 * step]
+            np.testing.assert_allclose(points(morph)[top], expected, atol=1e-5)
+            if step == 1:
+                before = number(move, "PrepareCount")
+        self.assertEqual(number(move, "ClassifyCount"), 1)
+        self.assertEqual(number(move, "PrepareCount"), before)
+        self.assertEqual(number(morph, "PrepareCount"), 1)
+
+    def test_a_selection_by_find_data(self):
+        """Points and cells of the mesh itself, by a query, which plain VTK does not know."""
+        move = self.displacement
+        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
+        self.select("POINT", f"id >= {(CELLS + 1) ** 2 * CELLS}")
+        self.assert_moves(lambda x: x[:, 2] == CELLS)
+        moved = points(MorphFEMWARP(Input=self.mesh, Boundary=move))
+        top = self.rest[:, 2] == CELLS
+        np.testing.assert_allclose(moved[top], self.rest[top] + [0, 0, 1], atol=1e-6)
+        self.select("CELL", f"id >= {CELLS ** 3 - CELLS}")
+        self.assert_moves(lambda x: (x[:, 2] >= CELLS - 1) & (x[:, 1] >= CELLS - 1))
+
+    def test_a_selection_by_the_mouse(self):
+        move = self.displacement
+        move.Moving, move.Surroundings = "Selection", "Stay"
+        view = simple.CreateRenderView()
+        view.ViewSize = [400, 400]
+        simple.Show(self.mesh, view).SetRepresentationType("Surface")
+        middle = CELLS / 2
+        view.CameraPosition, view.CameraFocalPoint = [middle, middle, 10 * CELLS], [middle, middle, middle]
+        view.CameraViewUp = [0, 1, 0]
+        view.CameraParallelProjection = 1
+        view.CameraParallelScale = CELLS
+        simple.Render(view)
+        simple.SelectSurfacePoints(Rectangle=[0, 0, 400, 400], View=view)
+        move.Selection = self.mesh.GetSelectionInput(0)
+        self.assert_moves(lambda x: x[:, 2] == CELLS)
+        simple.SelectPointsThrough(Rectangle=[0, 0, 400, 230], View=view)
+        move.Selection = self.mesh.GetSelectionInput(0)
+        self.assert_moves(lambda x: x[:, 1] <= middle)
+
+    def test_a_new_filter_takes_the_active_selection(self):
+        self.select("POINT", "id >= 10")
+        other = BoundaryDisplacement(Input=self.mesh)
+        self.assertEqual(other.Moving, "Everything")
+        self.assertIsNotNone(other.Selection)
+
+    def test_inside_a_region(self):
+        move = self.displacement
+        move.Moving, move.Surroundings = "Inside Region", "Stay"
+        # The box arrives round the mesh.
+        self.assert_moves(lambda x: x[:, 0] >= 0)
+        move.Region.Position = [-1, -1, CELLS - 0.5]
+        move.Region.Length = [CELLS + 2, CELLS + 2, 1]
+        self.assert_moves(lambda x: x[:, 2] == CELLS)
+        move.Region = "Sphere"
+        move.Region.Center = [0, 0, 0]
+        move.Region.Radius = 2.1
+        self.assert_moves(lambda x: np.linalg.norm(x, axis=1) <= 2.1)
+        move.Region = "Plane"
+        move.Region.Origin = [0, 0, CELLS - 1.5]
+        move.Region.Normal = [0, 0, -1]
+        self.assert_moves(lambda x: x[:, 2] >= CELLS - 1)
+
+    def test_an_array_a_held_patch_and_two_parts(self):
+        shift = simple.Calculator(Input=self.mesh, Function="0.25*coordsX*kHat", ResultArrayName="Shift")
+        shift.UpdatePipeline()
+        first = BoundaryDisplacement(Input=shift, Moving="Patches", Motion="Array")
+        self.assertIn("Shift", first.GetProperty("DisplacementArray").GetAvailable())
+        first.DisplacementArray = "Shift"
+        top = self.top_surface()
+        first.Patches = [top]
+        others = [f"Surface {i}" for i in range(6) if f"Surface {i}" != top]
+        first.HeldPatches = others
+        moved = points(first)
+        rest = array(first, "RestPosition")[:, :3]
+        is_top = rest[:, 2] == CELLS
+        np.testing.assert_allclose(moved[is_top, 2], CELLS + 0.25 * rest[is_top, 0], atol=1e-6)
+        np.testing.assert_array_equal(moved[~is_top], rest[~is_top])
+
+        second = BoundaryDisplacement(Input=first, Moving="Patches", Motion="Along Normals", Distance=0.5,
+                                      Surroundings="Stay")
+        bottom = next(name for name in others if self.bounds_of(first, name)[5] == 0)
+        second.Patches = [bottom]
+        both = points(second)
+        np.testing.assert_allclose(both[rest[:, 2] == 0, 2], -0.5, atol=1e-6)
+        np.testing.assert_array_equal(both[rest[:, 2] > 0], moved[rest[:, 2] > 0])
+        volume = MorphFEMWARP(Input=shift, Boundary=second)
+        self.assertEqual(number(volume, "InvertedCells"), 0)
+
+    def bounds_of(self, proxy, name):
+        """Of the rest positions of a surface's faces."""
+        output = servermanager.Fetch(proxy)
+        ids = vtk_to_numpy(output.GetCellData().GetArray("GeometryId"))
+        cells = [output.GetCell(int(c)) for c in np.flatnonzero(ids == int(name.split()[1]))]
+        nodes = {cell.GetPointId(k) for cell in cells for k in range(cell.GetNumberOfPoints())}
+        rest = array(proxy, "RestPosition")[sorted(nodes), :3]
+        return np.ravel(np.column_stack([rest.min(axis=0), rest.max(axis=0)]))
+
+    def test_the_scale_factor_and_fading(self):
+        move = self.displacement
+        move.Moving = "Patches"
+        move.Patches = [self.top_surface()]
+        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Fade"
+        move.FalloffRadius = 2.5 / (CELLS * np.sqrt(3))
+        move.ScaleFactor = 0.5
+        moved, rest = points(move), array(move, "RestPosition")[:, :3]
+        t = np.minimum((CELLS - rest[:, 2]) / 2.5, 1)
+        np.testing.assert_allclose(moved[:, 2] - rest[:, 2], 0.5 * (1 - t) ** 4 * (4 * t + 1), atol=1e-6)
+        np.testing.assert_allclose(array(move, "BoundaryDisplacement"), moved - rest, atol=1e-6)
+
+    def test_coloured_by_role(self):
+        self.displacement.UpdatePipeline()
+        display = simple.Show(self.displacement, simple.CreateRenderView())
+        self.assertEqual(list(display.ColorArrayName), ["POINTS", "Role"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same morph on a mesh from files of several formats, and its result saved to several: nodes, ids, arrays and sets survive.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython file_formats.py
+"""
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
+BENT = "coords+0.9*coordsX*sin(coordsZ/1.5)*jHat"
+# Debian's expat cannot read the appended data of the default.
+ASCII = {"DataMode": "Ascii"}
+
+# A cube with a name for its volume and for two of its faces, of edges that Gmsh meshes, too.
+CUBE = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 2, 2, 2};
+Physical Surface("left") = {1};
+Physical Surface("right") = {2};
+Physical Volume("body") = {1};
+Mesh.MeshSizeMax = 0.7;
+Mesh.SaveAll = 1;
+"""
+
+
+def fetched(proxy):
+    proxy.UpdatePipeline()
+    return servermanager.Fetch(proxy)
+
+
+def points(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def values(attributes, name):
+    return vtk_to_numpy(attributes.GetArray(name))
+
+
+def one_grid(reader):
+    """A file's cells with every array, as one unstructured grid."""
+    for name in ("CellArrayStatus", "PointArrayStatus"):
+        if name in reader.ListProperties():
+            setattr(reader, name, reader.GetProperty(name).GetAvailable())
+    reader.UpdatePipeline()
+    if reader.GetDataInformation().IsCompositeDataSet():
+        # Merge Blocks makes one node of those with the same id; nodes that the file has once for each block need Clean to Grid.
+        return simple.CleantoGrid(Input=simple.MergeBlocks(Input=reader))
+    return reader
+
+
+def bent(grid):
+    grid.UpdatePipeline()
+    boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), CoordinateResults=1, Function=BENT)
+    return MorphFEMWARP(Input=grid, Boundary=boundary)
+
+
+class FileFormats(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        part = simple.OpenDataFile(str(MESH))
+        ids = simple.GenerateIds(Input=part, PointIdsArrayName="Node", CellIdsArrayName="Element")
+        cls.part = ids
+        cls.morph = bent(ids)
+        cls.moved = points(fetched(cls.morph))
+        cls.vectors = values(fetched(cls.morph).GetPointData(), "FinalDisplacement")
+        cells = ids.GetDataInformation().GetNumberOfCells()
+        # Two blocks, each with nodes of its own between them.
+        cls.blocks = simple.GroupDatasets(Input=[
+            simple.Threshold(Input=ids, Scalars=["CELLS", "Element"], LowerThreshold=first, UpperThreshold=last)
+            for first, last in ((0, cells // 2 - 1), (cells // 2, cells))])
+
+    def path(self, name):
+        return str(Path(self.folder.name, name))
+
+    def assertIsMoved(self, data, cells=None):
+        """A morph of the mesh, or its surface, from a file: its nodes in any order, told apart by the array Node."""
+        self.assertEqual(data.GetNumberOfPoints(), len(self.moved))
+        self.assertEqual(data.GetNumberOfCells(), cells or self.part.GetDataInformation().GetNumberOfCells())
+        node = values(data.GetPointData(), "Node").astype(int)
+        self.assertEqual(sorted(node), list(range(len(node))))
+        np.testing.assert_allclose(points(data), self.moved[node], rtol=0, atol=1e-5)
+        np.testing.assert_allclose(values(data.GetPointData(), "FinalDisplacement"), self.vectors[node], rtol=0, atol=1e-6)
+
+    def test_read(self):
+        for name, source, options in (("part.vtu", self.part, ASCII), ("part.vtk", self.part, {}), ("part.e", self.part, {}),
+                                      ("blocks.e", self.blocks, {}), ("blocks.ex2", self.blocks, {}),
+                                      ("part.cgns", self.part, {})):
+            with self.subTest(file=name):
+                simple.SaveData(self.path(name), proxy=source, **options)
+                morph = bent(one_grid(simple.OpenDataFile(self.path(name))))
+                data = fetched(morph)
+                self.assertIsMoved(data)
+                element = values(data.GetCellData(), "Element").astype(int)
+                self.assertEqual(sorted(element), list(range(len(element))))
+                self.assertEqual(morph.UnmatchedPoints, 0)
+                self.assertAlmostEqual(morph.MinScaledJacobian, self.morph.MinScaledJacobian, delta=1e-5)
+
+    def test_gmsh(self):
+        """Whose files hold edges and faces beside the volume cells, and the number of the geometry that each is of."""
+        Path(self.path("cube.geo")).write_text(CUBE, encoding="utf-8")
+        subprocess.run([shutil.which("gmsh"), "-3", self.path("cube.geo"), "-format", "vtk", "-o", self.path("cube.vtk")], check=True,
+                       capture_output=True, timeout=60)
+        grid = simple.OpenDataFile(self.path("cube.vtk"))
+        before = fetched(grid)
+        data = fetched(bent(grid))
+        self.assertEqual(data.GetNumberOfCells(), before.GetNumberOfCells())
+        kinds = {data.GetCellType(i) for i in range(data.GetNumberOfCells())}
+        self.assertEqual(kinds & {3, 5, 10}, {3, 5, 10})  # edges, triangles, tetrahedra
+        quality = values(data.GetCellData(), "ScaledJacobian")
+        for i in range(data.GetNumberOfCells()):
+            self.assertEqual(np.isnan(quality[i]), data.GetCellType(i) != 10)
+        for i in range(before.GetCellData().GetNumberOfArrays()):
+            name = before.GetCellData().GetArrayName(i)
+            np.testing.assert_array_equal(values(data.GetCellData(), name), values(before.GetCellData(), name))
+        rest = points(before)
+        outside = ((rest == 0) | (rest == 2)).any(axis=1)
+        expected = rest + np.outer(0.9 * rest[:, 0] * np.sin(rest[:, 2] / 1.5), [0, 1, 0])
+        np.testing.assert_allclose(points(data)[outside], expected[outside], atol=1e-6)
+
+    def test_save(self):
+        for name, options in (("moved.vtu", ASCII), ("moved.vtk", {}), ("moved.e", {}), ("moved.cgns", {})):
+            with self.subTest(file=name):
+                simple.SaveData(self.path(name), proxy=self.morph, **options)
+                data = fetched(one_grid(simple.OpenDataFile(self.path(name))))
+                self.assertIsMoved(data)
+                quality = values(data.GetCellData(), "ScaledJacobian")
+                self.assertAlmostEqual(quality.min(), self.morph.MinScaledJacobian, delta=1e-12)
+
+    def test_save_surface(self):
+        surface = simple.ExtractSurface(Input=self.morph)
+        simple.SaveData(self.path("moved.stl"), proxy=surface)
+        read = simple.OpenDataFile(self.path("moved.stl"))
+        faces = fetched(surface)
+        data = fetched(read)
+        self.assertEqual(data.GetNumberOfCells(), 2 * faces.GetNumberOfCells())
+        np.testing.assert_allclose(data.GetBounds(), faces.GetBounds(), atol=1e-5)
+        nodes = {tuple(np.round(p, 4)) for p in points(faces)}
+        self.assertTrue({tuple(np.round(p, 4)) for p in points(data)} <= nodes)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Clicks in ParaView's window, written as the test scripts that ParaView plays (paraview --test-script)."""
+import os
+import subprocess
+from xml.sax.saxutils import quoteattr
+
+MAIN = "pqClientMainWindow/"
+PROPERTIES = MAIN + "propertiesDock/propertiesPanel/"
+PANEL = PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
+BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
+
+
+class Events:
+    """What a user does, in order. Names are those of ParaView 5.11's widgets."""
+
+    def __init__(self):
+        self.lines = []
+
+    def do(self, widget, command, argument=""):
+        self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} arguments={quoteattr(argument)}/>")
+
+    def expect(self, widget, argument, what="text"):
+        self.lines.append(f"<pqcheck object={quoteattr(widget)} property={quoteattr(what)} arguments={quoteattr(argument)}/>")
+
+    def menu(self, menu, action):
+        """menu: "menuTools", or with a submenu "menuFilters/Alphabetical"."""
+        self.do(MAIN + "menubar", "activate", menu.split("/")[0])
+        self.do(MAIN + "menubar/" + menu, "activate", action)
+
+    def load_plugin(self, path):
+        manager = MAIN + "PluginManagerDialog/"
+        self.menu("menuTools", "actionManage_Plugins")
+        self.do(manager + "splitter/localGroup/loadLocal", "activate")
+        self.do(manager + "pqFileDialog", "filesSelected", path)
+        self.do(manager + "buttonBox/1QPushButton0", "activate")
+
+    def open(self, path):
+        self.do(MAIN + "MainControlsToolbar/actionOpenData", "activate")
+        self.do(MAIN + "FileOpenDialog", "filesSelected", path)
+        self.apply()
+
+    def apply(self):
+        self.do(PROPERTIES + "Accept", "activate")
+
+    def select(self, place, browser=BROWSER):
+        """place: as "/0:0/1:0", row 1 under row 0 of the pipeline browser."""
+        for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+            self.do(browser, command, f"{buttons},0,60,10,{place}")
+
+    def filter(self, name, category="Mesh Morphing"):
+        self.menu("menuFilters/" + category, name)
+
+    def choose_input(self, port, place):
+        dialog = MAIN + "SelectInputDialog/"
+        self.do(dialog + "buttonFrame/" + port, "set_boolean", "true")
+        self.select(place, dialog + "pipelineView")
+        self.do(dialog + "buttonBox/1QPushButton0", "activate")
+
+    def set(self, name, command, value):
+        """In the panel; name: of the property and its widget."""
+        self.do(PANEL + name, command, value)
+
+    def play(self, folder, seconds=120):
+        """Plays all that in ParaView, with `folder` for its settings, and returns its exit code and messages."""
+        settings = folder / ".config/ParaView/ParaView5.11.0.ini"
+        settings.parent.mkdir(parents=True)
+        settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
+                            "[MainWindow]\nSize=@Size(1200 960)\nPosition=@Point(0 0)\n", encoding="utf-8")
+        script = folder / "events.xml"
+        script.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines, "</pqevents>"]), encoding="utf-8")
+        folder.chmod(0o700)
+        # Without DASHBOARD_TEST_FROM_CTEST ParaView asks whether to save the session when it leaves.
+        environment = {**os.environ, "HOME": str(folder), "XDG_RUNTIME_DIR": str(folder), "DASHBOARD_TEST_FROM_CTEST": "1"}
+        environment.pop("PV_PLUGIN_PATH", None)
+        played = subprocess.run(["paraview", f"--test-script={script}", "--exit"], env=environment, cwd=folder, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds)
+        return played.returncode, played.stdout

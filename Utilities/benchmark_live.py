@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter upstream to the finished
+picture, and where the time goes. Median of several drags after the first, which prepares the method.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
+         pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] [--methods FEMWARP,LBWARP] [--upstream Transform]
+"""
+import argparse
+import os
+import statistics
+import time
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints, vtkSMPTools
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+METHODS = "FEMWARP", "LBWARP", "WeightedResidual", "SimplexLinear", "SimplexNaturalNeighbor"
+COLUMNS = ("boundary", "prepare", "evaluate", "rest of filter", "surface", "render", "drag to picture")
+
+
+def cube(cells):
+    """cells^3 hexahedra in the unit cube."""
+    n = cells + 1
+    z, y, x = np.meshgrid(*[np.linspace(0, 1, n)] * 3, indexing="ij")
+    first = (np.arange(n ** 3).reshape(n, n, n)[:-1, :-1, :-1]).ravel()
+    corners = np.array([0, 1, n + 1, n, n * n, n * n + 1, n * n + n + 1, n * n + n])
+    nodes = (first[:, None] + corners).ravel()
+    points, array, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
+    points.SetData(numpy_to_vtk(np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1), deep=True))
+    array.SetData(numpy_to_vtkIdTypeArray(np.arange(0, len(nodes) + 1, 8), deep=True),
+                  numpy_to_vtkIdTypeArray(nodes, deep=True))
+    grid.SetPoints(points)
+    grid.SetCells(VTK_HEXAHEDRON, array)
+    return grid
+
+
+def seconds(action):
+    start = time.perf_counter()
+    action()
+    return time.perf_counter() - start
+
+
+class Drag:
+    """A boundary and what moves it; `move` makes step i's motion, with the boundary's top turned and lifted a bit more."""
+
+    def __init__(self, part, upstream):
+        if upstream == "Transform":
+            self.moved = simple.Transform(Input=ExtractMorphBoundary(Input=part))
+        else:
+            self.moved = BoundaryDisplacement(Input=part, Moving="Inside Region", Region="Box", Surroundings="Follow")
+            self.moved.Region.Position, self.moved.Region.Length = [-0.1, -0.1, 0.9], [1.2, 1.2, 0.2]
+        self.transform = self.moved.Transform
+
+    def move(self, step):
+        self.transform.Translate = [0, 0, 0.01 * (step + 1)]
+        self.transform.Rotate = [0, 0, 1.0 * (step + 1)]
+
+
+def measure(method, part, drag, drags):
+    """Medians of the columns, and the number of preparations and the first drag's seconds."""
+    morph = globals()["Morph" + method](Input=part, Boundary=drag.moved)
+    view = simple.CreateRenderView(ViewSize=[1000, 800])
+    display = simple.Show(morph, view)
+    simple.Show(simple.OutputPort(morph, 1), view)
+    display.SetRepresentationType("Surface")
+    drag.move(-1)
+    first = seconds(lambda: simple.Render(view))
+    prepare = morph.PrepareSeconds
+    surface = simple.ExtractSurface(Input=morph)
+    surface.UpdatePipeline()
+    rows = []
+    for step in range(drags):
+        drag.move(2 * step)
+        total = seconds(lambda: simple.Render(view))
+        drag.move(2 * step + 1)
+        boundary = seconds(drag.moved.UpdatePipeline)
+        whole = seconds(morph.UpdatePipeline)
+        extraction = seconds(surface.UpdatePipeline)
+        picture = seconds(lambda: simple.Render(view))
+        rows.append((boundary, morph.PrepareSeconds, morph.EvaluateSeconds,
+                     whole - morph.PrepareSeconds - morph.EvaluateSeconds, extraction, picture - extraction, total))
+    count = morph.PrepareCount
+    simple.Delete(surface)
+    simple.Delete(view)
+    simple.Delete(morph)
+    return [statistics.median(column) for column in zip(*rows)], count, first, prepare
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cells", type=int, default=50, help="cells along an edge of the cube")
+    parser.add_argument("--drags", type=int, default=7)
+    parser.add_argument("--methods", default=",".join(METHODS))
+    parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"), default="Transform")
+    options = parser.parse_args()
+    grid = cube(options.cells)
+    part = simple.TrivialProducer()
+    part.GetClientSideObject().SetOutput(grid)
+    print(f"{grid.GetNumberOfPoints():,} nodes, {grid.GetNumberOfCells():,} hexahedra; milliseconds; {options.upstream}; "
+          f"VTK's threads: {vtkSMPTools.GetBackend()}, cores: {os.cpu_count()}")
+    print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS) + f"{'prepared':>10}{'first':>10}")
+    for method in options.methods.split(","):
+        drag = Drag(part, options.upstream)
+        medians, count, first, prepare = measure(method, part, drag, options.drags)
+        print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians) + f"{count:>10.0f}{1e3 * first:10.0f}"
+              f"   (of it prepare {1e3 * prepare:.0f})", flush=True)
+
+
+if __name__ == "__main__":
+    main()
