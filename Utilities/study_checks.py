@@ -5,7 +5,7 @@
     pvpython Utilities/study_checks.py
 
 Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and absolute steps, where and when
-FEMWARP gives way on the canister and on the pipe, and what a mere stretch does to hexahedra and tetrahedra."""
+FEMWARP gives way on the canister and on the pipe, what a mere stretch does to hexahedra and tetrahedra, and where smoothing fails."""
 
 import argparse
 import os
@@ -29,6 +29,17 @@ from study_series import SeriesRun  # noqa: E402
 
 def quality(grid):
     return vtk_to_numpy(grid.GetCellData().GetArray("ScaledJacobian"))
+
+
+def measured(grid):
+    """(#cells,): scaled Jacobians of a vtkUnstructuredGrid."""
+    source = producer(grid)
+    measure = simple.ScaledJacobian(Input=source)
+    measure.UpdatePipeline()
+    found = quality(measure.GetClientSideObject().GetOutputDataObject(0)).copy()
+    simple.Delete(measure)
+    simple.Delete(source)
+    return found
 
 
 def morph(method, mesh, stepping, last=STEPS):
@@ -126,14 +137,23 @@ def check_stretch():
         mesh = Models.get("bore").read_small(kind)
         line = []
         for factor in (1, 2, 3):
-            source = producer(mesh.to_vtk(mesh.points * [1, 1, factor]))
-            measure = simple.ScaledJacobian(Input=source)
-            measure.UpdatePipeline()
-            found = quality(measure.GetClientSideObject().GetOutputDataObject(0))
+            found = measured(mesh.to_vtk(mesh.points * [1, 1, factor]))
             line.append(f"x{factor}: {found.min():.3f}, {found.mean():.3f}")
-            simple.Delete(measure)
-            simple.Delete(source)
         print(f"  {kind}: {'; '.join(line)}")
+
+
+def check_smoothing():
+    """Smoothing starts with the interior where it was: in absolute steps at rest, in relative ones a step behind. It has to untangle what the
+    boundary has run through by then, and should fail where that is several cells deep."""
+    print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved alone, and after smoothing")
+    for name in ("bore", "pipe"):
+        mesh = Models.get(name).read_small("hex")
+        for t in (0.05, 0.25, 0.5, 0.75, 1):
+            start = measured(mesh.to_vtk(mesh.moved(t)))
+            way = np.linalg.norm(mesh.moved(t) - mesh.points, axis=1).max() / edge(mesh)
+            _, _, found = final("Smoothing", mesh, "absolute", round(t * STEPS))
+            print(f"  {name} t = {t:.2f}: boundary moved by up to {way:.1f} edges; {int((start <= 0).sum())} of {len(start)},"
+                  f" then {int((found <= 0).sum())}")
 
 
 def main():
@@ -146,6 +166,7 @@ def main():
     check_canister()
     check_pipe()
     check_stretch()
+    check_smoothing()
 
 
 if __name__ == "__main__":
