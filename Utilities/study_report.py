@@ -19,10 +19,14 @@ from study_series import METHODS  # noqa: E402
 STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
                             ("#009e73", "^"), ("#cc79a7", "x"), ("#d55e00", "*"))))
 
+LEGEND = ("Quality: least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded"
+          " face or a corner), and t*, the t of the last step up to which no cell of the method's own is inverted; >= where the series"
+          " did not end by one.")
+
 
 def write_report(folder, records, scaling_file, steps):
     """Writes Study.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
-    text = ["# Results", ""]
+    text = ["# Results", "", LEGEND, ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
         found = [series for series in records.series() if series.surfaces == surfaces]
         for model in [name for name in Models.NAMES + Models.VARIANTS
@@ -62,9 +66,7 @@ def _quality_table(records, model, surfaces, steps, picture):
         rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
-    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", "",
-             "Least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded face or a corner), and t*,"
-             " the t of the last step without an inverted cell of the method's own; >= where the series did not end by one.", ""]
+    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", ""]
             + _table(head, rows))
 
 

@@ -181,6 +181,9 @@ class Validity(unittest.TestCase):
         updated(free)
         updated(linear)
         self.assertGreater(linear.MinScaledJacobian, 0.5)
+        self.assertGreater(free.MinScaledJacobian, 1.05 * linear.MinScaledJacobian)
+        free.ImproveWorst = 0
+        updated(free)
         self.assertEqual(free.MinScaledJacobian, linear.MinScaledJacobian)
         self.assertEqual(free.KeptLinear, 1)
 

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments behind the reading of the study's results in Documentation/Study.md, each a few seconds long.
+
+    pvpython Utilities/study_checks.py
+
+Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and absolute steps, where and when
+FEMWARP gives way on the canister and on the pipe, what a mere stretch does to hexahedra and tetrahedra, and where smoothing fails."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLogger
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+import Models  # noqa: E402  (needs the path above)
+from demo_picture import producer  # noqa: E402
+from models_folds import load_plugin  # noqa: E402
+from study_boundary import Boundaries, exact_positions, times  # noqa: E402
+from study_paper import STEPS  # noqa: E402
+from study_series import SeriesRun  # noqa: E402
+
+
+def quality(grid):
+    return vtk_to_numpy(grid.GetCellData().GetArray("ScaledJacobian"))
+
+
+def measured(grid):
+    """(#cells,): scaled Jacobians of a vtkUnstructuredGrid."""
+    source = producer(grid)
+    measure = simple.ScaledJacobian(Input=source)
+    measure.UpdatePipeline()
+    found = quality(measure.GetClientSideObject().GetOutputDataObject(0)).copy()
+    simple.Delete(measure)
+    simple.Delete(source)
+    return found
+
+
+def morph(method, mesh, stepping, last=STEPS):
+    """Yields (Step, grid) of steps on exact surfaces: the last alone for absolute ones."""
+    ts = times(mesh.model, STEPS)
+    positions = exact_positions(mesh, ts)
+    none_lost = [np.array([], int)] * len(ts)
+    run = SeriesRun(method, mesh, Boundaries(positions, none_lost), ts, stepping, os.cpu_count())
+    for number in [last] if stepping == "absolute" else range(last + 1):
+        yield run.step(number), run.mesh()
+    run.remove()
+
+
+def final(method, mesh, stepping, last=STEPS):
+    """(least scaled Jacobian, (#nodes, 3) points, (#cells,) scaled Jacobians) of the last step."""
+    for step, grid in morph(method, mesh, stepping, last):
+        result = step.minimum, vtk_to_numpy(grid.GetPoints().GetData()).copy(), quality(grid).copy()
+    return result
+
+
+def jittered(mesh, share):
+    """Moves the interior nodes at random by up to `share` of the mean edge."""
+    inside = np.setdiff1d(np.arange(len(mesh.points)), mesh.nodes)
+    points = mesh.points.copy()
+    points[inside] += np.random.default_rng(1).uniform(-1, 1, (len(inside), 3)) * share * edge(mesh)
+    mesh.points = points
+    return mesh
+
+
+def edge(mesh):
+    ends = mesh.points[mesh.cells[:, :2]]
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean()
+
+
+def check_steppings():
+    """LBWARP's weights are the mean where a node is the centre of its neighbors, and affinely so everywhere. Means of neighbors are kept by
+    the morph, so that the next relative step finds the same weights: it should end where absolute steps end, the others should not."""
+    print("Relative against absolute steps: small bore, hexahedra, S_F\n"
+          "  interior        method             absolute  relative  nodes apart, edges")
+    for share in (0, 0.15):
+        mesh = jittered(Models.get("bore").read_small("hex"), share)
+        for method in ("LBWARP", "FEMWARP", "Simplex-linear", "Weighted residual"):
+            (absolute, a, _), (relative, b, _) = (
+                final(method, mesh, stepping) for stepping in ("absolute", "relative"))
+            apart = np.linalg.norm(a - b, axis=1).max() / edge(mesh)
+            print(f"  {f'jittered {share}' if share else 'as made':15} {method:18} {absolute:8.4f}  {relative:8.4f}  {apart:8.3f}")
+
+
+def check_canister():
+    """Around a hole of radius r in a cylinder of radius R the harmonic displacement falls as the logarithm of the distance. The cells next
+    to the hole, h thick, are crushed on the side that the hole moves to when t D ln(1 + h/r) / ln(R/r) = h, D = 0.5. A displacement that is linear in
+    the gap, as simplex-linear's is, lasts until t D = R - r."""
+    mesh = Models.get("canister").read_small("hex")
+    hole, rim, travel = 0.25, 1, 0.5
+    radius = np.linalg.norm(mesh.points[:, :2], axis=1)
+    rings = np.unique(radius.round(6))
+    thick = rings[1] - rings[0]
+    crushed = thick * np.log(rim / hole) / (travel * np.log(1 + thick / hole))
+    print(f"\nCanister, hexahedra, absolute: cells at the hole {thick:.4f} thick; the logarithm crushes them at t = {crushed:.3f}"
+          f" (thinner ones from {hole * np.log(rim / hole) / travel:.3f} on), a linear displacement at {(rim - hole) / travel:.2f}")
+    for method in ("FEMWARP", "Simplex-linear"):
+        last = len(times(mesh.model, STEPS))
+        for number in range(last):
+            _, _, found = final(method, mesh, "absolute", number)
+            bad = mesh.cells[found <= 0]
+            if len(bad):
+                break
+        if not len(bad):
+            print(f"  {method}: no inverted cell up to t = {(last - 1) / STEPS:.2f}")
+            continue
+        centres = mesh.points[bad].mean(axis=1)
+        print(f"  {method}: first at t = {number / STEPS:.2f}, {len(bad)} cells, of which {int((radius[bad].min(axis=1) < rings[0] + 1e-6).sum())} at the hole,"
+              f" within {np.degrees(np.abs(np.arctan2(centres[:, 1], centres[:, 0]))).max():.0f} degrees of the way it moves")
+
+
+def check_pipe():
+    """Where straight and elbow join, the stretch along the pipe changes at once, and a harmonic displacement rounds that off inside the wall:
+    FEMWARP's worst cells should lie there."""
+    mesh = Models.get("pipe").make("hex")
+    print("\nPipe, hexahedra, absolute, S_F")
+    joints = np.array([[0, 0, 4.54], [3, 0, 7.54]])
+    axes = np.array([[0, 0, 1.0], [1.0, 0, 0]])
+    for method in ("FEMWARP", "LBWARP", "Simplex-linear"):
+        least, _, found = final(method, mesh, "absolute")
+        worst = mesh.points[mesh.cells[np.argsort(found)[:40]]].mean(axis=1)
+        away = np.abs(np.einsum("nd,jd->nj", worst, axes) - np.sum(joints * axes, axis=1)).min(axis=1)
+        print(f"  {method}: least {least:.3f}; the 40 worst cells are up to {away.max():.2f} from a joint's plane, whose cells are 0.17 long;"
+              f" {int((found < 0.9).sum())} cells of {len(found)} below 0.9")
+
+
+def check_stretch():
+    """An affine stretch along the cells' own axes leaves a hexahedron's scaled Jacobian as it is, but not a tetrahedron's."""
+    print("\nSmall bore stretched along its axis, least and mean scaled Jacobian")
+    for kind in ("hex", "tet"):
+        mesh = Models.get("bore").read_small(kind)
+        line = []
+        for factor in (1, 2, 3):
+            found = measured(mesh.to_vtk(mesh.points * [1, 1, factor]))
+            line.append(f"x{factor}: {found.min():.3f}, {found.mean():.3f}")
+        print(f"  {kind}: {'; '.join(line)}")
+
+
+def check_smoothing():
+    """Smoothing starts with the interior where it was: in absolute steps at rest, in relative ones a step behind. It has to untangle what the
+    boundary has run through by then, and should fail where that is several cells deep."""
+    print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved alone, and after smoothing")
+    for name in ("bore", "pipe"):
+        mesh = Models.get(name).read_small("hex")
+        for t in (0.05, 0.25, 0.5, 0.75, 1):
+            start = measured(mesh.to_vtk(mesh.moved(t)))
+            way = np.linalg.norm(mesh.moved(t) - mesh.points, axis=1).max() / edge(mesh)
+            _, _, found = final("Smoothing", mesh, "absolute", round(t * STEPS))
+            print(f"  {name} t = {t:.2f}: boundary moved by up to {way:.1f} edges; {int((start <= 0).sum())} of {len(start)},"
+                  f" then {int((found <= 0).sum())}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
+                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    load_plugin(parser.parse_args().plugin)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+    check_steppings()
+    check_canister()
+    check_pipe()
+    check_stretch()
+    check_smoothing()
+
+
+if __name__ == "__main__":
+    main()
