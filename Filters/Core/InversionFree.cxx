@@ -15,6 +15,7 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
+constexpr int FoldRounds = 3;
 constexpr double LeastGain = 1e-3; // of the least scaled Jacobian
 
 /// Of the volume cells, from node to node around them; 1 where there is none.
@@ -110,11 +111,36 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
+void InversionFree::untangleAroundFolds(
+  MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+{
+  std::vector<char> isFixed(points.rows(), 0);
+  for (Index node : this->partition().prescribed)
+  {
+    isFixed[node] = 1;
+  }
+  TargetShapes targets =
+    targetShapes(this->referenceMesh_, this->orientation_, points, this->target_, monitor);
+  for (int round = 0; round < FoldRounds; ++round)
+  {
+    if (dropFolded(this->referenceMesh_, isFixed, points, targets) == 0)
+    {
+      return;
+    }
+    energy.setTargets(targets);
+    if (stages.untangle(points, monitor))
+    {
+      return;
+    }
+  }
+}
+
 bool InversionFree::minimize(
   MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
   if (!stages.untangle(points, monitor))
   {
+    this->untangleAroundFolds(energy, stages, points, monitor);
     return false;
   }
   monitor.progress(0.7);

@@ -78,6 +78,9 @@ private:
   /// `warped`, FEMWARP's mesh, or that of simplex-linear if its least scaled Jacobian is higher.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   bool minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  /// Where folds of the boundary keep the mesh tangled: without the tetrahedra behind them, so that all others become valid.
+  void untangleAroundFolds(
+    MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(

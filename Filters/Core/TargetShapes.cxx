@@ -314,4 +314,39 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
     });
   return result;
 }
+
+Index dropFolded(
+  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets)
+{
+  Index dropped = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    const SimplicialDecomposition parts = simplicialDecomposition(shape.shape);
+    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    {
+      TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
+      const int* corner = parts.tets[t - targets.start[c]].corner;
+      Index node[4];
+      std::transform(
+        corner, corner + 4, node, [&](int a) { return mesh.cell(c)[shape.cornerNode[a]]; });
+      if (!(tetrahedron.weight > 0) ||
+          std::count_if(node, node + 4, [&](Index n) { return isFixed[n] != 0; }) < 2)
+      {
+        continue;
+      }
+      Eigen::Matrix3d D;
+      for (int k = 0; k < 3; ++k)
+      {
+        D.col(k) = (points.row(node[k + 1]) - points.row(node[0])).transpose();
+      }
+      if (!((D * Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse)).determinant() > 0))
+      {
+        tetrahedron.weight = 0;
+        ++dropped;
+      }
+    }
+  }
+  return dropped;
+}
 }

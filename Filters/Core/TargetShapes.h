@@ -40,4 +40,9 @@ struct TargetShapes
 /// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
 TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, Target target, Monitor& monitor);
+
+/// Gives weight 0 to the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have at least two corners whose `isFixed`
+/// (#nodes) is not 0: behind a fold of the boundary, where none can be positive. Returns how many.
+Index dropFolded(
+  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets);
 }
