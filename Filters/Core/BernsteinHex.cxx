@@ -46,7 +46,8 @@ int mostCurved(const Box& box)
   double most = -1;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const int step = Stride[axis], u = Stride[(axis + 1) % 3], v = Stride[(axis + 2) % 3];
+    const std::ptrdiff_t step = Stride[axis], u = Stride[(axis + 1) % 3],
+                         v = Stride[(axis + 2) % 3];
     double curvature = 0;
     for (int i = 0; i < 3; ++i)
     {

@@ -14,7 +14,7 @@ public:
   enum class Minimizer
   {
     Newton,
-    LimitedMemoryBfgs ///< several times slower; without a matrix
+    LimitedMemoryBfgs ///< as fast on some 10,000 cells, slower on many; without a matrix
   };
 
   FoldoverStages(MeshEnergy& energy, Minimizer minimizer)

@@ -2,6 +2,7 @@
 #include "InversionFree.h"
 
 #include "BoundaryDetermined.h"
+#include "CornerAngles.h"
 #include "Error.h"
 #include "ScaledJacobian.h"
 #include "SubMonitor.h"
@@ -135,9 +136,16 @@ bool InversionFree::minimize(
     {
       points = before;
     }
+    this->raiseWorst(points, monitor); // distortion is not the angles' measure
   }
   monitor.progress(0.95);
   return true;
+}
+
+void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
+{
+  raiseWorstCells(
+    this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
 }
 
 double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
@@ -221,6 +229,10 @@ EvaluateReport InversionFree::displace(
   monitor.progress(0.1);
   const Outcome outcome =
     this->improve(points, warped, this->betterGuess(warped, boundary, monitor), monitor);
+  if (outcome.kept && this->stiffening_ && this->target_ != Target::Initial)
+  {
+    this->raiseWorst(points, monitor);
+  }
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];

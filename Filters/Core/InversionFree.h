@@ -49,7 +49,8 @@ public:
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverStages::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the worst distortion in the end; never for Initial. Default on.
+  /// Whether to lower the worst distortion in the end, and to raise the least scaled Jacobian (CornerAngles.h); never for Initial.
+  /// Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
   /// How often the stretched targets are taken anew from the mesh as it has become. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
@@ -81,6 +82,7 @@ private:
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(
     const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const;
+  void raiseWorst(Points& points, Monitor& monitor) const;
   double leastScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;

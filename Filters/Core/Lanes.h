@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 namespace morph
 {
 /// Four numbers side by side, for the same operations on four things at once: whole vector registers with AVX, two of them
 /// without. Every operation is that of the single numbers, so results do not depend on the processor's registers.
 using Lanes = double __attribute__((vector_size(32)));
-constexpr int LaneCount = 4;
-
+constexpr std::ptrdiff_t LaneCount = 4;
 }

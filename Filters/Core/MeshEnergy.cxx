@@ -58,8 +58,8 @@ struct GroupEnergy
       stiffen(parameters.stiffness, phi, value);
       const Lanes weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
       energy += weight * value;
-      least = (weight > 0.) & (determinant < least) ? determinant : least;
-      most = (stiffened > 0.) & (phi > most) ? phi : most;
+      least = ((weight > 0.) & (determinant < least)) ? determinant : least;
+      most = ((stiffened > 0.) & (phi > most)) ? phi : most;
     }
     for (int lane = 0; lane < LaneCount; ++lane)
     {

@@ -223,9 +223,9 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
             const float* in =
               blocks.data() + start[group] + lane +
               9 * LaneCount * blockOf(std::min(own, other), std::max(own, other), n);
-            for (int i = 0; i < 3; ++i)
+            for (Index i = 0; i < 3; ++i)
             {
-              for (int j = 0; j < 3; ++j)
+              for (Index j = 0; j < 3; ++j)
               {
                 block[3 * i + j] += in[LaneCount * (own <= other ? 3 * i + j : 3 * j + i)];
               }

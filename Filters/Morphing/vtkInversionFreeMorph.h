@@ -95,7 +95,7 @@ public:
   ///@{
   /**
    * Whether, once the mesh is valid, the worst cells are improved at the expense of the average one. Without
-   * effect on tetrahedra and on TargetShape Initial. Default on.
+   * effect on TargetShape Initial. Default on.
    */
   vtkSetMacro(ImproveWorst, bool);
   vtkGetMacro(ImproveWorst, bool);
@@ -104,7 +104,7 @@ public:
 
   ///@{
   /**
-   * Minimise by L-BFGS in place of Newton's method: several times slower, and without the matrix,
+   * Minimise by L-BFGS in place of Newton's method: as fast on some 10,000 cells, slower on many, and without the matrix,
    * so with a third of the memory. Default off.
    */
   vtkSetMacro(LowMemory, bool);

@@ -309,18 +309,19 @@ void ThreadedMonitor::parallelFor(
 {
   // Ranges of one grain, dealt out in turn: an unusual cut shows what depends on the ranges.
   const Index ranges = (n + grain - 1) / grain;
-  std::vector<std::thread> crew;
-  for (int t = 0; t < this->threads; ++t)
+  const auto work = [&](int t)
   {
-    crew.emplace_back(
-      [&, t]
-      {
-        for (Index r = t; r < ranges; r += this->threads)
-        {
-          body(r * grain, std::min(n, (r + 1) * grain));
-        }
-      });
+    for (Index r = t; r < ranges; r += this->threads)
+    {
+      body(r * grain, std::min(n, (r + 1) * grain));
+    }
+  };
+  std::vector<std::thread> crew;
+  for (int t = 1; t < std::min<Index>(this->threads, ranges); ++t)
+  {
+    crew.emplace_back(work, t);
   }
+  work(0);
   for (std::thread& member : crew)
   {
     member.join();

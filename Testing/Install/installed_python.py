@@ -104,7 +104,7 @@ class InstalledPython(unittest.TestCase):
         morph.SetInputData(read().VTKObject)
         morph.Update()
         self.assertEqual(len(messages), 1)
-        self.assertIn("boundary", messages[0])
+        self.assertIn("Boundary: nothing is connected", messages[0])
 
     def test_it_is_refused_beside_paraview(self):
         code = "import sys, types; sys.modules['paraview'] = types.ModuleType('paraview'); import meshmorphing"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md's pvpython example, run as a user would run it: in a folder that holds part.vtu.
+"""README.md's pvpython example, run as a user would run it: in a folder that holds part.vtu. And Examples/move_a_part.py.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython readme.py
 """
@@ -48,6 +48,28 @@ class Readme(unittest.TestCase):
         self.assertEqual(information.GetNumberOfCells(), 6 ** 3)
         for bound, expected in zip(information.GetBounds(), (0, 6, 0, 6.6, 0, 6)):
             self.assertAlmostEqual(bound, expected, delta=1e-5)
+
+    def test_example_script(self):
+        mesh = README.parent / "Data/Models/small/bore_hex_small.vtu"
+        with tempfile.TemporaryDirectory() as folder:
+            target = os.path.join(folder, "moved.vtu")
+            # ParaView loads the plugins that it finds there.
+            environment = {**os.environ, "PV_PLUGIN_PATH": str(PLUGIN.parents[1])}
+            result = subprocess.run([shutil.which("pvpython"), str(README.parent / "Examples/move_a_part.py"), str(mesh), target],
+                                    env=environment, capture_output=True, text=True, timeout=120)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+            rest = simple.XMLUnstructuredGridReader(FileName=[str(mesh)])
+            moved = simple.XMLUnstructuredGridReader(FileName=[target])
+            for reader in (rest, moved):
+                reader.UpdatePipeline()
+            bounds, before = moved.GetDataInformation().GetBounds(), rest.GetDataInformation().GetBounds()
+            self.assertEqual(moved.GetDataInformation().GetNumberOfCells(), rest.GetDataInformation().GetNumberOfCells())
+        height = before[5] - before[4]
+        self.assertAlmostEqual(bounds[4], before[4], delta=1e-6)
+        self.assertAlmostEqual(bounds[5], before[5] + 0.05 * height, delta=1e-5)
+        minimum, inverted = re.match(r"least scaled Jacobian (\S+), inverted cells (\d+)", result.stdout).groups()
+        self.assertGreater(float(minimum), 0.5)
+        self.assertEqual(inverted, "0")
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ def methods():
     """The proxies that have Validity, by name in pvpython: the properties' XML elements."""
     found = {}
     for path in os.environ["MESHMORPHING_XML"].split(":"):
-        for proxy in ElementTree.parse(path).getroot().find("ProxyGroup"):
+        for proxy in ElementTree.parse(path).getroot().find("ProxyGroup[@name='filters']"):
             for p in proxy:
                 if p.get("name") == "Validity":
                     found[proxy.get("label").replace(" ", "")] = p
@@ -181,6 +181,9 @@ class Validity(unittest.TestCase):
         updated(free)
         updated(linear)
         self.assertGreater(linear.MinScaledJacobian, 0.5)
+        self.assertGreater(free.MinScaledJacobian, 1.05 * linear.MinScaledJacobian)
+        free.ImproveWorst = 0
+        updated(free)
         self.assertEqual(free.MinScaledJacobian, linear.MinScaledJacobian)
         self.assertEqual(free.KeptLinear, 1)
 

@@ -60,12 +60,12 @@ class Events:
         """In the panel; name: of the property and its widget."""
         self.do(PANEL + name, command, value)
 
-    def play(self, folder, seconds=120):
+    def play(self, folder, seconds=500):
         """Plays all that in ParaView, with `folder` for its settings, and returns its exit code and messages."""
         settings = folder / ".config/ParaView/ParaView5.11.0.ini"
         settings.parent.mkdir(parents=True)
         settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
-                            "[MainWindow]\nSize=@Size(1200 960)\nPosition=@Point(0 0)\n", encoding="utf-8")
+                            "[MainWindow]\nSize=@Size(800 700)\nPosition=@Point(0 0)\n", encoding="utf-8")
         script = folder / "events.xml"
         script.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines, "</pqevents>"]), encoding="utf-8")
         folder.chmod(0o700)
