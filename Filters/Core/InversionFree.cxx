@@ -102,7 +102,7 @@ Points InversionFree::betterGuess(
   if (this->hasSimplexLinear_ && this->target_ == Target::Stretched)
   {
     EvaluateReport ignored;
-    const Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
+    Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
     if (this->leastScaledJacobian(simplex, monitor) > this->leastScaledJacobian(warped, monitor))
     {
       return simplex;
@@ -201,7 +201,7 @@ InversionFree::Outcome InversionFree::improve(
 }
 
 EvaluateReport InversionFree::report(
-  const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const
+  const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const
 {
   if (!determined.empty())
   {
@@ -239,7 +239,7 @@ EvaluateReport InversionFree::displace(
     boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
     points.row(node) = boundary.row(i) * this->scale_;
   }
-  std::vector<Index> determined =
+  const std::vector<Index> determined =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
@@ -264,7 +264,7 @@ EvaluateReport InversionFree::displace(
     const Index node = partition.free[i];
     free.row(i) = points.row(node) / this->scale_ - this->restPoints().row(node);
   }
-  EvaluateReport report = this->report(outcome, std::move(determined), monitor);
+  EvaluateReport report = this->report(outcome, determined, monitor);
   report.iterations += guesses.iterations;
   return report;
 }
@@ -283,7 +283,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
   const Points before = moved * this->scale_;
   Points points = before;
   const Outcome outcome = this->improve(points, warped, before, monitor);
-  std::vector<Index> determined =
+  const std::vector<Index> determined =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   Points displacement = Points::Zero(moved.rows(), 3);
@@ -301,6 +301,6 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
-  return this->report(outcome, std::move(determined), monitor);
+  return this->report(outcome, determined, monitor);
 }
 }

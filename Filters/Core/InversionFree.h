@@ -84,7 +84,7 @@ private:
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(
-    const Outcome& outcome, std::vector<Index> determined, Monitor& monitor) const;
+    const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const;
   void raiseWorst(Points& points, Monitor& monitor) const;
   double leastScaledJacobian(const Points& points, Monitor& monitor) const;
 

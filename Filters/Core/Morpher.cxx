@@ -80,6 +80,7 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   monitor.progress(1);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): for methods that keep it
 void Morpher::setReference(Points)
 {
 }
@@ -140,7 +141,7 @@ EvaluateReport Morpher::evaluate(
 
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
-  const EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
+  EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
 
   // A new array only where the caller's does not fit: making its pages takes longer than filling them.
   const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
@@ -206,7 +207,7 @@ EvaluateReport LinearMorpher::applyTranspose(
   // Prescribed nodes go through no weights: what followers hand to them is theirs as well.
   this->followers_.applyTranspose(all);
   Points result = rowsOf(all, this->partition().prescribed);
-  const EvaluateReport report =
+  EvaluateReport report =
     this->displaceTranspose(rowsOf(all, this->partition().free), result, monitor);
   prescribed.swap(result);
   return report;
