@@ -4,6 +4,7 @@
 
 #include <klu.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -156,6 +157,7 @@ std::optional<DirectResult> solveByKlu(const LinearSystem& system, double limit)
   }
   if (child == 0)
   {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // it would go on for minutes after an interrupted benchmark
     int status = 1;
     try
     {
