@@ -13,7 +13,7 @@ namespace
 /// Whether an edge between these nodes may lie on a curve.
 bool mayShareCurve(const GivenGeometry& given, const std::array<Index, 2>& nodes)
 {
-  const int a = given.dimension[nodes[0]], b = given.dimension[nodes[1]];
+  const std::int8_t a = given.dimension[nodes[0]], b = given.dimension[nodes[1]];
   return a < 2 && b < 2 && (a == 0 || b == 0 || given.id[nodes[0]] == given.id[nodes[1]]);
 }
 
