@@ -58,11 +58,7 @@ CornerAngles::CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& ori
   const std::vector<Index>& cells, const std::vector<Index>& free, double least)
   : free_(free)
 {
-  std::vector<Index> row(mesh.numberOfNodes(), -1);
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    row[free[i]] = static_cast<Index>(i);
-  }
+  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
   for (Index c : cells)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);

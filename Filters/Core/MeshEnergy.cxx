@@ -124,21 +124,11 @@ struct GroupGradient
     }
   }
 };
-
-std::vector<std::int32_t> rowsOf(const std::vector<Index>& free, Index nodes)
-{
-  std::vector<std::int32_t> row(nodes, -1);
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    row[free[i]] = static_cast<std::int32_t>(i);
-  }
-  return row;
-}
 }
 
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
   : free_(free)
-  , groups_(mesh, rowsOf(free, mesh.numberOfNodes()))
+  , groups_(mesh, placesIn(free, mesh.numberOfNodes()))
 {
   this->uses_ = placesOfRows(this->groups_.places(), static_cast<Index>(free.size()),
     [this](Index place) { return this->groups_.row(place); });

@@ -3,6 +3,16 @@
 
 namespace morph
 {
+std::vector<std::int32_t> placesIn(const std::vector<Index>& ids, Index nodes)
+{
+  std::vector<std::int32_t> place(nodes, -1);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    place[ids[i]] = static_cast<std::int32_t>(i);
+  }
+  return place;
+}
+
 Adjacency placesOfRows(Index places, Index rows, const std::function<Index(Index place)>& rowOf)
 {
   Adjacency result;

@@ -4,10 +4,15 @@
 #include "Monitor.h"
 #include "Topology.h"
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace morph
 {
+/// The inverse of a list of ids: for each of `nodes` nodes its place in `ids`, or -1.
+std::vector<std::int32_t> placesIn(const std::vector<Index>& ids, Index nodes);
+
 /// Where nodes are used: for each of `rows` rows the places p in [0, places) with rowOf(p) equal to it, ascending; places whose row is
 /// negative belong to none. Calls `rowOf` twice a place.
 Adjacency placesOfRows(Index places, Index rows, const std::function<Index(Index place)>& rowOf);

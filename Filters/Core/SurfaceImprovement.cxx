@@ -2,6 +2,7 @@
 #include "SurfaceImprovement.h"
 
 #include "FaceQuality.h"
+#include "NodeUses.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -103,7 +104,6 @@ private:
 
   void makeCorners()
   {
-    this->cornersAt_.offsets.assign(this->motion_.rest.rows() + 1, 0);
     for (std::size_t f = 0; f + 1 < this->faces_.offsets.size(); ++f)
     {
       const Index first = this->faces_.offsets[f], size = this->faces_.offsets[f + 1] - first;
@@ -126,25 +126,12 @@ private:
         }
       }
     }
-    for (const Corner& corner : this->corners_)
+    this->cornersAt_ =
+      placesOfRows(static_cast<Index>(3 * this->corners_.size()), this->motion_.rest.rows(),
+        [this](Index place) { return this->corners_[place / 3].node[place % 3]; });
+    for (Index& corner : this->cornersAt_.values)
     {
-      for (Index node : corner.node)
-      {
-        ++this->cornersAt_.offsets[node + 1];
-      }
-    }
-    for (std::size_t n = 1; n < this->cornersAt_.offsets.size(); ++n)
-    {
-      this->cornersAt_.offsets[n] += this->cornersAt_.offsets[n - 1];
-    }
-    this->cornersAt_.values.resize(this->cornersAt_.offsets.back());
-    std::vector<Index> next(this->cornersAt_.offsets.begin(), this->cornersAt_.offsets.end() - 1);
-    for (std::size_t c = 0; c < this->corners_.size(); ++c)
-    {
-      for (Index node : this->corners_[c].node)
-      {
-        this->cornersAt_.values[next[node]++] = static_cast<Index>(c);
-      }
+      corner /= 3;
     }
   }
 

@@ -23,11 +23,7 @@ UntangleEnergy::UntangleEnergy(
   : free_(free)
   , margin_(margin)
 {
-  std::vector<Index> row(mesh.numberOfNodes(), -1);
-  for (std::size_t i = 0; i < free.size(); ++i)
-  {
-    row[free[i]] = static_cast<Index>(i);
-  }
+  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);
