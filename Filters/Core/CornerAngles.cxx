@@ -2,6 +2,7 @@
 #include "CornerAngles.h"
 
 #include "BlockSum.h"
+#include "CellPatch.h"
 #include "Minimizers.h"
 #include "NodeUses.h"
 #include "ScaledJacobian.h"
@@ -143,56 +144,6 @@ void CornerAngles::gradient(const Points& points, Points& result, Monitor& monit
 
 namespace
 {
-/// Free nodes within some rings of cells, and the cells that have any of them.
-struct Patch
-{
-  std::vector<Index> nodes, cells;
-
-  Patch(const Mesh& mesh, const Adjacency& around, const std::vector<char>& isFree,
-    const std::vector<Index>& worst)
-    : cells(worst)
-  {
-    std::vector<char> isNode(mesh.numberOfNodes(), 0), isCell(mesh.numberOfCells(), 0);
-    for (Index c : this->cells)
-    {
-      isCell[c] = 1;
-    }
-    std::size_t from = 0;
-    for (int ring = 0; ring <= Rings; ++ring)
-    {
-      const std::size_t until = this->cells.size();
-      for (; from < until; ++from)
-      {
-        const Index c = this->cells[from];
-        const CellShape& shape = *cellShape(mesh.types[c]);
-        for (int a = 0; a < shape.numberOfCorners; ++a)
-        {
-          const Index node = mesh.cell(c)[a];
-          if (isNode[node])
-          {
-            continue;
-          }
-          isNode[node] = 1;
-          if (isFree[node])
-          {
-            this->nodes.push_back(node);
-          }
-          for (const Index* next = around.begin(node); next != around.end(node); ++next)
-          {
-            if (!isCell[*next] && numberOfCorners(cellShape(mesh.types[*next])->shape) > 0)
-            {
-              isCell[*next] = 1;
-              this->cells.push_back(*next);
-            }
-          }
-        }
-      }
-    }
-    std::sort(this->nodes.begin(), this->nodes.end());
-    std::sort(this->cells.begin(), this->cells.end());
-  }
-};
-
 std::vector<Index> worstCells(const Mesh& mesh, const Quality& quality)
 {
   const double least = quality.minimum;
@@ -217,15 +168,10 @@ int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientatio
   {
     return 0;
   }
-  std::vector<char> isFree(mesh.numberOfNodes(), 0);
-  for (Index node : free)
-  {
-    isFree[node] = 1;
-  }
   const Adjacency around = nodeToCells(mesh);
   for (int round = 0; round < Rounds; ++round)
   {
-    const Patch patch(mesh, around, isFree, worstCells(mesh, quality));
+    const CellPatch patch = cellPatch(mesh, around, free, worstCells(mesh, quality), Rings);
     if (patch.nodes.empty())
     {
       return round;

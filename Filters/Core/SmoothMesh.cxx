@@ -2,6 +2,7 @@
 #include "SmoothMesh.h"
 
 #include "BlockSum.h"
+#include "CellPatch.h"
 #include "HigherOrderNodes.h"
 #include "MeshEnergy.h"
 #include "Minimizers.h"
@@ -232,7 +233,8 @@ private:
       {
         around = nodeToCells(this->mesh_);
       }
-      const std::vector<Index> patch = this->freeNodesAround(bad, around);
+      const std::vector<Index> patch =
+        cellPatch(this->mesh_, around, this->free_, bad, Rings).nodes;
       if (patch.empty() ||
           static_cast<double>(patch.size()) > MostOfMesh * static_cast<double>(this->free_.size()))
       {
@@ -261,38 +263,6 @@ private:
       }
     }
     return bad;
-  }
-
-  /// The free nodes of the cells and of the rings of cells round them, ascending.
-  std::vector<Index> freeNodesAround(std::vector<Index> cells, const Adjacency& around) const
-  {
-    std::vector<char> isNode(this->mesh_.numberOfNodes(), 0);
-    std::vector<char> isCell(this->mesh_.numberOfCells(), 0);
-    for (int ring = 0; ring <= Rings; ++ring)
-    {
-      std::vector<Index> next;
-      for (Index c : cells)
-      {
-        isCell[c] = 1;
-        const CellShape& shape = *cellShape(this->mesh_.types[c]);
-        for (int a = 0; a < shape.numberOfCorners; ++a)
-        {
-          const Index node = this->mesh_.cell(c)[a];
-          if (!isNode[node])
-          {
-            isNode[node] = 1;
-            next.insert(next.end(), around.begin(node), around.end(node));
-          }
-        }
-      }
-      cells.clear();
-      std::copy_if(
-        next.begin(), next.end(), std::back_inserter(cells), [&](Index c) { return !isCell[c]; });
-    }
-    std::vector<Index> result;
-    std::copy_if(this->free_.begin(), this->free_.end(), std::back_inserter(result),
-      [&](Index node) { return isNode[node]; });
-    return result;
   }
 
   const Mesh& mesh_;
