@@ -4,6 +4,7 @@
 #include "BoundaryDetermined.h"
 #include "CornerAngles.h"
 #include "Error.h"
+#include "FaceQuality.h"
 #include "ScaledJacobian.h"
 #include "SubMonitor.h"
 
@@ -60,6 +61,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
 
+  this->boundary_ = boundaryFaces(this->referenceMesh_, monitor);
   SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.7), third(monitor, 0.7, 0.9);
   this->femWarp_.prepare(rest, this->partition(), first);
   try
@@ -111,36 +113,72 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
-void InversionFree::untangleAroundFolds(
-  MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+std::vector<Index> InversionFree::foldedFaces(const Points& points, Monitor& monitor) const
 {
-  std::vector<char> isFixed(points.rows(), 0);
+  if (this->boundary_.cells.empty())
+  {
+    return {};
+  }
+  const Classification geometry = classify(this->referenceMesh_, this->boundary_, {}, monitor);
+  std::vector<Index> folded =
+    faceQuality(this->referenceMesh_.points, points, this->boundary_, geometry).folded;
+  const std::vector<char> isFixed = this->prescribedNodes();
+  folded.erase(std::remove_if(folded.begin(), folded.end(),
+                 [&](Index f)
+                 {
+                   const Index* nodes = this->boundary_.connectivity.data();
+                   return std::any_of(nodes + this->boundary_.offsets[f],
+                     nodes + this->boundary_.offsets[f + 1],
+                     [&](Index node) { return isFixed[node] == 0; });
+                 }),
+    folded.end());
+  return folded;
+}
+
+std::vector<char> InversionFree::prescribedNodes() const
+{
+  std::vector<char> isFixed(this->referenceMesh_.numberOfNodes(), 0);
   for (Index node : this->partition().prescribed)
   {
     isFixed[node] = 1;
   }
+  return isFixed;
+}
+
+void InversionFree::untangleAroundFolds(MeshEnergy& energy, FoldoverStages& stages,
+  const Points& start, Points& points, Monitor& monitor) const
+{
+  const std::vector<Index> folded = this->foldedFaces(points, monitor);
+  Points around = folded.empty() ? points : start;
   TargetShapes targets =
-    targetShapes(this->referenceMesh_, this->orientation_, points, this->target_, monitor);
-  for (int round = 0; round < FoldRounds; ++round)
+    targetShapes(this->referenceMesh_, this->orientation_, around, this->target_, monitor);
+  dropBehind(this->referenceMesh_, this->boundary_, folded, targets);
+  energy.setTargets(targets);
+  bool untangled = !folded.empty() && stages.untangle(around, monitor);
+  const std::vector<char> isFixed = this->prescribedNodes();
+  for (int round = 0; round < FoldRounds && !untangled; ++round)
   {
-    if (dropFolded(this->referenceMesh_, isFixed, points, targets) == 0)
+    if (dropFolded(this->referenceMesh_, isFixed, around, targets) == 0)
     {
-      return;
+      break;
     }
     energy.setTargets(targets);
-    if (stages.untangle(points, monitor))
-    {
-      return;
-    }
+    untangled = stages.untangle(around, monitor);
+  }
+  if (this->invertedBesides(folded, around, monitor) <=
+      this->invertedBesides(folded, points, monitor))
+  {
+    points = around;
   }
 }
 
 bool InversionFree::minimize(
   MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
+  const Points start = points;
   if (!stages.untangle(points, monitor))
   {
-    this->untangleAroundFolds(energy, stages, points, monitor);
+    this->untangleAroundFolds(energy, stages, start, points, monitor);
     return false;
   }
   monitor.progress(0.7);
@@ -172,6 +210,18 @@ void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
 {
   raiseWorstCells(
     this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
+}
+
+Index InversionFree::invertedBesides(
+  const std::vector<Index>& folded, const Points& points, Monitor& monitor) const
+{
+  Quality quality = measureQuality(this->referenceMesh_, points, this->orientation_, {}, monitor);
+  for (Index f : folded)
+  {
+    quality.scaledJacobian[this->boundary_.cells[f]] = 1;
+  }
+  return std::count_if(quality.scaledJacobian.begin(), quality.scaledJacobian.end(),
+    [](double value) { return value <= 0; });
 }
 
 double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const

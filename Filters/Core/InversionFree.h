@@ -78,9 +78,16 @@ private:
   /// `warped`, FEMWARP's mesh, or that of simplex-linear if its least scaled Jacobian is higher.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   bool minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
-  /// Where folds of the boundary keep the mesh tangled: without the tetrahedra behind them, so that all others become valid.
-  void untangleAroundFolds(
-    MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  /// Where folds of the boundary keep the mesh tangled (`points`): anew from `start` without the tetrahedra behind them, so that all
+  /// others become valid. `points` becomes the mesh with fewer inverted cells that are not on folded faces.
+  void untangleAroundFolds(MeshEnergy& energy, FoldoverStages& stages, const Points& start,
+    Points& points, Monitor& monitor) const;
+  /// Of the boundary, with all their nodes prescribed: see FaceQuality.
+  std::vector<Index> foldedFaces(const Points& points, Monitor& monitor) const;
+  /// How many cells are inverted that have none of these faces.
+  Index invertedBesides(
+    const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
+  std::vector<char> prescribedNodes() const; ///< #nodes
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(
@@ -98,6 +105,7 @@ private:
   Mesh referenceMesh_; ///< the reference, its coordinates times scale_
   double scale_ = 1;   ///< a power of two that makes edges about 1 long
   std::vector<std::int8_t> orientation_;
+  BoundaryFaces boundary_;
   bool validAtRest_ = true;
   FemWarp femWarp_;
   SimplexLinear simplexLinear_;

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace morph
@@ -153,6 +154,17 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
     D.col(k) = x.col(tet.corner[k + 1]) - x.col(tet.corner[0]);
   }
   return D;
+}
+
+/// Of a tetrahedron of the cell's decomposition.
+std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const int* corner = simplicialDecomposition(shape.shape).tets[tetrahedron].corner;
+  std::array<Index, 4> nodes;
+  std::transform(
+    corner, corner + 4, nodes.begin(), [&](int a) { return mesh.cell(cell)[shape.cornerNode[a]]; });
+  return nodes;
 }
 
 bool isVolume(const Mesh& mesh, Index cell)
@@ -315,23 +327,39 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
   return result;
 }
 
+void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
+  TargetShapes& targets)
+{
+  for (Index f : folded)
+  {
+    const Index c = faces.cells[f];
+    const Index* first = faces.connectivity.data() + faces.offsets[f];
+    const Index* last = faces.connectivity.data() + faces.offsets[f + 1];
+    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    {
+      const std::array<Index, 4> nodes = nodesOf(mesh, c, t - targets.start[c]);
+      const auto onFace = std::count_if(nodes.begin(), nodes.end(),
+        [&](Index node) { return std::find(first, last, node) != last; });
+      if (onFace >= 3)
+      {
+        targets.tetrahedra[t].weight = 0;
+      }
+    }
+  }
+}
+
 Index dropFolded(
   const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets)
 {
   Index dropped = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    const SimplicialDecomposition parts = simplicialDecomposition(shape.shape);
     for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
     {
       TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
-      const int* corner = parts.tets[t - targets.start[c]].corner;
-      Index node[4];
-      std::transform(
-        corner, corner + 4, node, [&](int a) { return mesh.cell(c)[shape.cornerNode[a]]; });
+      const std::array<Index, 4> node = nodesOf(mesh, c, t - targets.start[c]);
       if (!(tetrahedron.weight > 0) ||
-          std::count_if(node, node + 4, [&](Index n) { return isFixed[n] != 0; }) < 2)
+          std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) < 2)
       {
         continue;
       }

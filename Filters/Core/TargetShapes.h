@@ -41,6 +41,11 @@ struct TargetShapes
 TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, Target target, Monitor& monitor);
 
+/// Gives weight 0 to the tetrahedra that have three corners on one of the boundary `faces` numbered in `folded`, which are turned
+/// over: either these are inverted or their neighbors.
+void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
+  TargetShapes& targets);
+
 /// Gives weight 0 to the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have at least two corners whose `isFixed`
 /// (#nodes) is not 0: behind a fold of the boundary, where none can be positive. Returns how many.
 Index dropFolded(
