@@ -10,7 +10,6 @@ namespace morph
 namespace
 {
 constexpr double Valid = 1e-10; // the regularisation of a valid mesh: none, but for rounding
-constexpr int MostStages = 60;
 constexpr int MostSteps = 30;
 constexpr int RegularisedSteps =
   4;                            // more are wasted on a mesh that the next regularisation changes
@@ -94,14 +93,14 @@ MeshEnergy::State FoldoverStages::minimize(Points& points, int steps, Monitor& m
   return this->evaluate(points, monitor);
 }
 
-bool FoldoverStages::untangle(Points& points, Monitor& monitor)
+bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
 {
   this->setDensity(Valid);
   MeshEnergy::State state = this->evaluate(points, monitor);
   Regularisation regularisation;
   double epsilon = regularisation.first(state.leastDeterminant);
   double settled = std::numeric_limits<double>::infinity();
-  for (int stage = 0; stage < MostStages; ++stage)
+  for (int stage = 0; stage < stages; ++stage)
   {
     monitor.progress(0.7 - 0.6 * std::pow(0.8, stage));
     this->setDensity(epsilon);

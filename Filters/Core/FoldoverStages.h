@@ -23,9 +23,9 @@ public:
   {
   }
 
-  /// Lowers the regularisation step by step until no tetrahedron is inverted and the energy has settled. Returns whether all
-  /// tetrahedra are positive.
-  bool untangle(Points& points, Monitor& monitor);
+  /// Lowers the regularisation stage by stage, of which there are at most `stages`, until no tetrahedron is inverted and the energy has settled.
+  /// Returns whether all tetrahedra are positive.
+  bool untangle(Points& points, Monitor& monitor, int stages = 60);
   /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays valid.
   void improve(Points& points, int steps, Monitor& monitor);
   /// From a valid mesh to one with a lower greatest distortion; the mesh stays valid.

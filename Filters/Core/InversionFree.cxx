@@ -4,9 +4,9 @@
 #include "BoundaryDetermined.h"
 #include "CornerAngles.h"
 #include "Error.h"
-#include "FaceQuality.h"
 #include "ScaledJacobian.h"
 #include "SubMonitor.h"
+#include "Untangling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
-constexpr int FoldRounds = 3;
 constexpr double LeastGain = 1e-3; // of the least scaled Jacobian
 
 /// Of the volume cells, from node to node around them; 1 where there is none.
@@ -113,74 +112,9 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
-std::vector<Index> InversionFree::foldedFaces(const Points& points, Monitor& monitor) const
-{
-  if (this->boundary_.cells.empty())
-  {
-    return {};
-  }
-  const Classification geometry = classify(this->referenceMesh_, this->boundary_, {}, monitor);
-  std::vector<Index> folded =
-    faceQuality(this->referenceMesh_.points, points, this->boundary_, geometry).folded;
-  const std::vector<char> isFixed = this->prescribedNodes();
-  folded.erase(std::remove_if(folded.begin(), folded.end(),
-                 [&](Index f)
-                 {
-                   const Index* nodes = this->boundary_.connectivity.data();
-                   return std::any_of(nodes + this->boundary_.offsets[f],
-                     nodes + this->boundary_.offsets[f + 1],
-                     [&](Index node) { return isFixed[node] == 0; });
-                 }),
-    folded.end());
-  return folded;
-}
-
-std::vector<char> InversionFree::prescribedNodes() const
-{
-  std::vector<char> isFixed(this->referenceMesh_.numberOfNodes(), 0);
-  for (Index node : this->partition().prescribed)
-  {
-    isFixed[node] = 1;
-  }
-  return isFixed;
-}
-
-void InversionFree::untangleAroundFolds(MeshEnergy& energy, FoldoverStages& stages,
-  const Points& start, Points& points, Monitor& monitor) const
-{
-  const std::vector<Index> folded = this->foldedFaces(points, monitor);
-  Points around = folded.empty() ? points : start;
-  TargetShapes targets =
-    targetShapes(this->referenceMesh_, this->orientation_, around, this->target_, monitor);
-  dropBehind(this->referenceMesh_, this->boundary_, folded, targets);
-  energy.setTargets(targets);
-  bool untangled = !folded.empty() && stages.untangle(around, monitor);
-  const std::vector<char> isFixed = this->prescribedNodes();
-  for (int round = 0; round < FoldRounds && !untangled; ++round)
-  {
-    if (dropFolded(this->referenceMesh_, isFixed, around, targets) == 0)
-    {
-      break;
-    }
-    energy.setTargets(targets);
-    untangled = stages.untangle(around, monitor);
-  }
-  if (this->invertedBesides(folded, around, monitor) <=
-      this->invertedBesides(folded, points, monitor))
-  {
-    points = around;
-  }
-}
-
-bool InversionFree::minimize(
+void InversionFree::raiseQuality(
   MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
-  const Points start = points;
-  if (!stages.untangle(points, monitor))
-  {
-    this->untangleAroundFolds(energy, stages, start, points, monitor);
-    return false;
-  }
   monitor.progress(0.7);
   for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
   {
@@ -203,25 +137,12 @@ bool InversionFree::minimize(
     this->raiseWorst(points, monitor); // distortion is not the angles' measure
   }
   monitor.progress(0.95);
-  return true;
 }
 
 void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
 {
   raiseWorstCells(
     this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
-}
-
-Index InversionFree::invertedBesides(
-  const std::vector<Index>& folded, const Points& points, Monitor& monitor) const
-{
-  Quality quality = measureQuality(this->referenceMesh_, points, this->orientation_, {}, monitor);
-  for (Index f : folded)
-  {
-    quality.scaledJacobian[this->boundary_.cells[f]] = 1;
-  }
-  return std::count_if(quality.scaledJacobian.begin(), quality.scaledJacobian.end(),
-    [](double value) { return value <= 0; });
 }
 
 double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
@@ -233,11 +154,19 @@ InversionFree::Outcome InversionFree::improve(
   Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
 {
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(
-    targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
   FoldoverStages stages(energy, this->minimizer_);
+  const TargetShapes targets =
+    targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
+  const Untangling::Result untangling =
+    Untangling(this->referenceMesh_, this->orientation_, this->partition(), this->boundary_)
+      .run(targets, energy, stages, points, monitor);
   Outcome outcome;
-  outcome.untangled = this->minimize(energy, stages, points, monitor);
+  outcome.untangled = untangling.valid;
+  outcome.onFolds = untangling.onFolds;
+  if (untangling.valid)
+  {
+    this->raiseQuality(energy, stages, points, monitor);
+  }
   outcome.effort = stages.effort();
 
   const double known = this->leastScaledJacobian(alternative, monitor);
@@ -246,6 +175,7 @@ InversionFree::Outcome InversionFree::improve(
   {
     points = alternative;
     outcome.kept = outcome.untangled = true;
+    outcome.onFolds.clear();
   }
   return outcome;
 }
@@ -260,12 +190,19 @@ EvaluateReport InversionFree::report(
       listIds(determined) +
       ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }
+  if (!outcome.onFolds.empty())
+  {
+    monitor.warn("The boundary is folded: it turns over a face of cell ids " +
+                 listIds(outcome.onFolds) +
+                 ", which stay inverted. Mend the boundary there, or move it less.");
+  }
   EvaluateReport report;
   report.iterations = static_cast<int>(outcome.effort.steps);
   report.counts = { { "NewtonSteps", outcome.effort.steps },
     { "LinearIterations", outcome.effort.linearIterations },
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
+    { "FoldedBoundaryCells", static_cast<Index>(outcome.onFolds.size()) },
     { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
   return report;
 }

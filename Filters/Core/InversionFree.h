@@ -21,10 +21,11 @@ namespace morph
 /// stretched targets the simplex-linear mesh likewise: never worse than either.
 ///
 /// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a warning names them, and
-/// the rest of the mesh is morphed. Where cells stay inverted that are not of these the count `Untangled` is 0.
+/// the rest of the mesh is morphed. Where cells stay inverted that are not of these the count `Untangled` is 0; a warning names
+/// those of them that are on a face that the boundary folds (Untangling.h).
 ///
-/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`, `KeptLinear` and `Untangled`
-/// (1 or 0).
+/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`, `FoldedBoundaryCells`, `KeptLinear` and
+/// `Untangled` (1 or 0).
 ///
 /// prepare(): FEMWARP's and simplex-linear's, and passes over the cells. evaluate(): 10 to 60 Newton steps of 0.4 to 0.8 microseconds of processor time a
 /// tetrahedron (ten a hexahedron), and a linear solution each; 3.5 kB a hexahedron meanwhile. Not linear in
@@ -69,7 +70,8 @@ private:
   struct Outcome
   {
     bool untangled = false;
-    bool kept = false; ///< the alternative's positions
+    bool kept = false;          ///< the alternative's positions
+    std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
   /// In coordinates times scale_. `guide`: see TargetShapes; `alternative`: a mesh that the result must not be worse than.
@@ -77,17 +79,9 @@ private:
     Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
   /// `warped`, FEMWARP's mesh, or that of simplex-linear if its least scaled Jacobian is higher.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
-  bool minimize(MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
-  /// Where folds of the boundary keep the mesh tangled (`points`): anew from `start` without the tetrahedra behind them, so that all
-  /// others become valid. `points` becomes the mesh with fewer inverted cells that are not on folded faces.
-  void untangleAroundFolds(MeshEnergy& energy, FoldoverStages& stages, const Points& start,
-    Points& points, Monitor& monitor) const;
-  /// Of the boundary, with all their nodes prescribed: see FaceQuality.
-  std::vector<Index> foldedFaces(const Points& points, Monitor& monitor) const;
-  /// How many cells are inverted that have none of these faces.
-  Index invertedBesides(
-    const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
-  std::vector<char> prescribedNodes() const; ///< #nodes
+  /// Of a valid mesh.
+  void raiseQuality(
+    MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(

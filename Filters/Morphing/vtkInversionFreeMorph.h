@@ -115,13 +115,14 @@ public:
   ///@{
   /**
    * As of the last execution: steps of the minimiser, iterations of its linear solver, evaluations
-   * of the energy; cells that the boundary itself inverts; and whether FEMWARP's or simplex-linear's mesh was
-   * the better one.
+   * of the energy; cells that the boundary itself inverts, and cells that stay inverted on faces that it folds; and whether
+   * FEMWARP's or simplex-linear's mesh was the better one.
    */
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
   vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
   vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
+  vtkIdType GetFoldedBoundaryCells() { return this->GetCount("FoldedBoundaryCells"); }
   vtkIdType GetKeptLinear() { return this->GetCount("KeptLinear"); }
   ///@}
 

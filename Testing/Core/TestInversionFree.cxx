@@ -29,6 +29,7 @@ struct Morphed
   morph::EvaluateReport report;
   double minimum;
   Index inverted;
+  std::vector<std::string> warnings;
 };
 
 Morphed run(InversionFree& method, const Mesh& mesh, const Points& target, int threads = 1)
@@ -41,6 +42,7 @@ Morphed run(InversionFree& method, const Mesh& mesh, const Points& target, int t
     mesh, result.moved, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
   result.minimum = quality.minimum;
   result.inverted = quality.inverted;
+  result.warnings = monitor.warnings;
   return result;
 }
 
@@ -264,8 +266,10 @@ TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
         faces.connectivity.begin() + faces.offsets[f + 1]);
     }
     EXPECT_FALSE(onFold.empty());
+    Index invertedOnFolds = 0;
     for (Index c = 0; c < mesh.numberOfCells(); ++c)
     {
+      invertedOnFolds += !(quality.scaledJacobian[c] > 0) && onFold.count(c) > 0 ? 1 : 0;
       if (morph::cellShape(mesh.types[c])->shape == morph::Shape::Pyramid)
       {
         // A base that stands on an edge turned round cannot be right on both of its sides.
@@ -278,6 +282,9 @@ TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
         EXPECT_TRUE(quality.scaledJacobian[c] > 0 || onFold.count(c) > 0) << c;
       }
     }
+    EXPECT_EQ(count(result.report, "FoldedBoundaryCells"), invertedOnFolds);
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("folded"), std::string::npos) << result.warnings[0];
   }
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "FoldoverStages.h"
+#include "MeshEnergy.h"
+#include "NodePartition.h"
+#include "TargetShapes.h"
+#include "Topology.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// Makes the cells of a mesh valid by a foldover-free energy, as far as its boundary allows. Where the boundary is folded (see
+/// foldedFaces()) either the cell behind a folded face is inverted or its neighbors are: then the mesh is untangled without
+/// the tetrahedra on folded faces, and with them again from there; of the two results that with fewer inverted cells besides those on
+/// folded faces is kept.
+class Untangling
+{
+public:
+  /// All but `target` are held by reference. `mesh`: the reference shapes; `orientation`: #cells, see Topology's orientation().
+  Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+    const NodePartition& partition, const BoundaryFaces& faces);
+
+  struct Result
+  {
+    bool valid = false;         ///< all tetrahedra are positive
+    std::vector<Index> onFolds; ///< inverted cells on folded faces, ascending
+  };
+  /// `targets`: of all cells, to which `energy` may be set to others in the end; `points`: #nodes x 3, the start in, the result out.
+  Result run(const TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages,
+    Points& points, Monitor& monitor) const;
+
+private:
+  struct Tangle
+  {
+    Index others = 0;
+    std::vector<Index> onFolds;
+    bool operator<(const Tangle& other) const;
+  };
+  /// The inverted cells. `folded`: numbers of faces.
+  Tangle tangle(const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
+  /// Folded faces all nodes of which are prescribed.
+  std::vector<Index> foldedBoundary(const Points& points, Monitor& monitor) const;
+  /// Leaves out what cannot be made positive at two or more prescribed nodes, for a few rounds.
+  bool runBesides(TargetShapes targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
+    Monitor& monitor) const;
+
+  const Mesh& mesh_;
+  const std::vector<std::int8_t>& orientation_;
+  const BoundaryFaces& faces_;
+  std::vector<char> isFixed_; ///< #nodes
+};
+}
