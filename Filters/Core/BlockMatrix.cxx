@@ -2,20 +2,52 @@
 #include "BlockMatrix.h"
 
 #include "BlockSum.h"
+#include "LaneFunctions.h"
+#include "Lanes.h"
+#include "VectorLoop.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace morph
 {
 namespace
 {
 constexpr Index Grain = 1024;
+constexpr std::size_t Padding = 1;
 constexpr double Shift = 1e-7; // of a diagonal block's trace: keeps singular ones invertible
 
 using Row = Eigen::RowVector3d;
+
+/// A row of the matrix times a vector, a column of a block at once; the fourth lane means nothing.
+struct RowProduct
+{
+  static MORPH_LANES_INLINE void run(
+    Index row, const BlockMatrix& matrix, const Points& x, Points& y)
+  {
+    Lanes sum[3] = {};
+    const std::int32_t* column = matrix.columns(row);
+    const float* end = matrix.blocks(row + 1);
+    for (const float* block = matrix.blocks(row); block != end; block += 9, ++column)
+    {
+      const double* v = x.data() + 3 * static_cast<Index>(*column);
+      for (int j = 0; j < 3; ++j)
+      {
+        FloatLanes entries;
+        std::memcpy(&entries, block + 3 * j, sizeof(entries));
+        sum[j] += __builtin_convertvector(entries, Lanes) * v[j];
+      }
+    }
+    const Lanes whole = sum[0] + sum[1] + sum[2];
+    for (int i = 0; i < 3; ++i)
+    {
+      y(row, i) = whole[i];
+    }
+  }
+};
 
 double dot(const Points& a, const Points& b, Monitor& monitor)
 {
@@ -23,35 +55,18 @@ double dot(const Points& a, const Points& b, Monitor& monitor)
 }
 }
 
-void BlockMatrix::open(
-  const void* owner, std::vector<Index> offsets, std::vector<std::int32_t> columns)
+void BlockMatrix::open(const void* owner, BlockPattern pattern)
 {
   this->owner_ = owner;
-  this->offsets_ = std::move(offsets);
-  this->columns_ = std::move(columns);
-  this->values_.assign(9 * this->columns_.size(), 0.f);
+  this->pattern_ = std::move(pattern);
+  this->values_.assign(9 * this->pattern_.columns.size() + Padding, 0.f);
 }
 
 void BlockMatrix::multiply(const Points& x, Points& y, Monitor& monitor) const
 {
   y.resize(this->rows(), 3);
   monitor.parallelFor(this->rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index row = first; row < last; ++row)
-      {
-        const float* block = this->blocks(row);
-        double sum[3] = { 0, 0, 0 };
-        for (Index k = this->offsets_[row]; k < this->offsets_[row + 1]; ++k, block += 9)
-        {
-          const double* v = x.data() + 3 * static_cast<Index>(this->columns_[k]);
-          sum[0] += block[0] * v[0] + block[1] * v[1] + block[2] * v[2];
-          sum[1] += block[3] * v[0] + block[4] * v[1] + block[5] * v[2];
-          sum[2] += block[6] * v[0] + block[7] * v[1] + block[8] * v[2];
-        }
-        std::copy(sum, sum + 3, y.data() + 3 * row);
-      }
-    });
+    [&](Index first, Index last) { vectorLoop<RowProduct>(first, last, *this, x, y); });
 }
 
 int BlockMatrix::solve(
@@ -64,12 +79,10 @@ int BlockMatrix::solve(
     {
       for (Index row = first; row < last; ++row)
       {
-        const auto begin = this->columns_.begin() + this->offsets_[row];
-        const auto end = this->columns_.begin() + this->offsets_[row + 1];
+        const std::int32_t *begin = this->columns(row), *end = this->columns(row + 1);
         const Index k = std::lower_bound(begin, end, static_cast<std::int32_t>(row)) - begin;
         Eigen::Matrix3d D =
-          Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(this->blocks(row) + 9 * k)
-            .cast<double>();
+          Eigen::Map<const Eigen::Matrix3f>(this->blocks(row) + 9 * k).cast<double>();
         D.diagonal().array() += Shift * D.trace();
         inverse[row] = D.trace() > 0 ? Eigen::Matrix3d(D.ldlt().solve(Eigen::Matrix3d::Identity()))
                                      : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
@@ -136,7 +149,8 @@ int BlockMatrix::solve(
 
 std::size_t BlockMatrix::memory() const
 {
-  return sizeof(Index) * this->offsets_.size() +
-         this->columns_.size() * (sizeof(std::int32_t) + 9 * sizeof(float));
+  return sizeof(Index) * (this->pattern_.offsets.size() + this->pattern_.placeOffsets.size()) +
+         sizeof(std::int32_t) * (this->pattern_.columns.size() + this->pattern_.places.size()) +
+         sizeof(float) * (this->values_.size() + this->scratch_.size());
 }
 }

@@ -9,24 +9,42 @@
 
 namespace morph
 {
+struct BlockPattern
+{
+  std::vector<Index> offsets{ 0 };   ///< #rows + 1, into `columns`
+  std::vector<std::int32_t> columns; ///< ascending in each row, the diagonal among them
+  /// Where in its row each contribution goes, in the order in which the owner adds them; -1 for nowhere.
+  std::vector<Index> placeOffsets{ 0 }; ///< #rows + 1, into `places`
+  std::vector<std::int32_t> places;
+};
+
 /// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, both triangles, in single precision: it only gives
 /// directions of search, and half the bytes are half the time.
 class BlockMatrix
 {
 public:
-  /// `owner`: whose pattern this is; `offsets`: #rows + 1; `columns`: ascending in each row, the diagonal among them.
-  void open(const void* owner, std::vector<Index> offsets, std::vector<std::int32_t> columns);
+  /// `owner`: whose pattern this is.
+  void open(const void* owner, BlockPattern pattern);
   bool isOpenFor(const void* owner) const { return this->owner_ == owner; }
 
-  Index rows() const { return static_cast<Index>(this->offsets_.size()) - 1; }
-  const std::vector<Index>& offsets() const { return this->offsets_; }
+  Index rows() const { return static_cast<Index>(this->pattern_.offsets.size()) - 1; }
   const std::int32_t* columns(Index row) const
   {
-    return this->columns_.data() + this->offsets_[row];
+    return this->pattern_.columns.data() + this->pattern_.offsets[row];
   }
-  /// Nine values a block, row major, in the order of the columns; each row is for one thread to write.
-  float* blocks(Index row) { return this->values_.data() + 9 * this->offsets_[row]; }
-  const float* blocks(Index row) const { return this->values_.data() + 9 * this->offsets_[row]; }
+  const std::int32_t* places(Index row) const
+  {
+    return this->pattern_.places.data() + this->pattern_.placeOffsets[row];
+  }
+  /// Nine values a block, column major, in the order of the columns; up to blocks(row + 1). Each row is for one thread to write.
+  float* blocks(Index row) { return this->values_.data() + 9 * this->pattern_.offsets[row]; }
+  const float* blocks(Index row) const
+  {
+    return this->values_.data() + 9 * this->pattern_.offsets[row];
+  }
+
+  /// The owner's, kept from one filling of the matrix to the next.
+  std::vector<float>& scratch() { return this->scratch_; }
 
   void multiply(const Points& x, Points& y, Monitor& monitor) const;
 
@@ -39,8 +57,8 @@ public:
 
 private:
   const void* owner_ = nullptr;
-  std::vector<Index> offsets_{ 0 };
-  std::vector<std::int32_t> columns_;
-  std::vector<float> values_;
+  BlockPattern pattern_;
+  std::vector<float> scratch_;
+  std::vector<float> values_; ///< and Padding more, for reads of four numbers where three are meant
 };
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace morph
 {
@@ -15,7 +16,6 @@ using namespace foldover;
 constexpr Index Grain = 64;      // groups
 constexpr Index RowGrain = 256;  // rows
 constexpr double Largest = 1e20; // of an entry: its square still is a float
-using FloatLanes = float __attribute__((vector_size(16)));
 
 /// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
 MORPH_LANES_INLINE int blockOf(int a, int b, int n)
@@ -41,7 +41,35 @@ MORPH_LANES_INLINE void addBlock(
   }
 }
 
-/// The second derivatives of a group's tetrahedra, by pairs of corners a <= b of the cell, in single precision: block, row, column, lane.
+/// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the other.
+MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, int count, float* to)
+{
+  int e = 0;
+  for (; e + LaneCount <= count; e += LaneCount)
+  {
+    const FloatLanes *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
+                     AB = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7),
+                     cd = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5),
+                     CD = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7),
+                     cell[] = { __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
+                       __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
+                       __builtin_shufflevector(AB, CD, 0, 1, 4, 5),
+                       __builtin_shufflevector(AB, CD, 2, 3, 6, 7) };
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      std::memcpy(to + lane * count + e, &cell[lane], sizeof(FloatLanes));
+    }
+  }
+  for (; e < count; ++e)
+  {
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      to[lane * count + e] = entries[e][lane];
+    }
+  }
+}
+
+/// The second derivatives of a group's tetrahedra, by pairs of corners a <= b of the cell, in single precision: cell, block, column, row.
 struct GroupHessian
 {
   static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
@@ -62,19 +90,18 @@ struct GroupHessian
     {
       addTetrahedra(x, parts.tets[t].corner, *tetrahedra, density, n, sum);
     }
-    float* to = out.data() + start[group];
+    FloatLanes entries[9 * blocksOf(8)];
     for (int k = 0; k < blocksOf(n); ++k)
     {
-      for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
       {
-        for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
         {
-          const FloatLanes entry = __builtin_convertvector(sum[k][j][i], FloatLanes);
-          std::memcpy(to, &entry, sizeof(entry));
-          to += LaneCount;
+          entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], FloatLanes);
         }
       }
     }
+    separateCells(entries, 9 * blocksOf(n), out.data() + start[group]);
   }
 
 private:
@@ -147,30 +174,35 @@ private:
 
 void MeshEnergy::openMatrix(BlockMatrix& matrix) const
 {
-  std::vector<Index> offsets{ 0 };
-  std::vector<std::int32_t> columns, row;
+  BlockPattern pattern;
+  std::vector<std::int32_t> row, found;
   for (Index i = 0; i < static_cast<Index>(this->free_.size()); ++i)
   {
-    row.assign(1, static_cast<std::int32_t>(i));
+    found.clear();
     for (const Index* use = this->uses_.begin(i); use != this->uses_.end(i); ++use)
     {
       const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
       const Index lane = (*use - first) % LaneCount;
       for (int a = 0; a < this->groups_.corners(group); ++a)
       {
-        const std::int32_t at = this->groups_.row(first + a * LaneCount + lane);
-        if (at >= 0)
-        {
-          row.push_back(at);
-        }
+        found.push_back(this->groups_.row(first + a * LaneCount + lane));
       }
     }
+    row.assign(1, static_cast<std::int32_t>(i));
+    std::copy_if(found.begin(), found.end(), std::back_inserter(row),
+      [](std::int32_t column) { return column >= 0; });
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
-    columns.insert(columns.end(), row.begin(), row.end());
-    offsets.push_back(static_cast<Index>(columns.size()));
+    for (std::int32_t column : found)
+    {
+      const auto place = std::lower_bound(row.begin(), row.end(), column) - row.begin();
+      pattern.places.push_back(column < 0 ? -1 : static_cast<std::int32_t>(place));
+    }
+    pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
+    pattern.offsets.push_back(static_cast<Index>(pattern.columns.size()));
+    pattern.placeOffsets.push_back(static_cast<Index>(pattern.places.size()));
   }
-  matrix.open(this, std::move(offsets), std::move(columns));
+  matrix.open(this, std::move(pattern));
 }
 
 void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const
@@ -185,7 +217,8 @@ void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& mon
   {
     start[group + 1] = start[group] + 9 * LaneCount * blocksOf(this->groups_.corners(group));
   }
-  std::vector<float> blocks(start.back());
+  std::vector<float>& blocks = result.scratch();
+  blocks.resize(start.back());
   monitor.parallelFor(this->groups_.size(), Grain,
     [&](Index first, Index last) {
       vectorLoop<GroupHessian>(first, last, this->groups_, this->density_, points, start, blocks);
@@ -202,32 +235,29 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
     {
       for (Index row = firstRow; row < lastRow; ++row)
       {
-        const std::int32_t* columns = result.columns(row);
-        const Index size = result.offsets()[row + 1] - result.offsets()[row];
         float* out = result.blocks(row);
-        std::fill(out, out + 9 * size, 0.f);
+        std::fill(out, result.blocks(row + 1), 0.f);
+        const std::int32_t* place = result.places(row);
         for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
         {
           const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
           const int n = this->groups_.corners(group),
                     own = static_cast<int>((*use - first) / LaneCount),
                     lane = static_cast<int>((*use - first) % LaneCount);
-          for (int other = 0; other < n; ++other)
+          const float* cell = blocks.data() + start[group] + lane * 9 * blocksOf(n);
+          for (int other = 0; other < n; ++other, ++place)
           {
-            const std::int32_t column = this->groups_.row(first + other * LaneCount + lane);
-            if (column < 0)
+            if (*place < 0)
             {
               continue;
             }
-            float* block = out + 9 * (std::lower_bound(columns, columns + size, column) - columns);
-            const float* in =
-              blocks.data() + start[group] + lane +
-              9 * LaneCount * blockOf(std::min(own, other), std::max(own, other), n);
-            for (Index i = 0; i < 3; ++i)
+            float* block = out + 9 * *place;
+            const float* in = cell + 9 * blockOf(std::min(own, other), std::max(own, other), n);
+            for (Index j = 0; j < 3; ++j)
             {
-              for (Index j = 0; j < 3; ++j)
+              for (Index i = 0; i < 3; ++i)
               {
-                block[3 * i + j] += in[LaneCount * (own <= other ? 3 * i + j : 3 * j + i)];
+                block[3 * j + i] += in[own <= other ? 3 * j + i : 3 * i + j];
               }
             }
           }

@@ -47,7 +47,7 @@ struct RigidFit
       return;
     }
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(P + Q, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Vector3d size = svd.singularValues();
+    const Eigen::Vector3d& size = svd.singularValues();
     if (!(size[1] > 1e-10 * size[0]))
     {
       // A line: the turn about its axis is free.

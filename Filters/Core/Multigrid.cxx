@@ -701,8 +701,9 @@ std::size_t Multigrid::memory() const
                (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
     bytes += level.inverseDiagonal.size() * sizeof(float);
-    bytes += level.A.rows * (SmootherDegree > 1 ? 2 : 1) * sizeof(Eigen::Vector4f);
-    bytes += &level == &this->levels_.front() ? 0 : 2 * level.A.rows * sizeof(Eigen::Vector4f);
+    const std::size_t vector = level.A.rows * sizeof(Eigen::Vector4f);
+    bytes += (SmootherDegree > 1 ? 2 : 1) * vector;
+    bytes += &level == &this->levels_.front() ? 0 : 2 * vector;
   }
   return bytes + this->coarsestBytes();
 }

@@ -24,7 +24,6 @@ constexpr int OuterFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2
 }
 
 NaturalNeighbors::NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor)
-  : delaunay_(&delaunay)
 {
   const Points& sites = delaunay.sites();
   this->origin_ = (sites.colwise().minCoeff() + sites.colwise().maxCoeff()) / 2;

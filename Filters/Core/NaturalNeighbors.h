@@ -92,7 +92,6 @@ private:
   static void joinBorder(bool volumes, Workspace& workspace);
   static bool finish(Workspace& workspace);
 
-  const Delaunay* delaunay_ = nullptr;
   Eigen::RowVector3d origin_ =
     Eigen::RowVector3d::Zero(); ///< of all coordinates in here: the middle of the sites
   Points sites_;

@@ -18,7 +18,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 1024;
 constexpr double Margin = 0.05;     // of untangling
 constexpr Index StepsToValid = 100; // of untangling, before it looks whether that is enough
 constexpr int UntangleSteps = 20;   // for one of Newton's

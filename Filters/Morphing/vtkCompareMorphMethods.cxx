@@ -61,10 +61,10 @@ struct vtkCompareMorphMethods::vtkInternals
   }
   std::vector<double> Times() const
   {
-    std::vector<double> times;
+    std::vector<double> times(this->Steps.Number());
     for (int i = 0; i < this->Steps.Number(); ++i)
     {
-      times.push_back(this->Steps.Time(i));
+      times[i] = this->Steps.Time(i);
     }
     return times;
   }

@@ -52,7 +52,7 @@ vtkMorphBoundaryMatch::Result upTo(
   std::vector<Index> rows;
   for (std::size_t i = 0; i < match.Ids.size(); ++i)
   {
-    const int own = geometry.dimension[match.Ids[i]];
+    const std::int8_t own = geometry.dimension[match.Ids[i]];
     if (own >= 0 && own <= dimension)
     {
       result.Ids.push_back(match.Ids[i]);
@@ -328,7 +328,7 @@ void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
   const morph::ProjectionReport& onSurfaces, const vtkMorphTarget& target, vtkMorphMonitor& monitor)
 {
   const auto both = [](const std::vector<Index>& a, const std::vector<Index>& b)
-  { return static_cast<vtkIdType>(a.size() + b.size()); };
+  { return static_cast<vtkIdType>(a.size()) + static_cast<vtkIdType>(b.size()); };
   this->ProjectedPoints = both(onCurves.projected, onSurfaces.projected);
   this->UnprojectedPoints =
     both(onCurves.missed, onCurves.kept) + both(onSurfaces.missed, onSurfaces.kept);

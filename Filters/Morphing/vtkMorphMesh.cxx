@@ -15,10 +15,19 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace
 {
+/// Tells 0.0 from -0.0.
+std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
 /// Calls visit(values, count) with the array's memory, whatever integer type it has.
 template <typename Visitor>
 void visitOffsets(vtkCellArray* cells, Visitor&& visit)
@@ -189,7 +198,7 @@ bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
     for (morph::Index i = 0; i < mesh.points.size(); ++i)
     {
       const double value = static_cast<double>(values[i]);
-      if (std::memcmp(&value, kept + i, sizeof value) != 0)
+      if (bitsOf(value) != bitsOf(kept[i]))
       {
         return false;
       }

@@ -71,7 +71,7 @@ std::vector<std::string> vtkMorphMonitor::TakeWarnings()
 
 morph::Index vtkMorphMonitor::RangeLength(morph::Index n, morph::Index grain) const
 {
-  const morph::Index ranges = 4 * this->Threads;
+  const morph::Index ranges = morph::Index{ 4 } * this->Threads;
   return std::max<morph::Index>({ grain, (n + ranges - 1) / ranges, 1 });
 }
 

@@ -86,7 +86,7 @@ std::vector<std::uint8_t> Points(
 {
   const bool byPoints = fieldType(selection) == vtkSelectionNode::POINT;
   const vtkIdType count = byPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
-  const std::vector<std::uint8_t> isInside = evaluate(input, selection, extractor, byPoints, count);
+  std::vector<std::uint8_t> isInside = evaluate(input, selection, extractor, byPoints, count);
   if (byPoints)
   {
     return isInside;
