@@ -8,8 +8,8 @@ relative steps, and beyond them until the first inverted cell; surfaces by weigh
     pvpython Utilities/study.py --quick             # a small mesh, 4 steps
     pvpython Utilities/study.py --report            # tables and plots again, from what is there
 
-Writes to --output: results.csv (a row for each step, as it is computed), scaling.csv, Study.md with the tables, and figure-*.png. Goes on where
-an earlier run with the same output was interrupted. Validity is None: what is counted is what each method itself makes."""
+Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv (seconds per step), scaling.csv, Study.md
+with the tables, and figure-*.png. Goes on where an earlier run with the same output was interrupted. Validity is None: what is counted is what each method itself makes."""
 
 import argparse
 import os
@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 import study_scaling  # noqa: E402
+import study_timing  # noqa: E402
 from models_folds import load_plugin  # noqa: E402
 from study_boundary import read_boundaries, times  # noqa: E402
 from study_paper import PANELS, STEPS  # noqa: E402
@@ -49,6 +50,18 @@ def study(arguments, records):
                         print(f"done: {series}", flush=True)
 
 
+def time_steps(arguments):
+    """Seconds per step, and KLU's."""
+    study_timing.run(arguments.output / "timing.csv", arguments.models, arguments.kinds,
+                     arguments.methods, arguments.steps, arguments.small, arguments.repeats,
+                     arguments.threads)
+    if arguments.klu is None:
+        print("KLU is not timed: there is no benchmark-mesh (CONTRIBUTING.md says how to build it)")
+    else:
+        study_timing.run_klu(arguments.output, arguments.klu, arguments.models, arguments.kinds,
+                             arguments.small)
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--output", type=Path, default=Path("study-output"), metavar="DIR",
@@ -63,13 +76,20 @@ def parse_arguments():
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N",
                         help="for each filter (default: one for each core, %(default)s)")
     parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
+    parser.add_argument("--no-matrix", action="store_true", help="leave the series of steps out")
+    parser.add_argument("--no-timing", action="store_true", help="leave the seconds per step out")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
+    parser.add_argument("--klu", type=Path, metavar="PROGRAM",
+                        help="benchmark-mesh, which times KLU (default: that under build/paraview, if it has been built)")
     parser.add_argument("--quick", action="store_true",
                         help="a small bore, 4 steps, one brick: in a minute")
     parser.add_argument("--report", action="store_true", help="run nothing")
     parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
                         help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
     arguments = parser.parse_args()
+    if arguments.klu is None:
+        built = ROOT / "build" / "paraview" / "bin" / "benchmark-mesh"
+        arguments.klu = built if built.is_file() else None
     arguments.sizes, arguments.repeats = study_scaling.SIZES, study_scaling.REPEATS
     if arguments.quick:
         arguments.models, arguments.steps, arguments.small = ["bore"], 4, True
@@ -81,16 +101,18 @@ def main():
     arguments = parse_arguments()
     arguments.output.mkdir(parents=True, exist_ok=True)
     records = Records(arguments.output / "results.csv")
-    scaling = arguments.output / "scaling.csv"
     if not arguments.report:
         load_plugin(arguments.plugin)
         # Folded faces and inverted cells, of which filters warn at each step, are in the tables.
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
-        study(arguments, records)
+        if not arguments.no_matrix:
+            study(arguments, records)
+        if not arguments.no_timing:
+            time_steps(arguments)
         if not arguments.no_scaling:
-            study_scaling.run(scaling, arguments.methods, arguments.sizes, arguments.repeats,
+            study_scaling.run(arguments.output / "scaling.csv", arguments.methods, arguments.sizes, arguments.repeats,
                               arguments.threads)
-    write_report(arguments.output, records, scaling, arguments.steps)
+    write_report(arguments.output, records, arguments.steps)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables and plots of a study, laid out as the paper's, with the paper's numbers beside ours."""
 
-from statistics import median
-
 import matplotlib
 
 matplotlib.use("Agg")
@@ -12,6 +10,7 @@ from matplotlib.ticker import MaxNLocator  # noqa: E402
 import Models  # noqa: E402
 import study_paper as paper  # noqa: E402
 import study_scaling as scaling  # noqa: E402
+import study_timing as timing  # noqa: E402
 from study_records import Series, last_valid  # noqa: E402
 from study_series import METHODS  # noqa: E402
 
@@ -24,7 +23,7 @@ LEGEND = ("Quality: least scaled Jacobian at S_F (inverted cells of the method's
           " did not end by one.")
 
 
-def write_report(folder, records, scaling_file, steps):
+def write_report(folder, records, steps):
     """Writes Study.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
     text = ["# Results", "", LEGEND, ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
@@ -34,11 +33,15 @@ def write_report(folder, records, scaling_file, steps):
             picture = folder / f"figure-{model}-{surfaces.replace(' ', '-')}.png"
             _draw_quality(picture, records, model, surfaces, steps)
             text += _quality_table(records, model, surfaces, steps, picture.name)
-    for model in [name for name in paper.TABLES
-                  if any(series.model == name for series in records.series())]:
-        text += _seconds_table(records, model, steps)
-    if scaling_file.is_file():
-        text += _scaling_table(folder, scaling.read(scaling_file))
+    if (folder / "timing.csv").is_file():
+        timings = timing.read(folder / "timing.csv")
+        for model in [name for name in paper.TABLES if any(key[0] == name for key in timings)]:
+            text += _seconds_table(timings, model)
+    solved = timing.read_klu(folder)
+    if solved:
+        text += _klu_table(solved)
+    if (folder / "scaling.csv").is_file():
+        text += _scaling_table(folder, scaling.read(folder / "scaling.csv"))
     (folder / "Study.md").write_text("\n".join(text) + "\n", encoding="utf-8")
 
 
@@ -109,41 +112,50 @@ def _draw_quality(path, records, model, surfaces, steps):
     pyplot.close(figure)
 
 
-def _seconds_table(records, model, steps):
+def _seconds_table(timings, model):
+    """Of the model's timings, as study_timing.read() gives them."""
+    mine = {key[1:]: value for key, value in timings.items() if key[0] == model}
     rows = []
     for method in METHODS:
         row = [method]
         for kind, stepping in paper.PANELS:
-            ours = _seconds_cell(records, model, method, kind, stepping, steps)
             theirs = paper.seconds(model, method, kind, stepping)
-            row.append(f"{ours}; {'-' if theirs is None else f'{theirs:.2f}'}")
+            row.append(f"{_seconds_cell(mine.get((kind, stepping, method)), stepping)};"
+                       f" {'-' if theirs is None else f'{theirs:.2f}'}")
         rows.append(row)
     head = ["method"] + [f"{kind} {stepping}: ours; paper" for kind, stepping in paper.PANELS]
+    runs, threads = (" or ".join(sorted({value[k] for value in mine.values()})) for k in (2, 3))
     return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})", "",
-             "Ours: medians over steps 1 to the last, of prepare and evaluate together for relative steps, which prepare each time;"
-             " for absolute steps evaluate alone, and in brackets prepare, once for all steps."
-             f" {_threads(records, model)}", ""] + _table(head, rows))
+             "Relative: the first of 20 steps, prepare and evaluate, since each step prepares anew. Absolute: evaluate at S_F, and in brackets"
+             f" prepare, once for all steps. Exact surfaces. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
+            + _table(head, rows))
 
 
-def _threads(records, model):
-    """A sentence."""
-    counts = sorted({step.threads for series in records.series() if series.model == model
-                     for step in records.steps(series)})
-    return f"Threads: {' or '.join(map(str, counts))}."
+def _seconds_cell(timing, stepping):
+    if timing is None:
+        return "not run"
+    prepare, evaluate = timing[:2]
+    return (f"{prepare + evaluate:.3f}" if stepping == "relative"
+            else f"{evaluate:.3f} ({prepare:.3f})")
 
 
-def _seconds_cell(records, model, method, kind, stepping, steps):
-    for surfaces in ("weighted residual", "exact"):
-        found = records.steps(Series(model, kind, surfaces, stepping, method))
-        if len(found) < 2:
-            continue
-        later = found[1:steps + 1]
-        if stepping == "relative":
-            # Step 1 has what step 0 prepared, for the same mesh.
-            return f"{median(step.prepare + step.evaluate for step in later[1:] or later):.3f}"
-        return (f"{median(step.evaluate for step in later):.3f}"
-                f" ({max(step.prepare for step in found[:steps + 1]):.3f})")
-    return "not run"
+def _klu_table(found):
+    """`found`: as study_timing.read_klu() gives it."""
+    rows = []
+    for (model, kind, method), figures in found.items():
+        row = [f"{model} {kind}", method, f"{figures['prepare']:.3f}", f"{figures['warm']:.3f}"]
+        if "KLU cold" in figures:
+            row += [f"{figures['KLU cold']:.3g}", f"{figures['KLU solve']:.3g}",
+                    f"{figures['KLU cold / warm']:,.0f}"]
+        else:
+            row += [f"> {figures['KLU, stopped at the limit']:.0f}", "-",
+                    f"> {figures['limit / warm']:,.0f}"]
+        rows.append(row)
+    return (["## The paper's direct solver", "",
+             "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, factorisation and solution (1 thread) in the same run; and that over our step,"
+             " evaluate alone. KLU has 10 minutes a system.", ""]
+            + _table(["mesh", "method", "prepare", "evaluate", "KLU", "KLU, solution alone",
+                      "KLU / evaluate"], rows))
 
 
 def _scaling_table(folder, rows):

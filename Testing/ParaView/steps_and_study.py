@@ -119,6 +119,10 @@ class Study(unittest.TestCase):
                 self.assertIn(text, report)
             # The paper's seconds for FEMWARP on the bore, hexahedra, relative.
             self.assertTrue(re.search(r"^\| FEMWARP \| [0-9.]+; 0\.30 \|", report, re.MULTILINE))
+            timings = rows_of(Path(folder) / "timing.csv")
+            self.assertEqual(len(timings), 2 * 2 * 3)
+            self.assertTrue(all(float(row["prepare"]) > 0 and float(row["evaluate"]) > 0
+                                for row in timings))
             pictures = sorted(path.name for path in Path(folder).glob("*.png"))
             self.assertEqual(pictures, ["figure-bore-exact.png",
                                         "figure-bore-weighted-residual.png", "figure-scaling.png"])
