@@ -31,6 +31,7 @@ from study_report import write_report  # noqa: E402
 from study_series import METHODS, run  # noqa: E402
 
 SURFACES = ("weighted residual", "exact")
+STEPPINGS = tuple(stepping for _, stepping in PANELS[:2])
 
 
 def study(arguments, records):
@@ -38,14 +39,15 @@ def study(arguments, records):
     for name in arguments.models:
         model = Models.get(name)
         ts = times(model, arguments.steps)
+        last = arguments.steps + 1 if arguments.to_final else len(ts)
         for kind in arguments.kinds:
             mesh = model.read_small(kind) if arguments.small else model.make(kind)
             for surfaces in arguments.surfaces:
-                for stepping in [panel[1] for panel in PANELS[:2]]:
+                for stepping in arguments.steppings:
                     for method in arguments.methods:
                         series = Series(name, kind, surfaces, stepping, method)
                         boundaries = read_boundaries(arguments.output, series, mesh, ts)
-                        run(series, mesh, boundaries, ts[:len(boundaries.positions)],
+                        run(series, mesh, boundaries, ts[:min(last, len(boundaries.positions))],
                             arguments.steps, records, arguments.threads)
                         print(f"done: {series}", flush=True)
 
@@ -70,9 +72,12 @@ def parse_arguments():
                         default=list(Models.NAMES), metavar="MODEL", help="default: the paper's four")
     parser.add_argument("--kinds", nargs="+", choices=("hex", "tet"), default=["hex", "tet"])
     parser.add_argument("--surfaces", nargs="+", choices=SURFACES, default=list(SURFACES))
+    parser.add_argument("--steppings", nargs="+", choices=STEPPINGS, default=list(STEPPINGS))
     parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
                         metavar="METHOD", help="default: all seven")
     parser.add_argument("--steps", type=int, default=STEPS, help="from S_0 to S_F (default: %(default)s)")
+    parser.add_argument("--to-final", action="store_true",
+                        help="end each series at S_F; without it, t* is looked for")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N",
                         help="for each filter (default: one for each core, %(default)s)")
     parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")

@@ -99,8 +99,8 @@ class SeriesRun:
 
 
 def finished(steps, to_final, ts):
-    """Whether a series of these Steps ends here: `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F it goes on
-    until the method inverts a cell."""
+    """Whether a series of these Steps ends here: `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F, as far as they go, it
+    goes on until the method inverts a cell."""
     if len(steps) >= len(ts):
         return True
     return len(steps) > to_final and not all(step.valid for step in steps)

@@ -34,7 +34,7 @@ struct RowProduct
     for (const float* block = matrix.blocks(row); block != end; block += 9, ++column)
     {
       const double* v = x.data() + 3 * static_cast<Index>(*column);
-      for (int j = 0; j < 3; ++j)
+      for (Index j = 0; j < 3; ++j)
       {
         FloatLanes entries;
         std::memcpy(&entries, block + 3 * j, sizeof(entries));

@@ -18,12 +18,12 @@ constexpr Index RowGrain = 256;  // rows
 constexpr double Largest = 1e20; // of an entry: its square still is a float
 
 /// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
-MORPH_LANES_INLINE int blockOf(int a, int b, int n)
+MORPH_LANES_INLINE Index blockOf(Index a, Index b, Index n)
 {
   return a * n - a * (a - 1) / 2 + b - a;
 }
 
-constexpr int blocksOf(int corners)
+constexpr Index blocksOf(Index corners)
 {
   return corners * (corners + 1) / 2;
 }
@@ -42,9 +42,9 @@ MORPH_LANES_INLINE void addBlock(
 }
 
 /// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the other.
-MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, int count, float* to)
+MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, Index count, float* to)
 {
-  int e = 0;
+  Index e = 0;
   for (; e + LaneCount <= count; e += LaneCount)
   {
     const FloatLanes *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
@@ -55,14 +55,14 @@ MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, int count, floa
                        __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
                        __builtin_shufflevector(AB, CD, 0, 1, 4, 5),
                        __builtin_shufflevector(AB, CD, 2, 3, 6, 7) };
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (Index lane = 0; lane < LaneCount; ++lane)
     {
       std::memcpy(to + lane * count + e, &cell[lane], sizeof(FloatLanes));
     }
   }
   for (; e < count; ++e)
   {
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (Index lane = 0; lane < LaneCount; ++lane)
     {
       to[lane * count + e] = entries[e][lane];
     }
@@ -80,7 +80,7 @@ struct GroupHessian
     cornersOf(groups, group, points, x);
     const int n = groups.corners(group);
     LaneMatrix sum[blocksOf(8)];
-    for (int k = 0; k < blocksOf(n); ++k)
+    for (Index k = 0; k < blocksOf(n); ++k)
     {
       sum[k] = {};
     }
@@ -91,11 +91,11 @@ struct GroupHessian
       addTetrahedra(x, parts.tets[t].corner, *tetrahedra, density, n, sum);
     }
     FloatLanes entries[9 * blocksOf(8)];
-    for (int k = 0; k < blocksOf(n); ++k)
+    for (Index k = 0; k < blocksOf(n); ++k)
     {
-      for (int j = 0; j < 3; ++j)
+      for (Index j = 0; j < 3; ++j)
       {
-        for (int i = 0; i < 3; ++i)
+        for (Index i = 0; i < 3; ++i)
         {
           entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], FloatLanes);
         }
@@ -241,17 +241,16 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
         for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
         {
           const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
-          const int n = this->groups_.corners(group),
-                    own = static_cast<int>((*use - first) / LaneCount),
-                    lane = static_cast<int>((*use - first) % LaneCount);
+          const int n = this->groups_.corners(group);
+          const Index own = (*use - first) / LaneCount, lane = (*use - first) % LaneCount;
           const float* cell = blocks.data() + start[group] + lane * 9 * blocksOf(n);
-          for (int other = 0; other < n; ++other, ++place)
+          for (Index other = 0; other < n; ++other, ++place)
           {
             if (*place < 0)
             {
               continue;
             }
-            float* block = out + 9 * *place;
+            float* block = out + 9 * static_cast<Index>(*place);
             const float* in = cell + 9 * blockOf(std::min(own, other), std::max(own, other), n);
             for (Index j = 0; j < 3; ++j)
             {

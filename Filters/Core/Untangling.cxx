@@ -38,11 +38,9 @@ bool Untangling::Tangle::operator<(const Tangle& other) const
 Untangling::Tangle Untangling::tangle(
   const std::vector<Index>& folded, const Points& points, Monitor& monitor) const
 {
-  std::vector<Index> behind;
-  for (Index f : folded)
-  {
-    behind.push_back(this->faces_.cells[f]);
-  }
+  std::vector<Index> behind(folded.size());
+  std::transform(
+    folded.begin(), folded.end(), behind.begin(), [&](Index f) { return this->faces_.cells[f]; });
   std::sort(behind.begin(), behind.end());
   Tangle result;
   for (Index c : invertedCells(this->mesh_, points, this->orientation_, monitor))
