@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace morph
 {
@@ -190,10 +191,12 @@ EvaluateReport InversionFree::report(
       listIds(determined) +
       ". No method can repair them; move the boundary less, or leave some of their nodes free.");
   }
-  if (!outcome.onFolds.empty())
+  std::vector<Index> onFolds;
+  std::set_difference(outcome.onFolds.begin(), outcome.onFolds.end(), determined.begin(),
+    determined.end(), std::back_inserter(onFolds));
+  if (!onFolds.empty())
   {
-    monitor.warn("The boundary is folded: it turns over a face of cell ids " +
-                 listIds(outcome.onFolds) +
+    monitor.warn("The boundary is folded: it turns over a face of cell ids " + listIds(onFolds) +
                  ", which stay inverted. Mend the boundary there, or move it less.");
   }
   EvaluateReport report;
@@ -202,7 +205,7 @@ EvaluateReport InversionFree::report(
     { "LinearIterations", outcome.effort.linearIterations },
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
-    { "FoldedBoundaryCells", static_cast<Index>(outcome.onFolds.size()) },
+    { "FoldedBoundaryCells", static_cast<Index>(onFolds.size()) },
     { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
   return report;
 }

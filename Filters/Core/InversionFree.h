@@ -28,7 +28,7 @@ namespace morph
 /// `Untangled` (1 or 0).
 ///
 /// prepare(): FEMWARP's and simplex-linear's, and passes over the cells. evaluate(): 10 to 60 Newton steps of 0.4 to 0.8 microseconds of processor time a
-/// tetrahedron (ten a hexahedron), and a linear solution each; 3.5 kB a hexahedron meanwhile. Not linear in
+/// tetrahedron (ten a hexahedron), and a linear solution each; 4 kB a hexahedron meanwhile. Not linear in
 /// the boundary: no adjoint.
 class InversionFree : public Morpher
 {

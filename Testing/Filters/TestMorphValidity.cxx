@@ -158,6 +158,7 @@ TEST_F(MorphValidity, BoundariesThatInvertCellsByThemselvesAreNamedAtOnce)
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
   EXPECT_EQ(filter->GetBoundaryDeterminedCells(), 1);
+  EXPECT_EQ(filter->GetFoldedBoundaryCells(), 0); // none is named twice
   EXPECT_EQ(filter->GetInvertedCells(), 1);
   EXPECT_EQ(filter->GetWorstCellId(), 0);
 }
