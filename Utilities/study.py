@@ -25,13 +25,12 @@ import study_scaling  # noqa: E402
 import study_timing  # noqa: E402
 from models_folds import load_plugin  # noqa: E402
 from study_boundary import read_boundaries, times  # noqa: E402
-from study_paper import PANELS, STEPS  # noqa: E402
+from study_paper import STEPPINGS, STEPS  # noqa: E402
 from study_records import Records, Series  # noqa: E402
 from study_report import write_report  # noqa: E402
 from study_series import METHODS, run  # noqa: E402
 
 SURFACES = ("weighted residual", "exact")
-STEPPINGS = tuple(stepping for _, stepping in PANELS[:2])
 
 
 def study(arguments, records):

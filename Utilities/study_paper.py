@@ -17,6 +17,8 @@ TABLES = {"bore": 2, "pipe": 3, "canister": 4, "courier": 5}
 #: The panels of each figure, and the columns of each table.
 PANELS = (("hex", "relative"), ("hex", "absolute"), ("tet", "relative"), ("tet", "absolute"))
 
+STEPPINGS = ("relative", "absolute")
+
 #: Seconds per step, with a direct solver (KLU) on two Intel X5570: by model, for each of METHODS, in
 #: the order of PANELS.
 SECONDS = {

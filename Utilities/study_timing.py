@@ -15,15 +15,13 @@ from paraview import simple
 import Models
 from demo_picture import producer
 from Models.vtk_files import write_grid
-from study_paper import PANELS
+from study_paper import PANELS, STEPPINGS
 from study_records import RowFile
 from study_scaling import seconds
 
-REPEATS = 3
 #: A method slower than that is run once.
 SLOW = 60
 FIELDS = ("model", "kind", "stepping", "method", "prepare", "evaluate", "runs", "threads")
-STEPPINGS = ("relative", "absolute")
 
 
 def run(path, models, kinds, methods, steps, small, repeats, threads):

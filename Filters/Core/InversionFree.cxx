@@ -62,6 +62,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->referenceMesh_.points *= this->scale_;
 
   this->boundary_ = boundaryFaces(this->referenceMesh_, monitor);
+  this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, monitor);
   SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.7), third(monitor, 0.7, 0.9);
   this->femWarp_.prepare(rest, this->partition(), first);
   try
@@ -158,9 +159,9 @@ InversionFree::Outcome InversionFree::improve(
   FoldoverStages stages(energy, this->minimizer_);
   const TargetShapes targets =
     targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
-  const Untangling::Result untangling =
-    Untangling(this->referenceMesh_, this->orientation_, this->partition(), this->boundary_)
-      .run(targets, energy, stages, points, monitor);
+  const Untangling::Result untangling = Untangling(
+    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
+                                          .run(targets, energy, stages, points, monitor);
   Outcome outcome;
   outcome.untangled = untangling.valid;
   outcome.onFolds = untangling.onFolds;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Classification.h"
 #include "FemWarp.h"
 #include "FoldoverStages.h"
 #include "MeshEnergy.h"
@@ -100,6 +101,7 @@ private:
   double scale_ = 1;   ///< a power of two that makes edges about 1 long
   std::vector<std::int8_t> orientation_;
   BoundaryFaces boundary_;
+  Classification geometry_; ///< of the boundary at rest
   bool validAtRest_ = true;
   FemWarp femWarp_;
   SimplexLinear simplexLinear_;

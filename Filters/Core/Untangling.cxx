@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling.h"
 
-#include "Classification.h"
 #include "FoldedFaces.h"
 #include "SubSteps.h"
 
@@ -17,10 +16,11 @@ constexpr int StagesWithFolds = 12; // the cells on folded faces come right soon
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, const BoundaryFaces& faces)
+  const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry)
   : mesh_(mesh)
   , orientation_(orientation)
   , faces_(faces)
+  , geometry_(geometry)
   , isFixed_(mesh.numberOfNodes(), 0)
 {
   for (Index node : partition.prescribed)
@@ -57,14 +57,10 @@ Untangling::Tangle Untangling::tangle(
   return result;
 }
 
-std::vector<Index> Untangling::foldedBoundary(const Points& points, Monitor& monitor) const
+std::vector<Index> Untangling::foldedBoundary(const Points& points) const
 {
-  if (this->faces_.cells.empty())
-  {
-    return {};
-  }
-  std::vector<Index> folded = foldedFaces(
-    this->mesh_.points, points, this->faces_, classify(this->mesh_, this->faces_, {}, monitor));
+  std::vector<Index> folded =
+    foldedFaces(this->mesh_.points, points, this->faces_, this->geometry_);
   const Index* nodes = this->faces_.connectivity.data();
   const auto end = std::remove_if(folded.begin(), folded.end(),
     [&](Index f)
@@ -97,11 +93,11 @@ bool Untangling::runBesides(TargetShapes targets, MeshEnergy& energy, FoldoverSt
 Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& energy,
   FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
-  const std::vector<Index> folded = this->foldedBoundary(points, monitor);
-  energy.setTargets(targets);
+  const std::vector<Index> folded = this->foldedBoundary(points);
   Points besides = points;
   if (folded.empty())
   {
+    energy.setTargets(targets);
     if (stages.untangle(points, monitor))
     {
       return { true, {} };

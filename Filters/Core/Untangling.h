@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Classification.h"
 #include "FoldoverStages.h"
 #include "MeshEnergy.h"
 #include "NodePartition.h"
@@ -19,9 +20,10 @@ namespace morph
 class Untangling
 {
 public:
-  /// All but `target` are held by reference. `mesh`: the reference shapes; `orientation`: #cells, see Topology's orientation().
+  /// `mesh`: the reference shapes; `orientation`: #cells, see Topology's orientation(); `faces`, `geometry`: of the mesh's boundary, see
+  /// boundaryFaces() and classify(). All but `partition` are held by reference.
   Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const NodePartition& partition, const BoundaryFaces& faces);
+    const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry);
 
   struct Result
   {
@@ -42,7 +44,7 @@ private:
   /// The inverted cells. `folded`: numbers of faces.
   Tangle tangle(const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
   /// Folded faces all nodes of which are prescribed.
-  std::vector<Index> foldedBoundary(const Points& points, Monitor& monitor) const;
+  std::vector<Index> foldedBoundary(const Points& points) const;
   /// Leaves out what cannot be made positive at two or more prescribed nodes, for a few rounds.
   bool runBesides(TargetShapes targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
     Monitor& monitor) const;
@@ -50,6 +52,7 @@ private:
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;
   const BoundaryFaces& faces_;
+  const Classification& geometry_;
   std::vector<char> isFixed_; ///< #nodes
 };
 }
