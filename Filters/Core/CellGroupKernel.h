@@ -30,6 +30,35 @@ MORPH_LANES_INLINE void cornersOf(
   }
 }
 
+/// From a tetrahedron's first corner to the others, by columns.
+MORPH_LANES_INLINE void edgesOf(const LaneVector (&x)[8], const int* corner, LaneMatrix& D)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      D[k][i] = x[corner[k + 1]][i] - x[corner[0]][i];
+    }
+  }
+}
+
+/// Writes what a group gives to its corners to their places.
+MORPH_LANES_INLINE void storeAtPlaces(
+  const CellGroups& groups, Index group, const LaneVector (&sum)[8], Points& parts)
+{
+  double* out = parts.data() + 3 * groups.firstPlace(group);
+  const int corners = groups.corners(group);
+  for (int a = 0; a < corners; ++a)
+  {
+    for (int lane = 0; lane < LaneCount; ++lane, out += 3)
+    {
+      out[0] = sum[a][0][lane];
+      out[1] = sum[a][1][lane];
+      out[2] = sum[a][2][lane];
+    }
+  }
+}
+
 MORPH_LANES_INLINE void inverseOf(const CellGroups::Tetrahedra& tetrahedra, LaneMatrix& inverse)
 {
   for (int j = 0; j < 3; ++j)
@@ -46,13 +75,7 @@ MORPH_LANES_INLINE void jacobian(const LaneVector (&x)[8], const int* corner,
   const CellGroups::Tetrahedra& tetrahedra, const LaneMatrix& inverse, LaneMatrix& J)
 {
   LaneMatrix D;
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      D[k][i] = x[corner[k + 1]][i] - x[corner[0]][i];
-    }
-  }
+  edgesOf(x, corner, D);
   multiply(D, inverse, J);
   const auto counts = load(tetrahedra.weight) > 0.;
   const Lanes zero = {}, one = zero + 1.;

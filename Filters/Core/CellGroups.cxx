@@ -1,12 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellGroups.h"
 
+#include "NodeUses.h"
+
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace morph
 {
+namespace
+{
+std::vector<Index> allCells(const Mesh& mesh)
+{
+  std::vector<Index> ids(mesh.numberOfCells());
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+}
+
 CellGroups::CellGroups(const Mesh& mesh, const std::vector<std::int32_t>& row)
+  : CellGroups(mesh, row, allCells(mesh))
+{
+}
+
+CellGroups::CellGroups(
+  const Mesh& mesh, const std::vector<std::int32_t>& row, const std::vector<Index>& cells)
 {
   constexpr std::array<Shape, 4> Volumes = { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid };
   std::array<Group, Volumes.size()> open{};
@@ -19,7 +38,7 @@ CellGroups::CellGroups(const Mesh& mesh, const std::vector<std::int32_t>& row)
       group.cells = 0;
     }
   };
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  for (Index c : cells)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);
     const auto* volume = std::find(Volumes.begin(), Volumes.end(), shape.shape);
@@ -62,11 +81,23 @@ void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& ro
   }
 }
 
+Adjacency CellGroups::placesOf(Index rows) const
+{
+  return placesOfRows(this->places(), rows, [this](Index place) { return this->row(place); });
+}
+
+bool CellGroups::moves(Index group, int lane, const int* corner) const
+{
+  return std::any_of(corner, corner + 4,
+    [&](int a) { return this->row(this->firstPlace(group) + a * LaneCount + lane) >= 0; });
+}
+
 void CellGroups::setTargets(const TargetShapes& targets)
 {
   this->target_.clear();
-  for (Group& group : this->groups_)
+  for (Index index = 0; index < this->size(); ++index)
   {
+    Group& group = this->groups_[index];
     group.firstTarget = static_cast<Index>(this->target_.size());
     const SimplicialDecomposition parts = simplicialDecomposition(group.shape);
     this->target_.resize(this->target_.size() + parts.count, Tetrahedra{});
@@ -76,10 +107,7 @@ void CellGroups::setTargets(const TargetShapes& targets)
       for (Index t = 0; t < targets.start[c + 1] - first; ++t)
       {
         const TargetShapes::Tetrahedron& from = targets.tetrahedra[first + t];
-        const int* corner = parts.tets[t].corner;
-        const auto isFree = [&](int a)
-        { return this->row_[group.firstPlace + a * LaneCount + lane] >= 0; };
-        if (!(from.weight > 0 && std::any_of(corner, corner + 4, isFree)))
+        if (!(from.weight > 0 && this->moves(index, lane, parts.tets[t].corner)))
         {
           continue;
         }

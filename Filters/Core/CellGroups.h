@@ -4,6 +4,7 @@
 #include "Lanes.h"
 #include "SimplicialDecomposition.h"
 #include "TargetShapes.h"
+#include "Topology.h"
 
 #include <vector>
 
@@ -24,6 +25,9 @@ public:
 
   /// `row`: #nodes, the free node's place, or negative.
   CellGroups(const Mesh& mesh, const std::vector<std::int32_t>& row);
+  /// Of the cells with these ids alone.
+  CellGroups(
+    const Mesh& mesh, const std::vector<std::int32_t>& row, const std::vector<Index>& cells);
 
   /// Tetrahedra without a free node have weight 0: nothing moves them.
   void setTargets(const TargetShapes& targets);
@@ -31,6 +35,7 @@ public:
   Index size() const { return static_cast<Index>(this->groups_.size()); }
   Shape shape(Index group) const { return this->groups_[group].shape; }
   int cells(Index group) const { return this->groups_[group].cells; }
+  Index cell(Index group, int lane) const { return this->groups_[group].cell[lane]; }
   int corners(Index group) const { return numberOfCorners(this->shape(group)); }
   /// Lane l of corner a is at a * LaneCount + l, here and in places().
   const std::int32_t* nodes(Index group) const
@@ -43,6 +48,10 @@ public:
   Index groupOf(Index place) const { return this->groupOf_[place / LaneCount]; }
   /// The place's free node, or negative: its node is prescribed, or its lane repeats another.
   std::int32_t row(Index place) const { return this->row_[place]; }
+  /// Of each of `rows` free nodes.
+  Adjacency placesOf(Index rows) const;
+  /// Whether a free node moves the tetrahedron of these four corners in that cell of the group.
+  bool moves(Index group, int lane, const int* corner) const;
 
   int tetrahedra(Index group) const { return simplicialDecomposition(this->shape(group)).count; }
   const Tetrahedra* targets(Index group) const

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CornerAngles.h"
 
-#include "BlockSum.h"
-#include "CellPatch.h"
-#include "Minimizers.h"
-#include "NodeUses.h"
-#include "ScaledJacobian.h"
+#include "CellGroupKernel.h"
+#include "GroupSums.h"
 #include "SimplicialDecomposition.h"
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -19,17 +13,20 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 1024;
+using namespace foldover;
+using Corners = CornerAngles::Corners;
 constexpr int Power = 8;
-constexpr int Rounds = 6;
-constexpr int Steps = 40;
-constexpr int Rings = 2;
-constexpr double LeastGain = 1e-3;
-// Worst are the cells that are less than this above the least: of it, and of the way to 1.
-constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 
 /// A tetrahedron's corners in positive order; the decomposition has one of them.
-constexpr int TetCorners[4][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 3, 0, 2, 1 } };
+constexpr WeightedTet TetCorners[4] = { { { 0, 1, 2, 3 }, 1 }, { { 1, 2, 0, 3 }, 1 },
+  { { 2, 0, 1, 3 }, 1 }, { { 3, 0, 2, 1 }, 1 } };
+
+SimplicialDecomposition cornerTets(Shape shape)
+{
+  return shape == Shape::Tet ? SimplicialDecomposition{ 4, TetCorners }
+                             : SimplicialDecomposition{ cornerTetrahedra(shape),
+                                 simplicialDecomposition(shape).tets };
+}
 
 /// What takes s to 1 in the cell of scaled Jacobian 1.
 double scaleOf(Shape shape)
@@ -46,150 +43,155 @@ double scaleOf(Shape shape)
   }
 }
 
-double power(double x)
+/// One corner of each cell of a group.
+struct Corner
 {
-  static_assert(Power == 8, "three squarings");
-  x *= x;
-  x *= x;
-  return x * x;
+  LaneMatrix edges, normals; ///< the normals: of each two edges, by which the determinant grows
+  Lanes determinant, squares[3];
+  Lanes s; ///< over `least`, 1 where the corner does not count
+
+  MORPH_LANES_INLINE Corner(const LaneVector (&x)[8], const int* corner, const Lanes& scale)
+  {
+    edgesOf(x, corner, this->edges);
+    cofactor(this->edges, this->normals);
+    dot(this->edges[0], this->normals[0], this->determinant);
+    for (int k = 0; k < 3; ++k)
+    {
+      dot(this->edges[k], this->edges[k], this->squares[k]);
+    }
+    const Lanes zero = {}, one = zero + 1.;
+    const Lanes square = this->squares[0] * this->squares[1] * this->squares[2];
+    const auto some = square > 0.;
+    const Lanes quotient = scale * this->determinant / squareRoot(some ? square : one);
+    this->s = scale == 0. ? one : some ? quotient : zero;
+  }
+
+  /// s^-8, infinite where s is not positive.
+  MORPH_LANES_INLINE void power(Lanes& result) const
+  {
+    static_assert(Power == 8, "three squarings");
+    const Lanes infinity = Lanes{} + std::numeric_limits<double>::infinity();
+    result = this->s > 0. ? 1. / this->s : infinity;
+    result *= result;
+    result *= result;
+    result *= result;
+  }
+};
+
+struct GroupValue
+{
+  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups, const Corners& corners,
+    const Points& points, double& sum)
+  {
+    LaneVector x[8];
+    cornersOf(groups, group, points, x);
+    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
+    const CornerAngles::Scales* scales =
+      corners.scales.data() + groups.firstPlace(group) / LaneCount;
+    const Lanes zero = {};
+    Lanes all = {};
+    for (int t = 0; t < parts.count; ++t)
+    {
+      const Lanes scale = load(scales[t].factor);
+      Lanes power;
+      Corner(x, parts.tets[t].corner, scale).power(power);
+      all += scale == 0. ? zero : power;
+    }
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      sum += all[lane];
+    }
+  }
+};
+
+struct GroupGradient
+{
+  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups, const Corners& corners,
+    const Points& points, Points& forces)
+  {
+    LaneVector x[8], sum[8] = {};
+    cornersOf(groups, group, points, x);
+    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
+    const CornerAngles::Scales* scales =
+      corners.scales.data() + groups.firstPlace(group) / LaneCount;
+    const double mean = Power / static_cast<double>(corners.count);
+    const Lanes zero = {}, one = zero + 1.;
+    for (int t = 0; t < parts.count; ++t)
+    {
+      const Lanes scale = load(scales[t].factor);
+      const int* corner = parts.tets[t].corner;
+      const Corner own(x, corner, scale);
+      Lanes power;
+      own.power(power);
+      const auto counts = (scale != 0.) & (own.s > 0.);
+      const Lanes factor = counts ? mean * power : zero;
+      const Lanes byDeterminant = factor / (counts ? own.determinant : one);
+      LaneVector all = {};
+      for (int k = 0; k < 3; ++k)
+      {
+        const Lanes byLength = factor / (counts ? own.squares[k] : one);
+        for (int i = 0; i < 3; ++i)
+        {
+          const Lanes force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
+          sum[corner[k + 1]][i] += force;
+          all[i] += force;
+        }
+      }
+      for (int i = 0; i < 3; ++i)
+      {
+        sum[corner[0]][i] -= all[i];
+      }
+    }
+    storeAtPlaces(groups, group, sum, forces);
+  }
+};
+
+Corners scaledCorners(
+  const CellGroups& groups, const std::vector<std::int8_t>& orientation, double least)
+{
+  Corners result;
+  result.scales.resize(groups.places() / LaneCount);
+  for (Index group = 0; group < groups.size(); ++group)
+  {
+    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
+    CornerAngles::Scales* scales = result.scales.data() + groups.firstPlace(group) / LaneCount;
+    for (int lane = 0; lane < groups.cells(group); ++lane)
+    {
+      for (int t = 0; t < parts.count; ++t)
+      {
+        if (groups.moves(group, lane, parts.tets[t].corner))
+        {
+          scales[t].factor[lane] =
+            orientation[groups.cell(group, lane)] * scaleOf(groups.shape(group)) / least;
+          ++result.count;
+        }
+      }
+    }
+  }
+  result.count = std::max<Index>(1, result.count);
+  return result;
 }
 }
 
 CornerAngles::CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least)
   : free_(free)
+  , groups_(mesh, placesIn(free, mesh.numberOfNodes()), cells)
+  , uses_(this->groups_.placesOf(static_cast<Index>(free.size())))
+  , corners_(scaledCorners(this->groups_, orientation, least))
 {
-  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
-  for (Index c : cells)
-  {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    const bool isTet = shape.shape == Shape::Tet;
-    const int count = isTet ? 4 : cornerTetrahedra(shape.shape);
-    for (int k = 0; k < count; ++k)
-    {
-      const int* local =
-        isTet ? TetCorners[k] : simplicialDecomposition(shape.shape).tets[k].corner;
-      Corner corner;
-      corner.scale = orientation[c] * scaleOf(shape.shape) / least;
-      bool moves = false;
-      for (int a = 0; a < 4; ++a)
-      {
-        corner.node[a] = mesh.cell(c)[shape.cornerNode[local[a]]];
-        moves = moves || row[corner.node[a]] >= 0;
-      }
-      if (moves)
-      {
-        this->corners_.push_back(corner);
-      }
-    }
-  }
-  this->uses_ =
-    placesOfRows(static_cast<Index>(4 * this->corners_.size()), static_cast<Index>(free.size()),
-      [&](Index place) { return row[this->corners_[place / 4].node[place % 4]]; });
-}
-
-double CornerAngles::measure(
-  const Corner& corner, const Points& points, Eigen::Matrix3d& edges) const
-{
-  for (int k = 0; k < 3; ++k)
-  {
-    edges.col(k) = (points.row(corner.node[k + 1]) - points.row(corner.node[0])).transpose();
-  }
-  const double lengths = edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
-  return lengths > 0 ? corner.scale * edges.determinant() / lengths : 0;
 }
 
 Objective::Value CornerAngles::value(const Points& points, Monitor& monitor) const
 {
-  const auto count = static_cast<Index>(this->corners_.size());
-  const double sum = blockSum(count, monitor, 0.,
-    [&](Index c)
-    {
-      Eigen::Matrix3d edges;
-      const double s = this->measure(this->corners_[c], points, edges);
-      return s > 0 ? power(1 / s) : std::numeric_limits<double>::infinity();
-    });
-  return { sum / static_cast<double>(std::max<Index>(1, count)), std::isfinite(sum) };
+  const auto sum =
+    sumOverGroups<GroupValue, double>(this->groups_, monitor, this->corners_, points);
+  return { sum / static_cast<double>(this->corners_.count), std::isfinite(sum) };
 }
 
 void CornerAngles::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  // Each corner writes what it gives to its nodes; then each node sums up in a fixed order.
-  const auto count = static_cast<Index>(this->corners_.size());
-  Points parts(4 * count, 3);
-  monitor.parallelFor(count, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        Eigen::Matrix3d D;
-        const double s = this->measure(this->corners_[c], points, D);
-        const double factor = s > 0 ? Power * power(1 / s) / static_cast<double>(count) : 0;
-        const double determinant = D.determinant();
-        for (int k = 0; k < 3 && factor > 0; ++k)
-        {
-          const Eigen::Vector3d normal = D.col((k + 1) % 3).cross(D.col((k + 2) % 3));
-          parts.row(4 * c + k + 1) =
-            factor * (D.col(k) / D.col(k).squaredNorm() - normal / determinant).transpose();
-        }
-        if (!(factor > 0))
-        {
-          parts.middleRows(4 * c + 1, 3).setZero();
-        }
-        parts.row(4 * c) = -parts.middleRows(4 * c + 1, 3).colwise().sum();
-      }
-    });
-  sumOverPlaces(this->uses_, parts, result, monitor);
-}
-
-namespace
-{
-std::vector<Index> worstCells(const Mesh& mesh, const Quality& quality)
-{
-  const double least = quality.minimum;
-  const double limit = least + std::min(OfTheLeast * least, OfTheWay * (1 - least));
-  std::vector<Index> worst;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    if (quality.scaledJacobian[c] <= limit && numberOfCorners(cellShape(mesh.types[c])->shape) > 0)
-    {
-      worst.push_back(c);
-    }
-  }
-  return worst;
-}
-}
-
-int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& free, Points& points, Monitor& monitor)
-{
-  Quality quality = measureQuality(mesh, points, orientation, {}, monitor);
-  if (!(quality.minimum > 0))
-  {
-    return 0;
-  }
-  const Adjacency around = nodeToCells(mesh);
-  for (int round = 0; round < Rounds; ++round)
-  {
-    const CellPatch patch = cellPatch(mesh, around, free, worstCells(mesh, quality), Rings);
-    if (patch.nodes.empty())
-    {
-      return round;
-    }
-    const CornerAngles angles(mesh, orientation, patch.cells, patch.nodes, quality.minimum);
-    MinimizerLimits limits;
-    limits.steps = Steps;
-    MinimizerEffort effort;
-    Points trial = points;
-    limitedMemoryBfgs(angles, trial, limits, effort, monitor);
-    Quality next = measureQuality(mesh, trial, orientation, {}, monitor);
-    if (!(next.minimum > (1 + LeastGain) * quality.minimum))
-    {
-      return round;
-    }
-    points.swap(trial);
-    quality = std::move(next);
-  }
-  return Rounds;
+  gatherFromGroups<GroupGradient>(
+    this->groups_, this->uses_, this->parts_, result, monitor, this->corners_, points);
 }
 }

@@ -2,11 +2,11 @@
 #include "InversionFree.h"
 
 #include "BoundaryDetermined.h"
-#include "CornerAngles.h"
 #include "Error.h"
 #include "ScaledJacobian.h"
 #include "SubMonitor.h"
 #include "Untangling.h"
+#include "WorstCells.h"
 
 #include <algorithm>
 #include <cmath>

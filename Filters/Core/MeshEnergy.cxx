@@ -2,8 +2,7 @@
 #include "MeshEnergy.h"
 
 #include "CellGroupKernel.h"
-#include "NodeUses.h"
-#include "VectorLoop.h"
+#include "GroupSums.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +13,6 @@ namespace
 {
 using namespace foldover;
 
-constexpr Index Grain = 128;     // groups
 constexpr double Barrier = 1e-9; // regularisation that keeps nothing inverted finite
 
 struct Sum
@@ -111,17 +109,7 @@ struct GroupGradient
         sum[corner[0]][i] -= all;
       }
     }
-    double* out = parts.data() + 3 * groups.firstPlace(group);
-    const int corners = groups.corners(group);
-    for (int a = 0; a < corners; ++a)
-    {
-      for (int lane = 0; lane < LaneCount; ++lane, out += 3)
-      {
-        out[0] = sum[a][0][lane];
-        out[1] = sum[a][1][lane];
-        out[2] = sum[a][2][lane];
-      }
-    }
+    storeAtPlaces(groups, group, sum, parts);
   }
 };
 }
@@ -129,30 +117,13 @@ struct GroupGradient
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
   : free_(free)
   , groups_(mesh, placesIn(free, mesh.numberOfNodes()))
+  , uses_(this->groups_.placesOf(static_cast<Index>(free.size())))
 {
-  this->uses_ = placesOfRows(this->groups_.places(), static_cast<Index>(free.size()),
-    [this](Index place) { return this->groups_.row(place); });
 }
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  // Sums of fixed blocks, in their order: no thread shows.
-  const Index groups = this->groups_.size(), blocks = (groups + Grain - 1) / Grain;
-  std::vector<Sum> part(blocks);
-  monitor.parallelFor(blocks, 1,
-    [&](Index first, Index last)
-    {
-      for (Index b = first; b < last; ++b)
-      {
-        vectorLoop<GroupEnergy>(b * Grain, std::min(groups, (b + 1) * Grain), this->groups_,
-          this->density_, points, part[b]);
-      }
-    });
-  Sum sum;
-  for (const Sum& p : part)
-  {
-    sum += p;
-  }
+  const auto sum = sumOverGroups<GroupEnergy, Sum>(this->groups_, monitor, this->density_, points);
   return { sum.energy, sum.least, sum.most };
 }
 
@@ -164,11 +135,7 @@ Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  // Each cell writes what it gives to its corners; then each node sums up, in the order of the cells.
-  Points parts(this->groups_.places(), 3);
-  monitor.parallelFor(this->groups_.size(), Grain,
-    [&](Index first, Index last)
-    { vectorLoop<GroupGradient>(first, last, this->groups_, this->density_, points, parts); });
-  sumOverPlaces(this->uses_, parts, result, monitor);
+  gatherFromGroups<GroupGradient>(
+    this->groups_, this->uses_, this->parts_, result, monitor, this->density_, points);
 }
 }

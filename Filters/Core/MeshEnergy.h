@@ -12,7 +12,7 @@
 namespace morph
 {
 /// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all cells. Tetrahedra without a free
-/// node are left out: nothing moves them.
+/// node are left out: nothing moves them. Not for two threads at once.
 class MeshEnergy : public SecondOrderObjective
 {
 public:
@@ -46,7 +46,8 @@ private:
 
   std::vector<Index> free_;
   CellGroups groups_;
-  Adjacency uses_; ///< #free: places in the groups
+  Adjacency uses_;       ///< #free: places in the groups
+  mutable Points parts_; ///< of the gradient, kept from call to call
   FoldoverDensity density_;
 };
 }

@@ -3,6 +3,7 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "ScaledJacobian.h"
+#include "WorstCells.h"
 
 #include <gtest/gtest.h>
 
