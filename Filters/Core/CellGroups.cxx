@@ -11,23 +11,39 @@ namespace morph
 {
 namespace
 {
+constexpr std::array<Shape, 4> Volumes = { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid };
+
 std::vector<Index> allCells(const Mesh& mesh)
 {
   std::vector<Index> ids(mesh.numberOfCells());
   std::iota(ids.begin(), ids.end(), 0);
   return ids;
 }
+
+/// Of a volume cell's corners; negative where none is free.
+Index leastRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  Index least = -1;
+  for (int a = 0; a < numberOfCorners(shape.shape); ++a)
+  {
+    const Index own = row[mesh.cell(cell)[shape.cornerNode[a]]];
+    least = own >= 0 && (least < 0 || own < least) ? own : least;
+  }
+  return least;
+}
 }
 
-CellGroups::CellGroups(const Mesh& mesh, const std::vector<std::int32_t>& row)
-  : CellGroups(mesh, row, allCells(mesh))
+CellGroups::CellGroups(const Mesh& mesh, const std::vector<Index>& free)
+  : CellGroups(mesh, free, allCells(mesh))
 {
 }
 
 CellGroups::CellGroups(
-  const Mesh& mesh, const std::vector<std::int32_t>& row, const std::vector<Index>& cells)
+  const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells)
+  : rows_(static_cast<Index>(free.size()))
 {
-  constexpr std::array<Shape, 4> Volumes = { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid };
+  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
   std::array<Group, Volumes.size()> open{};
   const auto close = [&](Group& group)
   {
@@ -38,23 +54,15 @@ CellGroups::CellGroups(
       group.cells = 0;
     }
   };
-  for (Index c : cells)
+  // In the order of their least rows, so that what a row gathers is near in memory.
+  const Adjacency order = morph::placesOfRows(static_cast<Index>(cells.size()), this->rows_,
+    [&](Index i) { return leastRow(mesh, cells[i], row); });
+  for (Index i : order.values)
   {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    const auto* volume = std::find(Volumes.begin(), Volumes.end(), shape.shape);
-    const auto isFree = [&](int a) { return row[mesh.cell(c)[shape.cornerNode[a]]] >= 0; };
-    bool movable = false;
-    for (int a = 0; a < numberOfCorners(shape.shape) && !movable; ++a)
-    {
-      movable = isFree(a);
-    }
-    if (volume == Volumes.end() || !movable)
-    {
-      continue;
-    }
-    Group& group = open[volume - Volumes.begin()];
-    group.shape = shape.shape;
-    group.cell[group.cells++] = c;
+    const Shape shape = cellShape(mesh.types[cells[i]])->shape;
+    Group& group = open[std::find(Volumes.begin(), Volumes.end(), shape) - Volumes.begin()];
+    group.shape = shape;
+    group.cell[group.cells++] = cells[i];
     if (group.cells == LaneCount)
     {
       close(group);
@@ -81,9 +89,10 @@ void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& ro
   }
 }
 
-Adjacency CellGroups::placesOf(Index rows) const
+Adjacency CellGroups::placesOfRows() const
 {
-  return placesOfRows(this->places(), rows, [this](Index place) { return this->row(place); });
+  return morph::placesOfRows(
+    this->places(), this->rows_, [this](Index place) { return this->row(place); });
 }
 
 bool CellGroups::moves(Index group, int lane, const int* corner) const

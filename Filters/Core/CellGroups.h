@@ -23,11 +23,10 @@ public:
     double stiffened[LaneCount]; ///< 1 or 0
   };
 
-  /// `row`: #nodes, the free node's place, or negative.
-  CellGroups(const Mesh& mesh, const std::vector<std::int32_t>& row);
-  /// Of the cells with these ids alone.
-  CellGroups(
-    const Mesh& mesh, const std::vector<std::int32_t>& row, const std::vector<Index>& cells);
+  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors near, see rowOrder().
+  CellGroups(const Mesh& mesh, const std::vector<Index>& free);
+  /// Of the volume cells with these ids alone.
+  CellGroups(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);
 
   /// Tetrahedra without a free node have weight 0: nothing moves them.
   void setTargets(const TargetShapes& targets);
@@ -46,10 +45,10 @@ public:
   Index firstPlace(Index group) const { return this->groups_[group].firstPlace; }
   Index places() const { return static_cast<Index>(this->node_.size()); }
   Index groupOf(Index place) const { return this->groupOf_[place / LaneCount]; }
-  /// The place's free node, or negative: its node is prescribed, or its lane repeats another.
+  /// The row of the place's node, or negative: its node is prescribed, or its lane repeats another.
   std::int32_t row(Index place) const { return this->row_[place]; }
-  /// Of each of `rows` free nodes.
-  Adjacency placesOf(Index rows) const;
+  /// Of each row.
+  Adjacency placesOfRows() const;
   /// Whether a free node moves the tetrahedron of these four corners in that cell of the group.
   bool moves(Index group, int lane, const int* corner) const;
 
@@ -69,6 +68,7 @@ private:
   };
   void addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group);
 
+  Index rows_;
   std::vector<Group> groups_;
   std::vector<std::int32_t> node_, row_;
   std::vector<std::int32_t> groupOf_; ///< of each corner

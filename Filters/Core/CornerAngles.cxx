@@ -3,6 +3,7 @@
 
 #include "CellGroupKernel.h"
 #include "GroupSums.h"
+#include "RowOrder.h"
 #include "SimplicialDecomposition.h"
 
 #include <algorithm>
@@ -175,9 +176,9 @@ Corners scaledCorners(
 
 CornerAngles::CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least)
-  : free_(free)
-  , groups_(mesh, placesIn(free, mesh.numberOfNodes()), cells)
-  , uses_(this->groups_.placesOf(static_cast<Index>(free.size())))
+  : free_(rowOrder(mesh, free))
+  , groups_(mesh, this->free_, cells)
+  , uses_(this->groups_.placesOfRows())
   , corners_(scaledCorners(this->groups_, orientation, least))
 {
 }

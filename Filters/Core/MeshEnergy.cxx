@@ -3,6 +3,7 @@
 
 #include "CellGroupKernel.h"
 #include "GroupSums.h"
+#include "RowOrder.h"
 
 #include <algorithm>
 #include <limits>
@@ -115,9 +116,9 @@ struct GroupGradient
 }
 
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
-  : free_(free)
-  , groups_(mesh, placesIn(free, mesh.numberOfNodes()))
-  , uses_(this->groups_.placesOf(static_cast<Index>(free.size())))
+  : free_(rowOrder(mesh, free))
+  , groups_(mesh, this->free_)
+  , uses_(this->groups_.placesOfRows())
 {
 }
 

@@ -16,7 +16,8 @@ namespace morph
 class MeshEnergy : public SecondOrderObjective
 {
 public:
-  /// `free`: ids of the nodes that move, ascending. Cost: passes over the cells; 100 bytes a cell.
+  /// `free`: ids of the nodes that move, ascending; free() has them in the order of rowOrder(). Cost: passes over the cells; 100 bytes
+  /// a cell.
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
 
   /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of weight 0 are left out. 96 bytes a

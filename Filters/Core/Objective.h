@@ -15,7 +15,7 @@ class Objective
 public:
   virtual ~Objective();
 
-  /// Ids of the nodes that move, ascending.
+  /// Ids of the nodes that move, in the order of the gradient's rows.
   virtual const std::vector<Index>& free() const = 0;
 
   struct Value

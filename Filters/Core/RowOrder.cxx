@@ -13,6 +13,10 @@ std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
 {
   constexpr Index Small = 10000;       // fits a cache in any order
   constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
+  if (static_cast<Index>(free.size()) <= Small)
+  {
+    return free;
+  }
   const Index cells = mesh.numberOfCells();
   double spans = 0;
   Index count = 0;
@@ -27,7 +31,7 @@ std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
     }
   }
   const bool far = spans > FarShare * static_cast<double>(count) * mesh.numberOfNodes();
-  return static_cast<Index>(free.size()) > Small && far ? spatialOrder(mesh.points, free) : free;
+  return far ? spatialOrder(mesh.points, free) : free;
 }
 
 Index placeInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row)

@@ -3,6 +3,7 @@
 
 #include "CellGroupKernel.h"
 #include "GroupSums.h"
+#include "RowOrder.h"
 
 #include <Eigen/LU>
 
@@ -121,9 +122,9 @@ Tetrahedra tetrahedraOf(const CellGroups& groups, const TargetShapes& targets, d
 
 UntangleEnergy::UntangleEnergy(
   const Mesh& mesh, const std::vector<Index>& free, const TargetShapes& targets, double margin)
-  : free_(free)
-  , groups_(mesh, placesIn(free, mesh.numberOfNodes()))
-  , uses_(this->groups_.placesOf(static_cast<Index>(free.size())))
+  : free_(rowOrder(mesh, free))
+  , groups_(mesh, this->free_)
+  , uses_(this->groups_.placesOfRows())
   , tetrahedra_(tetrahedraOf(this->groups_, targets, margin))
 {
 }

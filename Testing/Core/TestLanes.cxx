@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -190,7 +191,7 @@ TEST(CellGroups, EachFreeCornerHasOnePlace)
         ++expected[row[node]];
       }
     }
-    const morph::CellGroups groups(mesh, row);
+    const morph::CellGroups groups(mesh, free);
     for (Index place = 0; place < groups.places(); ++place)
     {
       const Index first = groups.firstPlace(groups.groupOf(place));
@@ -201,6 +202,44 @@ TEST(CellGroups, EachFreeCornerHasOnePlace)
         ++found[groups.row(place)];
       }
     }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(CellGroups, HoldEachCellWithAFreeNodeOnceOfThoseAskedFor)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    std::vector<Index> free = motions::outerPartition(mesh).free, some, expected;
+    std::reverse(free.begin(), free.end()); // rows in any order
+    for (Index c = 0; c < mesh.numberOfCells(); c += 2)
+    {
+      some.push_back(c);
+      const bool moves = std::any_of(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c),
+        [&](Index node) { return std::find(free.begin(), free.end(), node) != free.end(); });
+      if (moves && morph::cellShape(mesh.types[c])->dimension == 3)
+      {
+        expected.push_back(c);
+      }
+    }
+    const morph::CellGroups groups(mesh, free, some);
+    std::vector<Index> found;
+    for (Index group = 0; group < groups.size(); ++group)
+    {
+      for (int lane = 0; lane < groups.cells(group); ++lane)
+      {
+        const Index c = groups.cell(group, lane);
+        found.push_back(c);
+        EXPECT_EQ(groups.shape(group), morph::cellShape(mesh.types[c])->shape);
+        for (int a = 0; a < groups.corners(group); ++a)
+        {
+          EXPECT_EQ(groups.nodes(group)[a * LaneCount + lane],
+            mesh.cell(c)[morph::cellShape(mesh.types[c])->cornerNode[a]]);
+        }
+      }
+    }
+    std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
   }
 }
