@@ -159,9 +159,10 @@ def _klu_table(found):
 
 
 def _scaling_table(folder, rows):
+    runs, threads = (" or ".join(sorted({row[field] for row in rows})) for field in ("runs", "threads"))
     text = ["## Time against size (the paper's Section 4.5 and Figure 10)", "",
             "Bricks of N x 20 x 20 hexahedra. The power of the number of nodes that prepare and evaluate together, and evaluate alone, grow with"
-            f" over N = 60 and more, and seconds of both at the largest N. {scaling.REPEATS} runs each, their median. Threads: {' or '.join(sorted({row['threads'] for row in rows}))}.", ""]
+            f" over N = 60 and more, and seconds of both at the largest N. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
     table = []
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.5), sharey=True)
     for axis, motion in zip(axes, scaling.MOTIONS):

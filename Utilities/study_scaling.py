@@ -17,7 +17,7 @@ SIZES = tuple(range(20, 261, 10))
 REPEATS = 3
 LEAST_NODES = 61 * 21 * 21  # of the fit: N = 60
 MOTIONS = ("stretch", "twist")
-FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate", "threads")
+FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate", "runs", "threads")
 
 
 def brick(n):
@@ -73,7 +73,7 @@ def run(path, methods, sizes, repeats, threads):
             boundary = producer(target)
             found = [seconds(method, rest, boundary, threads) for _ in range(repeats)]
             prepare, evaluate = (median(values) for values in zip(*found))
-            file.add((motion, method, n, len(mesh.points), prepare, evaluate, threads))
+            file.add((motion, method, n, len(mesh.points), prepare, evaluate, repeats, threads))
             simple.Delete(boundary)
         simple.Delete(rest)
 

@@ -53,6 +53,23 @@ struct Rim
   }
   bool isFold() const { return this->edges > 0 ? 2 * this->against >= this->edges : this->bowTies; }
 };
+
+/// Calls body(g) for the faces g of the surface of f that have an edge in common with it, and for f, once for each edge.
+template <typename Body>
+void forNeighbors(const Classification& geometry, Index f, const Body& body)
+{
+  const SurfaceEdges& edges = geometry.edges;
+  for (const Index* e = edges.ofFace.begin(f); e != edges.ofFace.end(f); ++e)
+  {
+    for (const Index* g = edges.faces.begin(*e); g != edges.faces.end(*e); ++g)
+    {
+      if (geometry.surfaceOfFace[*g] == geometry.surfaceOfFace[f])
+      {
+        body(*g);
+      }
+    }
+  }
+}
 }
 
 std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
@@ -84,31 +101,21 @@ std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved
     for (std::size_t next = 0; next < patch.size(); ++next)
     {
       const Index f = patch[next];
-      for (const Index* e = geometry.edges.ofFace.begin(f); e != geometry.edges.ofFace.end(f); ++e)
-      {
-        for (const Index* g = geometry.edges.faces.begin(*e); g != geometry.edges.faces.end(*e);
-             ++g)
+      forNeighbors(geometry, f,
+        [&](Index g)
         {
-          if (geometry.surfaceOfFace[*g] != geometry.surfaceOfFace[f])
+          if (state[g] == State::Turned)
           {
-            continue;
+            state[g] = State::Visited;
+            patch.push_back(g);
           }
-          if (state[*g] == State::Turned)
-          {
-            state[*g] = State::Visited;
-            patch.push_back(*g);
-          }
-          else if (state[*g] == State::BowTie)
-          {
-            rim.bowTies = true;
-          }
-          else if (state[*g] == State::Straight)
+          rim.bowTies = rim.bowTies || state[g] == State::BowTie;
+          if (state[g] == State::Straight)
           {
             rim.add(vectorArea(moved, nodesOf(f), sizeOf(f))
-                      .dot(vectorArea(moved, nodesOf(*g), sizeOf(*g))));
+                      .dot(vectorArea(moved, nodesOf(g), sizeOf(g))));
           }
-        }
-      }
+        });
     }
     if (rim.isFold())
     {
