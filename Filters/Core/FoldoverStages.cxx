@@ -71,6 +71,13 @@ void FoldoverStages::setDensity(double epsilon, double stiffness)
   this->energy_.setDensity(density);
 }
 
+void FoldoverStages::include(const MinimizerEffort& effort)
+{
+  this->effort_.steps += effort.steps;
+  this->effort_.linearIterations += effort.linearIterations;
+  this->effort_.evaluations += effort.evaluations;
+}
+
 MeshEnergy::State FoldoverStages::evaluate(const Points& points, Monitor& monitor)
 {
   ++this->effort_.evaluations;

@@ -31,7 +31,10 @@ public:
   /// From a valid mesh to one with a lower greatest distortion; the mesh stays valid.
   void stiffen(Points& points, Monitor& monitor);
 
+  Minimizer minimizer() const { return this->minimizer_; }
   const MinimizerEffort& effort() const { return this->effort_; }
+  /// Counts the effort of stages on a part of the mesh as well.
+  void include(const MinimizerEffort& effort);
 
 private:
   void setDensity(double epsilon, double stiffness = 0);

@@ -348,6 +348,39 @@ void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<
   }
 }
 
+namespace
+{
+bool isPositive(
+  const std::array<Index, 4>& node, const TargetShapes::Tetrahedron& target, const Points& points)
+{
+  Eigen::Matrix3d D;
+  for (int k = 0; k < 3; ++k)
+  {
+    D.col(k) = (points.row(node[k + 1]) - points.row(node[0])).transpose();
+  }
+  return (D * Eigen::Map<const Eigen::Matrix3d>(target.inverse)).determinant() > 0;
+}
+}
+
+std::vector<Index> tangledCells(const Mesh& mesh, const Points& points, const TargetShapes& targets)
+{
+  std::vector<Index> result;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    bool tangled = false;
+    for (Index t = targets.start[c]; t < targets.start[c + 1] && !tangled; ++t)
+    {
+      tangled = targets.tetrahedra[t].weight > 0 &&
+                !isPositive(nodesOf(mesh, c, t - targets.start[c]), targets.tetrahedra[t], points);
+    }
+    if (tangled)
+    {
+      result.push_back(c);
+    }
+  }
+  return result;
+}
+
 Index dropFolded(
   const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets)
 {
@@ -358,17 +391,9 @@ Index dropFolded(
     {
       TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
       const std::array<Index, 4> node = nodesOf(mesh, c, t - targets.start[c]);
-      if (!(tetrahedron.weight > 0) ||
-          std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) < 2)
-      {
-        continue;
-      }
-      Eigen::Matrix3d D;
-      for (int k = 0; k < 3; ++k)
-      {
-        D.col(k) = (points.row(node[k + 1]) - points.row(node[0])).transpose();
-      }
-      if (!((D * Eigen::Map<const Eigen::Matrix3d>(tetrahedron.inverse)).determinant() > 0))
+      if (tetrahedron.weight > 0 &&
+          std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) >= 2 &&
+          !isPositive(node, tetrahedron, points))
       {
         tetrahedron.weight = 0;
         ++dropped;

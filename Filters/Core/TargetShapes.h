@@ -46,6 +46,10 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
 void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
   TargetShapes& targets);
 
+/// Ids of the cells with a tetrahedron of positive weight that is inverted or flat at `points` (#nodes x 3).
+std::vector<Index> tangledCells(
+  const Mesh& mesh, const Points& points, const TargetShapes& targets);
+
 /// Gives weight 0 to the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have at least two corners whose `isFixed`
 /// (#nodes) is not 0: behind a fold of the boundary, where none can be positive. Returns how many.
 Index dropFolded(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling.h"
 
+#include "CellPatch.h"
 #include "FoldedFaces.h"
 #include "SubSteps.h"
 
@@ -12,7 +13,11 @@ namespace morph
 namespace
 {
 constexpr int Rounds = 3;
+constexpr int FewStages =
+  12; // of a mesh: what is tangled then is so at a few places, if it can be mended
+constexpr int StagesNear = 60;      // of such places
 constexpr int StagesWithFolds = 12; // the cells on folded faces come right soon or not at all
+constexpr int Rings = 5;            // of cells round them
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
@@ -21,7 +26,9 @@ Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orienta
   , orientation_(orientation)
   , faces_(faces)
   , geometry_(geometry)
+  , free_(partition.free)
   , isFixed_(mesh.numberOfNodes(), 0)
+  , around_(nodeToCells(mesh))
 {
   for (Index node : partition.prescribed)
   {
@@ -35,13 +42,20 @@ bool Untangling::Tangle::operator<(const Tangle& other) const
          std::make_tuple(other.others, other.onFolds.size());
 }
 
+std::vector<Index> Untangling::behind(const std::vector<Index>& folded) const
+{
+  std::vector<Index> cells(folded.size());
+  std::transform(
+    folded.begin(), folded.end(), cells.begin(), [&](Index f) { return this->faces_.cells[f]; });
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
 Untangling::Tangle Untangling::tangle(
   const std::vector<Index>& folded, const Points& points, Monitor& monitor) const
 {
-  std::vector<Index> behind(folded.size());
-  std::transform(
-    folded.begin(), folded.end(), behind.begin(), [&](Index f) { return this->faces_.cells[f]; });
-  std::sort(behind.begin(), behind.end());
+  const std::vector<Index> behind = this->behind(folded);
   Tangle result;
   for (Index c : invertedCells(this->mesh_, points, this->orientation_, monitor))
   {
@@ -72,19 +86,32 @@ std::vector<Index> Untangling::foldedBoundary(const Points& points) const
   return folded;
 }
 
-bool Untangling::runBesides(TargetShapes targets, MeshEnergy& energy, FoldoverStages& stages,
+bool Untangling::runNear(const std::vector<Index>& cells, const TargetShapes& targets,
+  FoldoverStages& stages, int most, Points& points, Monitor& monitor) const
+{
+  MeshEnergy energy(
+    this->mesh_, cellPatch(this->mesh_, this->around_, this->free_, cells, Rings).nodes);
+  energy.setTargets(targets);
+  FoldoverStages near(energy, stages.minimizer());
+  const bool done = near.untangle(points, monitor, most);
+  stages.include(near.effort());
+  return done;
+}
+
+bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages,
   Points& points, Monitor& monitor) const
 {
-  for (int round = 0; round < Rounds; ++round)
+  for (int round = 0; round <= Rounds; ++round)
   {
-    if (dropFolded(this->mesh_, this->isFixed_, points, targets) == 0)
+    const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
+    if (round > 0 && dropFolded(this->mesh_, this->isFixed_, points, targets) == 0)
     {
-      break;
+      return false;
     }
-    energy.setTargets(targets);
-    if (stages.untangle(points, monitor))
+    if (this->runNear(tangled, targets, stages, StagesNear, points, monitor))
     {
-      return true;
+      energy.setTargets(targets);
+      return stages.untangle(points, monitor);
     }
   }
   return false;
@@ -95,6 +122,7 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
 {
   const std::vector<Index> folded = this->foldedBoundary(points);
   Points besides = points;
+  TargetShapes others = targets;
   if (folded.empty())
   {
     energy.setTargets(targets);
@@ -103,22 +131,24 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       return { true, {} };
     }
     besides = points;
-    this->runBesides(targets, energy, stages, besides, monitor);
+    this->runBesides(others, energy, stages, besides, monitor);
   }
   else
   {
-    TargetShapes others = targets;
     dropBehind(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
-    if (!stages.untangle(besides, monitor))
+    if (!stages.untangle(besides, monitor, FewStages))
     {
       this->runBesides(others, energy, stages, besides, monitor);
     }
     points = besides;
-    energy.setTargets(targets);
-    if (stages.untangle(points, monitor, StagesWithFolds))
+    if (this->runNear(this->behind(folded), targets, stages, StagesWithFolds, points, monitor))
     {
-      return { true, {} };
+      energy.setTargets(targets);
+      if (stages.untangle(points, monitor))
+      {
+        return { true, {} };
+      }
     }
   }
   Tangle all = this->tangle(folded, points, monitor);

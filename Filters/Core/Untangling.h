@@ -15,8 +15,8 @@ namespace morph
 {
 /// Makes the cells of a mesh valid by a foldover-free energy, as far as its boundary allows. Where the boundary is folded (see
 /// foldedFaces()) either the cell behind a folded face is inverted or its neighbors are: then the mesh is untangled without
-/// the tetrahedra on folded faces, and with them again from there; of the two results that with fewer inverted cells besides those on
-/// folded faces is kept.
+/// the tetrahedra on folded faces, and around these faces with them again from there; of the two results that with fewer inverted
+/// cells besides those on folded faces is kept.
 class Untangling
 {
 public:
@@ -43,16 +43,23 @@ private:
   };
   /// The inverted cells. `folded`: numbers of faces.
   Tangle tangle(const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
+  /// Ids of the cells behind faces, ascending.
+  std::vector<Index> behind(const std::vector<Index>& folded) const;
   /// Folded faces all nodes of which are prescribed.
   std::vector<Index> foldedBoundary(const Points& points) const;
-  /// Leaves out what cannot be made positive at two or more prescribed nodes, for a few rounds.
-  bool runBesides(TargetShapes targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
+  /// Leaves out of `targets` what cannot be made positive at two or more prescribed nodes, for a few rounds. Returns whether the rest is positive.
+  bool runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
     Monitor& monitor) const;
+  /// Moves the nodes near these cells alone; returns whether the tetrahedra there are positive.
+  bool runNear(const std::vector<Index>& cells, const TargetShapes& targets, FoldoverStages& stages,
+    int most, Points& points, Monitor& monitor) const;
 
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;
   const BoundaryFaces& faces_;
   const Classification& geometry_;
+  std::vector<Index> free_;
   std::vector<char> isFixed_; ///< #nodes
+  Adjacency around_;          ///< #nodes: cells
 };
 }
