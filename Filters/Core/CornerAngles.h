@@ -18,7 +18,7 @@ class CornerAngles : public Objective
 {
 public:
   /// `cells`: ids of volume cells; `orientation`: #cells of the mesh; `free`: ids of the nodes that move, ascending; `least`: what s is
-  /// held against, above 0. Cost: 80 bytes a corner.
+  /// held against, above 0. Cost: 50 bytes a corner.
   CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& cells, const std::vector<Index>& free, double least);
 

@@ -20,7 +20,7 @@ class UntangleEnergy : public Objective
 {
 public:
   /// `free`: ids of the nodes that move, ascending. `margin`: b, relative to the targets' volumes.
-  /// Cost: passes over the cells; 16 bytes a tetrahedron and 70 a cell's corner.
+  /// Cost: passes over the cells; 8 bytes a tetrahedron and 50 a corner of a cell.
   UntangleEnergy(
     const Mesh& mesh, const std::vector<Index>& free, const TargetShapes& targets, double margin);
 

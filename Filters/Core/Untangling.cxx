@@ -13,11 +13,10 @@ namespace morph
 namespace
 {
 constexpr int Rounds = 3;
-constexpr int FewStages =
-  12; // of a mesh: what is tangled then is so at a few places, if it can be mended
-constexpr int StagesNear = 60;      // of such places
-constexpr int StagesWithFolds = 12; // the cells on folded faces come right soon or not at all
-constexpr int Rings = 5;            // of cells round them
+constexpr int Rings = 5; // of cells
+// Beside folds: of the whole mesh, since after a few only single places are tangled; of these places; and of what is round
+// folded faces, whose cells come right soon or not at all.
+constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
@@ -28,7 +27,6 @@ Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orienta
   , geometry_(geometry)
   , free_(partition.free)
   , isFixed_(mesh.numberOfNodes(), 0)
-  , around_(nodeToCells(mesh))
 {
   for (Index node : partition.prescribed)
   {
@@ -90,7 +88,7 @@ bool Untangling::runNear(const std::vector<Index>& cells, const TargetShapes& ta
   FoldoverStages& stages, int most, Points& points, Monitor& monitor) const
 {
   MeshEnergy energy(
-    this->mesh_, cellPatch(this->mesh_, this->around_, this->free_, cells, Rings).nodes);
+    this->mesh_, cellPatch(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, Rings).nodes);
   energy.setTargets(targets);
   FoldoverStages near(energy, stages.minimizer());
   const bool done = near.untangle(points, monitor, most);
@@ -121,8 +119,7 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
   FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
   const std::vector<Index> folded = this->foldedBoundary(points);
-  Points besides = points;
-  TargetShapes others = targets;
+  Points besides;
   if (folded.empty())
   {
     energy.setTargets(targets);
@@ -131,13 +128,16 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       return { true, {} };
     }
     besides = points;
+    TargetShapes others = targets;
     this->runBesides(others, energy, stages, besides, monitor);
   }
   else
   {
+    besides = points;
+    TargetShapes others = targets;
     dropBehind(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
-    if (!stages.untangle(besides, monitor, FewStages))
+    if (!stages.untangle(besides, monitor, StagesOfAll))
     {
       this->runBesides(others, energy, stages, besides, monitor);
     }

@@ -60,6 +60,5 @@ private:
   const Classification& geometry_;
   std::vector<Index> free_;
   std::vector<char> isFixed_; ///< #nodes
-  Adjacency around_;          ///< #nodes: cells
 };
 }
