@@ -24,7 +24,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from demo_picture import Panel, producer, save_picture  # noqa: E402  (needs the path above)
+from built_plugin import load_plugin  # noqa: E402  (needs the path above)
+from demo_picture import Panel, producer, save_picture  # noqa: E402
 import Models  # noqa: E402
 from Models.model_mesh import vtk_points  # noqa: E402
 from Models.vtk_files import write_grid, write_pvd  # noqa: E402
@@ -181,15 +182,6 @@ def panels(model, series):
             grid, cells)
 
 
-def find_plugin(given):
-    if given:
-        return Path(given)
-    built = sorted((ROOT / "build" / "paraview").glob("**/MeshMorphing.so"))
-    if not built:
-        sys.exit("demo: no MeshMorphing.so under build/paraview: run demo.sh, or use --plugin")
-    return built[0]
-
-
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--output", type=Path, default=Path("demo-output"),
@@ -211,7 +203,7 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    simple.LoadPlugin(str(find_plugin(arguments.plugin)), remote=False, ns=vars(simple))
+    load_plugin(arguments.plugin)
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
 

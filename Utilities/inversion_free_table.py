@@ -19,7 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import producer  # noqa: E402  (needs the path above)
 import Models  # noqa: E402
-from models_folds import load_plugin, output  # noqa: E402
+from built_plugin import load_plugin  # noqa: E402
+from models_folds import output  # noqa: E402
 
 METHODS = ("MorphFEMWARP", "MorphInversionFree")
 #: How far the canister's hole moves from S_0 to S_F.

@@ -23,7 +23,8 @@ from vtkmodules.vtkCommonCore import vtkLogger
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from demo_picture import producer  # noqa: E402  (needs the path above)
+from built_plugin import load_plugin  # noqa: E402  (needs the path above)
+from demo_picture import producer  # noqa: E402
 import Models  # noqa: E402
 
 STEPS = 20
@@ -126,13 +127,6 @@ def table_row(mesh, kind):
             first = first_fold(counts)
             cells.append("none" if first is None else f"step {first}; {counts[-1]:,} at S_F")
     return f"| {mesh.model.name} {kind} | {len(mesh.faces):,} | {' | '.join(cells)} |"
-
-
-def load_plugin(given):
-    built = sorted((ROOT / "build" / "paraview").glob("**/MeshMorphing.so"))
-    if not given and not built:
-        sys.exit("no MeshMorphing.so under build/paraview: build it, or use --plugin")
-    simple.LoadPlugin(str(given or built[0]), remote=False, ns=vars(simple))
 
 
 def parse_arguments():

@@ -23,7 +23,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 import study_scaling  # noqa: E402
 import study_timing  # noqa: E402
-from models_folds import load_plugin  # noqa: E402
+from built_plugin import load_plugin  # noqa: E402
 from study_boundary import read_boundaries, times  # noqa: E402
 from study_paper import STEPPINGS, STEPS  # noqa: E402
 from study_records import Records, Series  # noqa: E402

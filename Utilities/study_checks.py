@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 from demo_picture import producer  # noqa: E402
-from models_folds import load_plugin  # noqa: E402
+from built_plugin import load_plugin  # noqa: E402
 from study_boundary import Boundaries, exact_positions, times  # noqa: E402
 from study_paper import STEPS  # noqa: E402
 from study_series import SeriesRun  # noqa: E402

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads the plugin into ParaView's Python."""
+
+import sys
+from pathlib import Path
+
+from paraview import simple
+
+#: Not all of build/paraview: tests install another, perhaps older, plugin there.
+BUILT = Path(__file__).resolve().parent.parent / "build" / "paraview" / "lib"
+
+
+def load_plugin(given):
+    """`given`: the plugin's file; None or empty: the one that was built last. Ends the program where there is none."""
+    built = sorted(BUILT.glob("**/MeshMorphing.so"))
+    if not given and not built:
+        sys.exit(f"no MeshMorphing.so under {BUILT}: build it, by Utilities/demo.sh for one, or use --plugin")
+    simple.LoadPlugin(str(given or built[0]), remote=False, ns=vars(simple))
