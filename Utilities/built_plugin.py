@@ -11,7 +11,7 @@ BUILT = Path(__file__).resolve().parent.parent / "build" / "paraview" / "lib"
 
 
 def load_plugin(given):
-    """`given`: the plugin's file; None or empty: the one that was built last. Ends the program where there is none."""
+    """`given`: the plugin's file; None or empty: the one that was built. Ends the program where there is none."""
     built = sorted(BUILT.glob("**/MeshMorphing.so"))
     if not given and not built:
         sys.exit(f"no MeshMorphing.so under {BUILT}: build it, by Utilities/demo.sh for one, or use --plugin")

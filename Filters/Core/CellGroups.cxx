@@ -41,8 +41,8 @@ CellGroups::CellGroups(const Mesh& mesh, const std::vector<Index>& free)
 
 CellGroups::CellGroups(
   const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells)
-  : rows_(static_cast<Index>(free.size()))
 {
+  const auto rows = static_cast<Index>(free.size());
   const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
   std::array<Group, Volumes.size()> open{};
   const auto close = [&](Group& group)
@@ -55,8 +55,8 @@ CellGroups::CellGroups(
     }
   };
   // In the order of their least rows, so that what a row gathers is near in memory.
-  const Adjacency order = morph::placesOfRows(static_cast<Index>(cells.size()), this->rows_,
-    [&](Index i) { return leastRow(mesh, cells[i], row); });
+  const Adjacency order = placesOfRows(
+    static_cast<Index>(cells.size()), rows, [&](Index i) { return leastRow(mesh, cells[i], row); });
   for (Index i : order.values)
   {
     const Shape shape = cellShape(mesh.types[cells[i]])->shape;
@@ -69,6 +69,8 @@ CellGroups::CellGroups(
     }
   }
   std::for_each(open.begin(), open.end(), close);
+  this->uses_ =
+    placesOfRows(this->places(), rows, [this](Index place) { return this->row(place); });
 }
 
 void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group)
@@ -87,12 +89,6 @@ void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& ro
       this->row_.push_back(lane < group.cells ? row[node] : -1);
     }
   }
-}
-
-Adjacency CellGroups::placesOfRows() const
-{
-  return morph::placesOfRows(
-    this->places(), this->rows_, [this](Index place) { return this->row(place); });
 }
 
 bool CellGroups::moves(Index group, int lane, const int* corner) const

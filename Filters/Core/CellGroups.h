@@ -47,12 +47,11 @@ public:
   Index groupOf(Index place) const { return this->groupOf_[place / LaneCount]; }
   /// The row of the place's node, or negative: its node is prescribed, or its lane repeats another.
   std::int32_t row(Index place) const { return this->row_[place]; }
-  /// Of each row.
-  Adjacency placesOfRows() const;
+  /// The places of each row, ascending.
+  const Adjacency& uses() const { return this->uses_; }
   /// Whether a free node moves the tetrahedron of these four corners in that cell of the group.
   bool moves(Index group, int lane, const int* corner) const;
 
-  int tetrahedra(Index group) const { return simplicialDecomposition(this->shape(group)).count; }
   const Tetrahedra* targets(Index group) const
   {
     return this->target_.data() + this->groups_[group].firstTarget;
@@ -68,10 +67,10 @@ private:
   };
   void addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group);
 
-  Index rows_;
   std::vector<Group> groups_;
   std::vector<std::int32_t> node_, row_;
   std::vector<std::int32_t> groupOf_; ///< of each corner
+  Adjacency uses_;
   std::vector<Tetrahedra> target_;
 };
 }

@@ -178,7 +178,6 @@ CornerAngles::CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& ori
   const std::vector<Index>& cells, const std::vector<Index>& free, double least)
   : free_(rowOrder(mesh, free))
   , groups_(mesh, this->free_, cells)
-  , uses_(this->groups_.placesOfRows())
   , corners_(scaledCorners(this->groups_, orientation, least))
 {
 }
@@ -193,6 +192,6 @@ Objective::Value CornerAngles::value(const Points& points, Monitor& monitor) con
 void CornerAngles::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
   gatherFromGroups<GroupGradient>(
-    this->groups_, this->uses_, this->parts_, result, monitor, this->corners_, points);
+    this->groups_, this->parts_, result, monitor, this->corners_, points);
 }
 }

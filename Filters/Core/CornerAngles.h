@@ -41,7 +41,6 @@ public:
 private:
   std::vector<Index> free_;
   CellGroups groups_;
-  Adjacency uses_; ///< #free: places in the groups
   Corners corners_;
   mutable Points parts_; ///< of the gradient, kept from call to call
 };

@@ -42,14 +42,14 @@ Sum sumOverGroups(const CellGroups& groups, Monitor& monitor, const Arguments&..
 }
 
 /// Body::run(group, groups, arguments..., parts) writes what the group gives to its corners at their places in `parts`, whose room is
-/// used again; `result` becomes each row's sum over its `places`, in their order.
+/// used again; `result` becomes each row's sum over its places, in their order.
 template <typename Body, typename... Arguments>
-void gatherFromGroups(const CellGroups& groups, const Adjacency& places, Points& parts,
-  Points& result, Monitor& monitor, const Arguments&... arguments)
+void gatherFromGroups(const CellGroups& groups, Points& parts, Points& result, Monitor& monitor,
+  const Arguments&... arguments)
 {
   parts.resize(groups.places(), 3);
   monitor.parallelFor(groups.size(), detail::GroupGrain,
     [&](Index first, Index last) { vectorLoop<Body>(first, last, groups, arguments..., parts); });
-  sumOverPlaces(places, parts, result, monitor);
+  sumOverPlaces(groups.uses(), parts, result, monitor);
 }
 }

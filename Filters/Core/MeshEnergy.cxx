@@ -118,7 +118,6 @@ struct GroupGradient
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
   : free_(rowOrder(mesh, free))
   , groups_(mesh, this->free_)
-  , uses_(this->groups_.placesOfRows())
 {
 }
 
@@ -137,6 +136,6 @@ Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
   gatherFromGroups<GroupGradient>(
-    this->groups_, this->uses_, this->parts_, result, monitor, this->density_, points);
+    this->groups_, this->parts_, result, monitor, this->density_, points);
 }
 }

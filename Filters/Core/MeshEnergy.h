@@ -47,7 +47,6 @@ private:
 
   std::vector<Index> free_;
   CellGroups groups_;
-  Adjacency uses_;       ///< #free: places in the groups
   mutable Points parts_; ///< of the gradient, kept from call to call
   FoldoverDensity density_;
 };

@@ -179,7 +179,8 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix) const
   for (Index i = 0; i < static_cast<Index>(this->free_.size()); ++i)
   {
     found.clear();
-    for (const Index* use = this->uses_.begin(i); use != this->uses_.end(i); ++use)
+    for (const Index* use = this->groups_.uses().begin(i); use != this->groups_.uses().end(i);
+         ++use)
     {
       const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
       const Index lane = (*use - first) % LaneCount;
@@ -238,7 +239,8 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
         float* out = result.blocks(row);
         std::fill(out, result.blocks(row + 1), 0.f);
         const std::int32_t* place = result.places(row);
-        for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
+        for (const Index* use = this->groups_.uses().begin(row);
+             use != this->groups_.uses().end(row); ++use)
         {
           const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
           const int n = this->groups_.corners(group);

@@ -124,7 +124,6 @@ UntangleEnergy::UntangleEnergy(
   const Mesh& mesh, const std::vector<Index>& free, const TargetShapes& targets, double margin)
   : free_(rowOrder(mesh, free))
   , groups_(mesh, this->free_)
-  , uses_(this->groups_.placesOfRows())
   , tetrahedra_(tetrahedraOf(this->groups_, targets, margin))
 {
 }
@@ -139,6 +138,6 @@ Objective::Value UntangleEnergy::value(const Points& points, Monitor& monitor) c
 void UntangleEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
   gatherFromGroups<GroupGradient>(
-    this->groups_, this->uses_, this->parts_, result, monitor, this->tetrahedra_, points);
+    this->groups_, this->parts_, result, monitor, this->tetrahedra_, points);
 }
 }

@@ -45,7 +45,6 @@ public:
 private:
   std::vector<Index> free_;
   CellGroups groups_;
-  Adjacency uses_; ///< #free: places in the groups
   Tetrahedra tetrahedra_;
   mutable Points parts_; ///< of the gradient, kept from call to call
 };

@@ -51,9 +51,8 @@ std::vector<Index> Untangling::behind(const std::vector<Index>& folded) const
 }
 
 Untangling::Tangle Untangling::tangle(
-  const std::vector<Index>& folded, const Points& points, Monitor& monitor) const
+  const std::vector<Index>& behind, const Points& points, Monitor& monitor) const
 {
-  const std::vector<Index> behind = this->behind(folded);
   Tangle result;
   for (Index c : invertedCells(this->mesh_, points, this->orientation_, monitor))
   {
@@ -118,7 +117,7 @@ bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverS
 Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& energy,
   FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
-  const std::vector<Index> folded = this->foldedBoundary(points);
+  const std::vector<Index> folded = this->foldedBoundary(points), behind = this->behind(folded);
   Points besides;
   if (folded.empty())
   {
@@ -142,7 +141,7 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       this->runBesides(others, energy, stages, besides, monitor);
     }
     points = besides;
-    if (this->runNear(this->behind(folded), targets, stages, StagesWithFolds, points, monitor))
+    if (this->runNear(behind, targets, stages, StagesWithFolds, points, monitor))
     {
       energy.setTargets(targets);
       if (stages.untangle(points, monitor))
@@ -151,8 +150,8 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       }
     }
   }
-  Tangle all = this->tangle(folded, points, monitor);
-  const Tangle fewer = this->tangle(folded, besides, monitor);
+  Tangle all = this->tangle(behind, points, monitor);
+  const Tangle fewer = this->tangle(behind, besides, monitor);
   if (!(all < fewer))
   {
     points = besides;

@@ -41,8 +41,8 @@ private:
     std::vector<Index> onFolds;
     bool operator<(const Tangle& other) const;
   };
-  /// The inverted cells. `folded`: numbers of faces.
-  Tangle tangle(const std::vector<Index>& folded, const Points& points, Monitor& monitor) const;
+  /// The inverted cells. `behind`: those behind folded faces.
+  Tangle tangle(const std::vector<Index>& behind, const Points& points, Monitor& monitor) const;
   /// Ids of the cells behind faces, ascending.
   std::vector<Index> behind(const std::vector<Index>& folded) const;
   /// Folded faces all nodes of which are prescribed.
