@@ -25,6 +25,7 @@ import study_scaling  # noqa: E402
 import study_timing  # noqa: E402
 from built_plugin import load_plugin  # noqa: E402
 from study_boundary import read_boundaries, times  # noqa: E402
+from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPPINGS, STEPS  # noqa: E402
 from study_records import Records, Series  # noqa: E402
 from study_report import write_report  # noqa: E402
@@ -40,7 +41,7 @@ def study(arguments, records):
         ts = times(model, arguments.steps)
         last = arguments.steps + 1 if arguments.to_final else len(ts)
         for kind in arguments.kinds:
-            mesh = model.read_small(kind) if arguments.small else model.make(kind)
+            mesh = study_mesh(name, kind, arguments.small)
             for surfaces in arguments.surfaces:
                 for stepping in arguments.steppings:
                     for method in arguments.methods:

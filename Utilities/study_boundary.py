@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 from demo_picture import producer
 from Models.model_mesh import vtk_points
 from models_folds import MovedSurfaces, output
+from study_mesh import settled
 
 #: A cell's corner and its neighbors along the edges, in an order of positive volume.
 _CORNERS = {
@@ -36,7 +37,7 @@ def times(model, steps):
 
 def exact_positions(mesh, ts):
     """(n, #boundary nodes, 3): the boundary on the model's true surfaces at each t."""
-    return np.stack([mesh.boundary_positions(t) for t in ts])
+    return np.stack([settled(mesh.boundary_positions(t)) for t in ts])
 
 
 def residual_positions(mesh, ts, relative):
@@ -47,7 +48,7 @@ def residual_positions(mesh, ts, relative):
     try:
         for t in ts:
             surfaces.move_to(t, relative)
-            found.append(surfaces.moved[mesh.nodes])
+            found.append(settled(surfaces.moved[mesh.nodes]))
     except RuntimeError:
         pass
     finally:

@@ -19,10 +19,10 @@ from vtkmodules.vtkCommonCore import vtkLogger
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-import Models  # noqa: E402  (needs the path above)
-from demo_picture import producer  # noqa: E402
+from demo_picture import producer  # noqa: E402  (needs the path above)
 from built_plugin import load_plugin  # noqa: E402
 from study_boundary import Boundaries, exact_positions, times  # noqa: E402
+from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPS  # noqa: E402
 from study_series import SeriesRun  # noqa: E402
 
@@ -80,7 +80,7 @@ def check_steppings():
     print("Relative against absolute steps: small bore, hexahedra, S_F\n"
           "  interior        method             absolute  relative  nodes apart, edges")
     for share in (0, 0.15):
-        mesh = jittered(Models.get("bore").read_small("hex"), share)
+        mesh = jittered(study_mesh("bore", "hex", small=True), share)
         for method in ("LBWARP", "FEMWARP", "Simplex-linear", "Weighted residual"):
             (absolute, a, _), (relative, b, _) = (
                 final(method, mesh, stepping) for stepping in ("absolute", "relative"))
@@ -92,7 +92,7 @@ def check_canister():
     """Around a hole of radius r in a cylinder of radius R the harmonic displacement falls as the logarithm of the distance. The cells next
     to the hole, h thick, are crushed on the side that the hole moves to when t D ln(1 + h/r) / ln(R/r) = h, D = 0.5. A displacement that is linear in
     the gap, as simplex-linear's is, lasts until t D = R - r."""
-    mesh = Models.get("canister").read_small("hex")
+    mesh = study_mesh("canister", "hex", small=True)
     hole, rim, travel = 0.25, 1, 0.5
     radius = np.linalg.norm(mesh.points[:, :2], axis=1)
     rings = np.unique(radius.round(6))
@@ -118,7 +118,7 @@ def check_canister():
 def check_pipe():
     """Where straight and elbow join, the stretch along the pipe changes at once, and a harmonic displacement rounds that off inside the wall:
     FEMWARP's worst cells should lie there."""
-    mesh = Models.get("pipe").make("hex")
+    mesh = study_mesh("pipe", "hex", small=False)
     print("\nPipe, hexahedra, absolute, S_F")
     joints = np.array([[0, 0, 4.54], [3, 0, 7.54]])
     axes = np.array([[0, 0, 1.0], [1.0, 0, 0]])
@@ -134,7 +134,7 @@ def check_stretch():
     """An affine stretch along the cells' own axes leaves a hexahedron's scaled Jacobian as it is, but not a tetrahedron's."""
     print("\nSmall bore stretched along its axis, least and mean scaled Jacobian")
     for kind in ("hex", "tet"):
-        mesh = Models.get("bore").read_small(kind)
+        mesh = study_mesh("bore", kind, small=True)
         line = []
         for factor in (1, 2, 3):
             found = measured(mesh.to_vtk(mesh.points * [1, 1, factor]))
@@ -147,7 +147,7 @@ def check_smoothing():
     boundary has run through by then, and should fail where that is several cells deep."""
     print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved alone, and after smoothing")
     for name in ("bore", "pipe"):
-        mesh = Models.get(name).read_small("hex")
+        mesh = study_mesh(name, "hex", small=True)
         for t in (0.05, 0.25, 0.5, 0.75, 1):
             start = measured(mesh.to_vtk(mesh.moved(t)))
             way = np.linalg.norm(mesh.moved(t) - mesh.points, axis=1).max() / edge(mesh)

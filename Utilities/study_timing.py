@@ -15,6 +15,7 @@ from paraview import simple
 import Models
 from demo_picture import producer
 from Models.vtk_files import write_grid
+from study_mesh import study_mesh
 from study_paper import PANELS, STEPPINGS
 from study_records import RowFile
 from study_scaling import seconds
@@ -33,8 +34,7 @@ def run(path, models, kinds, methods, steps, small, repeats, threads):
             if all((name, kind, stepping, method) in done
                    for stepping in STEPPINGS for method in methods):
                 continue
-            model = Models.get(name)
-            mesh = model.read_small(kind) if small else model.make(kind)
+            mesh = study_mesh(name, kind, small)
             rest = producer(mesh.to_vtk())
             for stepping, t in zip(STEPPINGS, (1 / steps, 1)):
                 boundary = producer(mesh.boundary_to_vtk(t))
@@ -62,8 +62,7 @@ def run_klu(folder, program, models, kinds, small):
             file = folder / f"klu-{name}-{kind}.csv"
             if file.is_file():
                 continue
-            model = Models.get(name)
-            mesh = model.read_small(kind) if small else model.make(kind)
+            mesh = study_mesh(name, kind, small)
             grid = folder / f"{name}_{kind}.vtu"
             write_grid(mesh.to_vtk(), grid)
             partial = file.with_name("partial-" + file.name)

@@ -12,7 +12,8 @@ namespace morph
 {
 namespace
 {
-constexpr int Rounds = 6;
+constexpr int Rounds = 16;
+constexpr int Setbacks = 2; // in a row
 constexpr int Steps = 40;
 constexpr int Rings = 2;
 constexpr double LeastGain = 1e-3;
@@ -33,38 +34,63 @@ std::vector<Index> worstCells(const Mesh& mesh, const Quality& quality)
   }
   return worst;
 }
+
+bool hasFreeCorner(const Mesh& mesh, const std::vector<Index>& free, Index cell)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const Index* nodes = mesh.cell(cell);
+  for (int k = 0; k < numberOfCorners(shape.shape); ++k)
+  {
+    if (std::binary_search(free.begin(), free.end(), nodes[shape.cornerNode[k]]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }
 
 int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, Monitor& monitor)
 {
   Quality quality = measureQuality(mesh, points, orientation, {}, monitor);
-  if (!(quality.minimum > 0))
-  {
-    return 0;
-  }
   const Adjacency around = nodeToCells(mesh);
-  for (int round = 0; round < Rounds; ++round)
+  Points trial = points;
+  double least = quality.minimum;
+  Index worst = quality.worstCell;
+  int kept = 0, setbacks = 0;
+  for (int round = 0; round < Rounds && setbacks < Setbacks; ++round)
   {
+    // A cell without a free node is the boundary's: no mesh has a higher least.
+    if (!(quality.minimum > 0) || !hasFreeCorner(mesh, free, worst))
+    {
+      break;
+    }
     const CellPatch patch = cellPatch(mesh, around, free, worstCells(mesh, quality), Rings);
     if (patch.nodes.empty())
     {
-      return round;
+      break;
     }
     const CornerAngles angles(mesh, orientation, patch.cells, patch.nodes, quality.minimum);
     MinimizerLimits limits;
     limits.steps = Steps;
     MinimizerEffort effort;
-    Points trial = points;
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
-    Quality next = measureQuality(mesh, trial, orientation, {}, monitor);
-    if (!(next.minimum > (1 + LeastGain) * quality.minimum))
+    quality = measureQuality(mesh, trial, orientation, {}, monitor);
+    // The sum can fall while its greatest part grows; the next round, from there, mostly makes up for it.
+    if (quality.minimum > (1 + LeastGain) * least)
     {
-      return round;
+      points = trial;
+      least = quality.minimum;
+      worst = quality.worstCell;
+      ++kept;
+      setbacks = 0;
     }
-    points.swap(trial);
-    quality = std::move(next);
+    else
+    {
+      ++setbacks;
+    }
   }
-  return Rounds;
+  return kept;
 }
 }

@@ -103,6 +103,33 @@ TEST(RaiseWorstCells, RaisesTheLeastAndKeepsTheRest)
   }
 }
 
+TEST(RaiseWorstCells, GoesUpToTheWorstCellThatTheBoundaryDeterminesAndNoFurther)
+{
+  const Mesh rest = meshes::tets(4, 4, 4);
+  const std::vector<std::int8_t> orientation = orientationOf(rest);
+  const morph::NodePartition partition = motions::outerPartition(rest);
+  Mesh mesh = rest;
+  // The corner of the brick, near the face opposite of its only cell: all four nodes are prescribed.
+  mesh.points.row(0) += 0.3 * Eigen::RowVector3d(1, 1, 1);
+  meshes::ThreadedMonitor monitor;
+  const morph::Quality flat = morph::measureQuality(mesh, mesh.points, orientation, {}, monitor);
+  for (Index node : partition.free)
+  {
+    mesh.points.row(node) += 0.3 * Eigen::RowVector3d(0.9, 0.7, -0.8) * (node % 3 - 1);
+  }
+  const morph::Quality before = morph::measureQuality(mesh, mesh.points, orientation, {}, monitor);
+  ASSERT_GT(before.minimum, 0);
+  ASSERT_LT(before.minimum, 0.9 * flat.minimum);
+  Points points = mesh.points;
+  EXPECT_GT(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  const morph::Quality after = morph::measureQuality(mesh, points, orientation, {}, monitor);
+  EXPECT_EQ(after.minimum, flat.minimum);
+  EXPECT_EQ(after.worstCell, flat.worstCell);
+  const Points done = points;
+  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(points, done);
+}
+
 TEST(RaiseWorstCells, LeavesTangledAndPerfectMeshesBitForBit)
 {
   Mesh mesh = meshes::hexes(4, 4, 4);
