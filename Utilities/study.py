@@ -8,7 +8,7 @@ relative steps, and beyond them until the first inverted cell; surfaces by weigh
     pvpython Utilities/study.py --quick             # a small mesh, 4 steps
     pvpython Utilities/study.py --report            # tables and plots again, from what is there
 
-Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv (seconds per step), scaling.csv, Study.md
+Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv (seconds per step), scaling.csv, Results.md
 with the tables, and figure-*.png. Goes on where an earlier run with the same output was interrupted. Validity is None: what is counted is what each method itself makes."""
 
 import argparse

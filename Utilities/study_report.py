@@ -18,13 +18,16 @@ from study_series import METHODS  # noqa: E402
 STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
                             ("#009e73", "^"), ("#cc79a7", "x"), ("#d55e00", "*"))))
 
+#: Whose absolute steps are a fixed matrix times the boundary's motion.
+LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))
+
 LEGEND = ("Quality: least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded"
           " face or a corner), and t*, the t of the last step up to which no cell of the method's own is inverted; >= where the series"
           " did not end by one.")
 
 
 def write_report(folder, records, steps):
-    """Writes Study.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
+    """Writes Results.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
     text = ["# Results", "", LEGEND, ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
         found = [series for series in records.series() if series.surfaces == surfaces]
@@ -33,6 +36,7 @@ def write_report(folder, records, steps):
             picture = folder / f"figure-{model}-{surfaces.replace(' ', '-')}.png"
             _draw_quality(picture, records, model, surfaces, steps)
             text += _quality_table(records, model, surfaces, steps, picture.name)
+    text += _linear_table(records, steps)
     if (folder / "timing.csv").is_file():
         timings = timing.read(folder / "timing.csv")
         for model in [name for name in paper.TABLES if any(key[0] == name for key in timings)]:
@@ -42,7 +46,7 @@ def write_report(folder, records, steps):
         text += _klu_table(solved)
     if (folder / "scaling.csv").is_file():
         text += _scaling_table(folder, scaling.read(folder / "scaling.csv"))
-    (folder / "Study.md").write_text("\n".join(text) + "\n", encoding="utf-8")
+    (folder / "Results.md").write_text("\n".join(text) + "\n", encoding="utf-8")
 
 
 def _table(head, rows):
@@ -69,19 +73,51 @@ def _quality_table(records, model, surfaces, steps, picture):
         rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
-    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![]({picture})", ""]
+    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![Least scaled Jacobian, step by step]({picture})", ""]
             + _table(head, rows))
 
 
 def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
-    final = steps[to_final]
-    parts = [final.own] + [count for count in (final.boundary + final.folded,) if count]
-    count = f" ({' + '.join(f'{part:,}' for part in parts)})" if final.inverted else ""
+    return f"{_least(steps[to_final])}; t* {_survived(steps)}"
+
+
+def _least(step):
+    parts = [step.own] + [count for count in (step.boundary + step.folded,) if count]
+    count = f" ({' + '.join(f'{part:,}' for part in parts)})" if step.inverted else ""
+    return f"{step.minimum:.3f}{count}"
+
+
+def _survived(steps):
+    """t*, as a text."""
     last = last_valid(steps)
     open_end = ">= " if all(step.valid for step in steps) else ""
-    return f"{final.minimum:.3f}{count}; t* {'none' if last is None else f'{open_end}{last:.2f}'}"
+    return "none" if last is None else f"{open_end}{last:.2f}"
+
+
+def _linear_table(records, steps):
+    """The inversion-free morph beside the linear methods, a row for each series that has both."""
+    rows = []
+    for series in records.series():
+        own = records.steps(series)
+        if series.method != "Inversion-free" or len(own) <= steps:
+            continue
+        linear = {method: records.steps(series._replace(method=method)) for method in LINEAR}
+        linear = {method: found for method, found in linear.items() if len(found) > steps}
+        if not linear:
+            continue
+        best = max(linear, key=lambda method: (-linear[method][steps].own, linear[method][steps].minimum))
+        lasting = max(linear, key=lambda method: last_valid(linear[method]) or -1)
+        rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}", _least(own[steps]),
+                     _survived(own), f"{best} {_least(linear[best][steps])}",
+                     f"{lasting} {_survived(linear[lasting])}"])
+    if not rows:
+        return []
+    return (["## The inversion-free morph beside the linear methods", "",
+             "Of the linear methods first that with the fewest inverted cells of its own at S_F, and among those the highest least scaled Jacobian; then that with the largest t*.", ""]
+            + _table(["series, surfaces", "inversion-free at S_F", "t*", "best linear method at S_F", "longest-lived linear method, t*"],
+                     sorted(rows)))
 
 
 def _draw_quality(path, records, model, surfaces, steps):
@@ -187,4 +223,4 @@ def _scaling_table(folder, rows):
     figure.savefig(folder / "figure-scaling.png", dpi=100)
     pyplot.close(figure)
     head = ["motion", "method", "nodes", "power", "power of evaluate", "seconds"]
-    return text + ["![](figure-scaling.png)", ""] + _table(head, table)
+    return text + ["![Seconds against nodes](figure-scaling.png)", ""] + _table(head, table)

@@ -17,7 +17,6 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
-constexpr double LeastGain = 1e-3; // of the least scaled Jacobian
 
 /// Of the volume cells, from node to node around them; 1 where there is none.
 double meanEdge(const Mesh& mesh)
@@ -131,8 +130,8 @@ void InversionFree::raiseQuality(
     const Points before = points;
     stages.stiffen(points, monitor);
     // It costs the average cell something: only worth it where the worst one gains.
-    if (!(this->leastScaledJacobian(points, monitor) >
-          (1 + LeastGain) * this->leastScaledJacobian(before, monitor)))
+    const double least = this->leastScaledJacobian(before, monitor);
+    if (!(this->leastScaledJacobian(points, monitor) > least + gainFrom(least)))
     {
       points = before;
     }
@@ -172,8 +171,8 @@ InversionFree::Outcome InversionFree::improve(
   outcome.effort = stages.effort();
 
   const double known = this->leastScaledJacobian(alternative, monitor);
-  // A gain that is none would cost the other cells.
-  if (known > 0 && !((1 + LeastGain) * this->leastScaledJacobian(points, monitor) >= known))
+  const double least = this->leastScaledJacobian(points, monitor);
+  if (known > 0 && !(least + gainFrom(least) >= known))
   {
     points = alternative;
     outcome.kept = outcome.untangled = true;

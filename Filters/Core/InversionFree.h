@@ -18,7 +18,7 @@ namespace morph
 /// simplicial decompositions of all cells, so its minimum being positive implies the scaled Jacobian's corner test.
 /// Hexahedra, wedges and pyramids aim for their shape at rest, stretched to FEMWARP's edge lengths; tetrahedra for their shape at
 /// rest. Newton's method with the projected Hessian; once valid, stiffening (ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112) lowers the worst
-/// distortion. Where FEMWARP's mesh is valid and its least scaled Jacobian higher by 0.1 % or more, that is the result; with
+/// distortion. Where FEMWARP's mesh is valid and its least scaled Jacobian higher by a gainFrom(), that is the result; with
 /// stretched targets the simplex-linear mesh likewise: never worse than either.
 ///
 /// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a warning names them, and

@@ -16,7 +16,6 @@ constexpr int Rounds = 16;
 constexpr int Setbacks = 2; // in a row
 constexpr int Steps = 40;
 constexpr int Rings = 2;
-constexpr double LeastGain = 1e-3;
 // Worst are the cells that are less than this above the least: of it, and of the way to 1.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 
@@ -50,6 +49,11 @@ bool hasFreeCorner(const Mesh& mesh, const std::vector<Index>& free, Index cell)
 }
 }
 
+double gainFrom(double least)
+{
+  return std::max(1e-6, std::min(1e-3 * least, 1e-2 * (1 - least)));
+}
+
 int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, Monitor& monitor)
 {
@@ -78,7 +82,7 @@ int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientatio
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
     quality = measureQuality(mesh, trial, orientation, {}, monitor);
     // The sum can fall while its greatest part grows; the next round, from there, mostly makes up for it.
-    if (quality.minimum > (1 + LeastGain) * least)
+    if (quality.minimum > least + gainFrom(least))
     {
       points = trial;
       least = quality.minimum;

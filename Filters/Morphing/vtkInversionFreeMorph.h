@@ -7,7 +7,7 @@
  * out, and then improves the worst ones. Cells other than tetrahedra aim for their shape at rest,
  * stretched to the sizes that the moved boundary asks for; tetrahedra for their shape at rest. The
  * result is never worse than FEMWARP's or, with the target Stretched, simplex-linear's: where one of their
- * meshes is valid and its least scaled Jacobian is higher by 0.1 % or more, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
+ * meshes is valid and its least scaled Jacobian is higher by 0.1 % or 1 % of the way to 1, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
  * quadratic forms, whose corners move as the linear cell. Not linear in the boundary's motion: there
  * is no adjoint.
  *

@@ -114,7 +114,7 @@ class Study(unittest.TestCase):
             self.assertFalse([row for row in rows
                               if row["method"] == "Inversion-free" and int(row["step"]) <= 4
                               and int(row["inverted"]) > 0])
-            report = (Path(folder) / "Study.md").read_text(encoding="utf-8")
+            report = (Path(folder) / "Results.md").read_text(encoding="utf-8")
             for text in ("Figure 2", "Table 2", "Section 4.5"):
                 self.assertIn(text, report)
             # The paper's seconds for FEMWARP on the bore, hexahedra, relative.
