@@ -20,8 +20,8 @@
  * at rest that are inverted or flat aim for the ideal shape.
  *
  * Preparing is FEMWARP's; evaluating takes some 10 to 60 Newton steps of 0.4 to 0.8 microseconds of
- * processor time for each tetrahedron, and a hexahedron counts as ten. Memory meanwhile: about 3.5
- * kB a hexahedron.
+ * processor time for each tetrahedron, and a hexahedron counts as ten. Memory meanwhile: about 6
+ * kB a hexahedron, with what it prepares.
  *
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
  * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069; V. Garanzha, I. Kaporin, L. Kudryavtseva,

@@ -34,8 +34,10 @@ const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output
 const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
                                "written; 2 the command line is wrong;\n"
-                               "3 the result is written, but some of its cells are inverted or "
-                               "collapsed and --require-valid was given.\n";
+                               "3 the result is written, but has inverted or collapsed cells and "
+                               "--require-valid was given, or\n"
+                               "--validity SubStep or Repair came only part of the way: the "
+                               "output does not fit the boundary.\n";
 
 double number(const std::string& option, const std::string& text)
 {
