@@ -17,7 +17,7 @@ from study_mesh import settled
 _CORNERS = {
     True: ((0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7),
            (4, 7, 5, 0), (5, 4, 6, 1), (6, 5, 7, 2), (7, 6, 4, 3)),
-    False: ((0, 1, 2, 3),),
+    False: ((0, 1, 2, 3), (1, 2, 0, 3), (2, 0, 1, 3), (3, 0, 2, 1)),
 }
 
 
@@ -79,23 +79,47 @@ def folded_cells(mesh, positions):
     return found
 
 
-def determined_cells(mesh, positions):
-    """For each step the ids of cells with a corner whose four nodes are all prescribed and span no positive
-    volume: what vtkMorphAlgorithm counts as BoundaryInvertedCells."""
+def _determined_corners(mesh):
+    """(n, 4) node ids of the corners whose four nodes, a corner and its neighbors along the edges, are all prescribed; (n,): their
+    cells."""
     prescribed = np.zeros(len(mesh.points), bool)
     prescribed[mesh.nodes] = True
     table = np.array(_CORNERS[mesh.cell_type == VTK_HEXAHEDRON])
     corners = mesh.cells[:, table].reshape(-1, 4)
     cells = np.repeat(np.arange(len(mesh.cells)), len(table))
     fixed = prescribed[corners].all(axis=1)
-    corners, cells = corners[fixed], cells[fixed]
+    return corners[fixed], cells[fixed]
+
+
+def _edges(points, corners):
+    return [points[corners[:, k]] - points[corners[:, 0]] for k in (1, 2, 3)]
+
+
+def _volumes(a, b, c):
+    return np.einsum("ij,ij->i", a, np.cross(b, c))
+
+
+def determined_cells(mesh, positions):
+    """For each step the ids of cells with a corner whose four nodes are all prescribed and span no positive
+    volume: what vtkMorphAlgorithm counts as BoundaryInvertedCells."""
+    corners, cells = _determined_corners(mesh)
     points, found = mesh.points.copy(), []
     for step in positions:
         points[mesh.nodes] = step
-        a, b, c = (points[corners[:, k]] - points[corners[:, 0]] for k in (1, 2, 3))
-        volume = np.einsum("ij,ij->i", a, np.cross(b, c))
-        found.append(np.unique(cells[~(volume > 0)]))
+        volumes = _volumes(*_edges(points, corners))
+        found.append(np.unique(cells[~(volumes > 0)]))
     return found
+
+
+def quality_limit(mesh, positions):
+    """The least scaled Jacobian of the corners whose four nodes are all prescribed: no mesh with the boundary at `positions`,
+    (#boundary nodes, 3), has a higher one."""
+    corners, _ = _determined_corners(mesh)
+    points = mesh.points.copy()
+    points[mesh.nodes] = positions
+    edges = _edges(points, corners)
+    scaled = _volumes(*edges) / np.prod([np.linalg.norm(edge, axis=1) for edge in edges], axis=0)
+    return scaled.min() * (1 if mesh.cell_type == VTK_HEXAHEDRON else np.sqrt(2))
 
 
 def lost_cells(mesh, positions):

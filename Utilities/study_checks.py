@@ -5,7 +5,8 @@
     pvpython Utilities/study_checks.py
 
 Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and absolute steps, where and when
-FEMWARP gives way on the canister and on the pipe, what a mere stretch does to hexahedra and tetrahedra, and where smoothing fails."""
+FEMWARP gives way on the canister and on the pipe, what a mere stretch does to hexahedra and tetrahedra, what quality the boundary allows, and where smoothing
+fails."""
 
 import argparse
 import os
@@ -19,9 +20,10 @@ from vtkmodules.vtkCommonCore import vtkLogger
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from demo_picture import producer  # noqa: E402  (needs the path above)
+import Models  # noqa: E402  (needs the path above)
+from demo_picture import producer  # noqa: E402
 from built_plugin import load_plugin  # noqa: E402
-from study_boundary import Boundaries, exact_positions, times  # noqa: E402
+from study_boundary import Boundaries, exact_positions, quality_limit, times  # noqa: E402
 from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPS  # noqa: E402
 from study_series import SeriesRun  # noqa: E402
@@ -142,6 +144,17 @@ def check_stretch():
         print(f"  {kind}: {'; '.join(line)}")
 
 
+def check_limits():
+    """What the boundary alone leaves possible: no mesh has a higher least scaled Jacobian than a corner whose nodes are all prescribed."""
+    print("\nLeast scaled Jacobian that the boundary allows at S_F, exact surfaces, meshes of the paper's size")
+    for name in Models.NAMES:
+        line = []
+        for kind in ("hex", "tet"):
+            mesh = study_mesh(name, kind, small=False)
+            line.append(f"{kind} {quality_limit(mesh, exact_positions(mesh, [1])[0]):.4f}")
+        print(f"  {name}: {'; '.join(line)}")
+
+
 def check_smoothing():
     """Smoothing starts with the interior where it was: in absolute steps at rest, in relative ones a step behind. It has to untangle what the
     boundary has run through by then, and should fail where that is several cells deep."""
@@ -166,6 +179,7 @@ def main():
     check_canister()
     check_pipe()
     check_stretch()
+    check_limits()
     check_smoothing()
 
 
