@@ -2,13 +2,16 @@
 #include "vtkCompareMorphMethods.h"
 
 #include "Error.h"
+#include "ScaledJacobian.h"
 #include "SubMonitor.h"
+#include "Topology.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundarySeries.h"
 #include "vtkMorphComparison.h"
 #include "vtkMorphInput.h"
+#include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
 #include "vtkMorphPeakMemory.h"
 #include "vtkMorphPorts.h"
@@ -21,11 +24,9 @@
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkCallbackCommand.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
-#include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -37,6 +38,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,11 +50,6 @@ struct vtkCompareMorphMethods::vtkInternals
 {
   vtkMorphPorts Ports;
   vtkMorphSteps Steps;
-  /// Of a boundary that varies, as far as they were fetched in passes of one execution.
-  std::vector<vtkSmartPointer<vtkDataObject>> Boundaries;
-  vtkMTimeType OwnTime = 0;      ///< of the filter, for Boundaries
-  vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Boundaries
-  bool Repeat = false;           ///< the execution, at the boundary's next step
   std::string BestMethod, BestStepping;
 
   explicit vtkInternals(vtkAlgorithm* filter)
@@ -84,6 +81,15 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
+/// VTK's messages begin with where in which source they were written.
+std::string withoutOrigin(const std::string& message)
+{
+  const auto end = message.find("): ");
+  std::string text = end == std::string::npos ? message : message.substr(end + 3);
+  text.erase(text.find_last_not_of(" \n") + 1);
+  return text;
+}
+
 /// Follows a filter at work inside another one: keeps its errors, the executive's too, off the console, and passes progress and
 /// abort on.
 class Follower
@@ -111,13 +117,12 @@ public:
   Follower(const Follower&) = delete;
   void operator=(const Follower&) = delete;
 
-  /// The first error or, without one, the first warning since the last call.
-  std::string TakeMessage()
+  /// What was heard: errors first.
+  std::vector<std::string> Messages() const
   {
-    std::string text = this->Error.empty() ? this->Warning : this->Error;
-    this->Error.clear();
-    this->Warning.clear();
-    return text;
+    std::vector<std::string> all = this->Errors;
+    all.insert(all.end(), this->Warnings.begin(), this->Warnings.end());
+    return all;
   }
 
 private:
@@ -131,35 +136,33 @@ private:
     }
     else if (caller == follower->Filter)
     {
-      std::string& text = event == vtkCommand::ErrorEvent ? follower->Error : follower->Warning;
-      if (text.empty())
-      {
-        text = static_cast<const char*>(data);
-      }
+      (event == vtkCommand::ErrorEvent ? follower->Errors : follower->Warnings)
+        .push_back(withoutOrigin(static_cast<const char*>(data)));
     }
   }
 
   vtkMorphAlgorithm* Filter;
   morph::Monitor& Monitor;
-  std::string Error, Warning;
+  std::vector<std::string> Errors, Warnings;
   vtkNew<vtkCallbackCommand> Command;
   std::vector<std::pair<vtkObject*, unsigned long>> Tags;
 };
 
-/// VTK's messages begin with where in which source they were written.
-std::string withoutOrigin(const std::string& message)
+vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  const auto end = message.find("): ");
-  std::string text = end == std::string::npos ? message : message.substr(end + 3);
-  text.erase(text.find_last_not_of(" \n") + 1);
-  return text;
+  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
+  const morph::Quality quality = morph::measureQuality(
+    mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
+  return static_cast<vtkIdType>(quality.inverted + quality.degenerate);
 }
 
-/// Runs `filter` through its steps. Where it fails at one, the run ends before that.
+/// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first
+/// step that it came from.
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
   vtkMorphRun& run, morph::Monitor& monitor)
 {
   const vtkMorphPeakMemory memory;
+  std::set<std::string> told;
   const double number = static_cast<double>(times.size());
   for (std::size_t i = 0; i < times.size(); ++i)
   {
@@ -170,17 +173,21 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
     filter->UpdateTimeStep(times[i]);
     monitor.check();
     const bool failed = filter->GetOutput()->GetNumberOfPoints() == 0;
-    std::string message = withoutOrigin(follower.TakeMessage());
-    if (failed && message.empty())
+    std::vector<std::string> messages = follower.Messages();
+    if (failed && messages.empty())
     {
-      message = "no mesh.";
+      messages.emplace_back("no mesh.");
     }
-    if (!message.empty())
+    for (const std::string& message : messages)
     {
-      monitor.warn(run.Title() + ", step " + std::to_string(i) + ": " + message);
+      if (told.insert(message).second)
+      {
+        monitor.warn(run.Title() + ", step " + std::to_string(i) + ": " + message);
+      }
     }
     if (failed)
     {
+      run.Failure = messages.front();
       break;
     }
     run.Steps.push_back(vtkMorphComparison::Measure(filter, times[i], percentile));
@@ -235,28 +242,18 @@ int vtkCompareMorphMethods::RequestUpdateExtent(
   vtkInternals& kept = *this->Internals;
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
   kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
-  auto* upstream =
-    boundary ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(1, 0)) : nullptr;
-  const vtkMTimeType time = upstream ? upstream->GetPipelineMTime() : 0;
-  if (time != kept.BoundaryTime || this->GetMTime() != kept.OwnTime)
-  {
-    kept.Boundaries.clear();
-  }
-  kept.BoundaryTime = time;
-  kept.OwnTime = this->GetMTime();
   std::optional<double> asked;
   if (kept.Steps.FromBoundary())
   {
-    asked = kept.Steps.Time(static_cast<int>(kept.Boundaries.size()));
+    asked = kept.Steps.Time(0);
   }
   return kept.Ports.RequestUpdateExtent(this->RestTime, asked, inputVector);
 }
 
 int vtkCompareMorphMethods::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& kept = *this->Internals;
-  kept.Repeat = false;
   const auto reset = [&]
   {
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
@@ -275,28 +272,19 @@ int vtkCompareMorphMethods::RequestData(
   const vtkMorphPorts::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
     {
-      vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
-      vtkSmartPointer<vtkDataObject> copy;
-      copy.TakeReference(points->NewInstance());
-      copy->ShallowCopy(points);
-      kept.Boundaries.push_back(copy);
+      std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
       const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
-      kept.Repeat = static_cast<int>(kept.Boundaries.size()) < wanted;
-      if (!kept.Repeat)
+      for (int step = 0; step < wanted; ++step)
       {
-        this->Compare(grid, outputVector, monitor);
+        monitor.check();
+        vtkPointSet* points = vtkMorphInput::RequireBoundary(
+          step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
+        boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
+        boundaries.back()->ShallowCopy(points);
       }
+      this->Compare(grid, boundaries, outputVector, monitor);
     } };
-  const int done = kept.Ports.RequestData(task, request, inputVector, outputVector);
-  if (kept.Repeat)
-  {
-    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-  }
-  else if (!request->Has(Pipeline::CONTINUE_EXECUTING()))
-  {
-    kept.Boundaries.clear();
-  }
-  return done;
+  return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
 void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
@@ -312,8 +300,9 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
   filter->SetNumberOfThreads(this->NumberOfThreads);
 }
 
-void vtkCompareMorphMethods::Compare(
-  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor)
+void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
+  const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, vtkInformationVector* outputVector,
+  vtkMorphMonitor& monitor)
 {
   const std::pair<bool, Method> methods[] = { { this->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },
@@ -341,12 +330,19 @@ void vtkCompareMorphMethods::Compare(
 
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
-  vtkNew<vtkMorphBoundarySeries> boundaries;
-  boundaries->SetBoundaries(
-    kept.Steps.FromBoundary() ? times : std::vector<double>(), kept.Boundaries);
+  vtkNew<vtkMorphBoundarySeries> source;
+  source->SetBoundaries(kept.Steps.FromBoundary() ? times : std::vector<double>(), boundaries);
   vtkNew<vtkUnstructuredGrid> rest;
   rest->ShallowCopy(grid);
 
+  const vtkIdType badAtRest = badCells(grid, monitor);
+  if (badAtRest > 0)
+  {
+    monitor.warn(
+      "The mesh has " + std::to_string(badAtRest) +
+      " inverted or degenerate cells at rest. Methods are ranked by the steps up to which "
+      "they have no more than that.");
+  }
   std::vector<vtkMorphRun> runs;
   const double number = static_cast<double>(chosen.size()) * (this->Absolute + this->Relative);
   for (const bool relative : { false, true })
@@ -360,14 +356,21 @@ void vtkCompareMorphMethods::Compare(
       vtkMorphRun run;
       run.Method = method.Name;
       run.Stepping = relative ? "Relative" : "Absolute";
+      run.BadAtRest = badAtRest;
       auto filter = method.Make();
       filter->SetInputData(rest);
-      filter->SetBoundaryConnection(boundaries->GetOutputPort());
+      filter->SetBoundaryConnection(source->GetOutputPort());
       this->Configure(filter);
       filter->SetStepping(relative ? vtkMorphAlgorithm::RELATIVE : vtkMorphAlgorithm::ABSOLUTE);
       follow(filter, times, this->Percentile, run, part);
       runs.push_back(std::move(run));
     }
+  }
+  if (std::all_of(
+        runs.begin(), runs.end(), [](const vtkMorphRun& run) { return run.Steps.empty(); }))
+  {
+    throw morph::Error(
+      "No method gave a mesh. " + runs.front().Title() + ": " + runs.front().Failure);
   }
   vtkMorphComparison::Rank(runs);
   vtkMorphComparison::WriteSteps(runs, vtkTable::GetData(outputVector, 0));

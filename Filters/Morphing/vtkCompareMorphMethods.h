@@ -41,9 +41,11 @@
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
+#include <vtkSmartPointer.h>
 #include <vtkTableAlgorithm.h>
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for the boundaries
 
 class vtkDataObject;
 class vtkMorphAlgorithm;
@@ -112,7 +114,7 @@ public:
    * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps(). Default
    * 20, as in the paper. Range [1, VTK_INT_MAX].
    */
-  vtkSetClampMacro(NumberOfSteps, int, 1, VTK_INT_MAX);
+  vtkSetClampMacro(NumberOfSteps, int, 1, 1000000);
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
@@ -173,8 +175,10 @@ private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
-  void Compare(
-    vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
+  /// `boundaries`: one for each time of a boundary that varies, or the one.
+  void Compare(vtkUnstructuredGrid* grid,
+    const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
+    vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
   void Configure(vtkMorphAlgorithm* filter) const;
 
   bool Smoothing = true;

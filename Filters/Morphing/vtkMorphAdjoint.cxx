@@ -136,7 +136,15 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
-    return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+    vtkMorphPorts::RequestInformation(inputVector, outputVector);
+    // After a boundary that does not vary the gradient may, with the steps of its morph.
+    vtkInformation* output = outputVector->GetInformationObject(0);
+    vtkInformation* gradient = inputVector[2]->GetInformationObject(0);
+    if (gradient && !output->Has(vtkStreamingDemandDrivenPipeline::TIME_RANGE()))
+    {
+      vtkMorphTime::CopySteps(gradient, output);
+    }
+    return 1;
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
@@ -163,7 +171,7 @@ int vtkMorphAdjoint::RequestDataObject(
 }
 
 int vtkMorphAdjoint::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkMorphAlgorithm* morph = this->FindMorph();
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
@@ -172,7 +180,7 @@ int vtkMorphAdjoint::RequestData(
     [] {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkMorphMonitor& monitor)
     { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
-  return this->Ports->RequestData(task, request, inputVector, outputVector);
+  return this->Ports->RequestData(task, inputVector, outputVector);
 }
 
 vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()

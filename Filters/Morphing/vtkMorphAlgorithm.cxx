@@ -80,7 +80,6 @@ struct vtkMorphAlgorithm::vtkInternals
   vtkMorphSteps Steps;
   int Step = -1;         ///< asked for, of Steps
   int BoundaryStep = -1; ///< that the boundary is asked for
-  bool Repeat = false;   ///< the execution, at the boundary's next step
   vtkMorphSeries Series;
   vtkMTimeType OwnTime = 0;      ///< of the filter, for Series
   vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Series where it varies
@@ -94,6 +93,7 @@ struct vtkMorphAlgorithm::vtkInternals
   bool IsSeries(int stepping) const { return stepping == RELATIVE && this->Steps.Any(); }
   /// Forgets the series if the filter, or a boundary that varies, was modified since.
   void CheckSeries(vtkMTimeType own, vtkMTimeType boundary);
+  bool Varied = false; ///< the boundary of Series
   /// Takes the grid over unless it is what is kept already.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 };
@@ -121,10 +121,12 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
 
 void vtkMorphAlgorithm::vtkInternals::CheckSeries(vtkMTimeType own, vtkMTimeType boundary)
 {
-  if (own != this->OwnTime || (this->Steps.FromBoundary() && boundary != this->BoundaryTime))
+  const bool varies = this->Steps.FromBoundary();
+  if (own != this->OwnTime || varies != this->Varied || (varies && boundary != this->BoundaryTime))
   {
     this->Series.Clear();
   }
+  this->Varied = varies;
   this->OwnTime = own;
   this->BoundaryTime = boundary;
 }
@@ -189,6 +191,11 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
     kept.BoundaryStep = std::min(kept.Step, last + 1);
     time = kept.Steps.Time(kept.BoundaryStep);
   }
+  else if (kept.Steps.FromBoundary() &&
+           boundary->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) == 0)
+  {
+    time = kept.Steps.Time(kept.BoundaryStep); // of the parts of its range
+  }
   if (kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
     time.reset(); // it is not the boundary's
@@ -197,13 +204,13 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
 }
 
 int vtkMorphAlgorithm::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkInternals& kept = *this->Internals;
   std::string partial;
-  kept.Repeat = false;
+  vtkSmartPointer<vtkUnstructuredGrid> rest;
   // A process without cells has no series, and would not know which step to ask the boundary for.
   if (kept.IsSeries(this->Stepping) && kept.Steps.FromBoundary() && vtkMorphRanks::Count(true) > 1)
   {
@@ -215,22 +222,19 @@ int vtkMorphAlgorithm::RequestData(
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { partial = this->Morph(grid, boundary, output, badCells, monitor); } };
-  const int done = kept.Ports.RequestData(task, request, inputVector, outputVector);
-  if (kept.Repeat)
-  {
-    request->Set(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING(), 1);
-  }
-  else if (done && kept.Steps.Any() && !kept.Steps.FromBoundary())
+    {
+      rest = grid;
+      partial = this->Morph(grid, boundary, output, badCells, monitor);
+    } };
+  const int done = kept.Ports.RequestData(task, inputVector, outputVector);
+  if (done && kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
     for (vtkUnstructuredGrid* data : { output, badCells })
     {
       data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
     }
   }
-  vtkUnstructuredGrid* rest = vtkUnstructuredGrid::GetData(inputVector[0]);
-  if (done && !kept.Repeat && rest && output->GetNumberOfPoints() == 0 &&
-      vtkMorphVersion::AbortRequested(this))
+  if (done && rest && output->GetNumberOfPoints() == 0 && vtkMorphVersion::AbortRequested(this))
   {
     // Whoever stops a drag midway wants to see the mesh it began with.
     vtkMorphVersion::KeepAbortedOutput(this);
@@ -255,10 +259,6 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   if (kept.IsSeries(this->Stepping))
   {
     result = this->MorphSeries(displaced, monitor);
-    if (!result)
-    {
-      return {};
-    }
   }
   else
   {
@@ -266,6 +266,11 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
     const double part = kept.Steps.Any() ? kept.Steps.Fraction(kept.Step) : 1;
     result = std::make_shared<vtkMorphStepResult>(this->MorphStep(
       kept.Mesh, this->Match(displaced, part, monitor), this->Validity, 0, 0.9, monitor));
+  }
+  // Of a step that was kept, too; inverted cells on the way there are no news.
+  if (!result->Valid.Warning.empty())
+  {
+    monitor.warn(result->Valid.Warning);
   }
   monitor.SetRange(0.9, 1);
   this->Write(grid, *result, output, badCells, monitor);
@@ -307,25 +312,26 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     }
   }
   auto [step, result] = kept.Series.LastUntil(kept.Step);
-  // The boundary at hand is that of one step; of the steps before it none may have been lost since it was asked for.
-  const int until = !varies ? kept.Step : kept.BoundaryStep == step + 1 ? kept.BoundaryStep : step;
   const double first = step;
-  while (step < until)
+  while (step < kept.Step)
   {
     ++step;
+    if (varies && step != kept.BoundaryStep)
+    {
+      displaced = vtkMorphInput::RequireBoundary(kept.Ports.Fetch(1, kept.Steps.Time(step)));
+      kept.BoundaryStep = step;
+    }
     morph::Mesh from = kept.Mesh;
     if (result)
     {
       from.points = result->Moved;
     }
-    // Inverted cells on the way are no news: the user asked for the last step.
-    const bool silent = step < kept.Step && this->Validity == VALIDITY_REPORT;
     const auto progress = [&](int n) { return 0.9 * (n - first) / (kept.Step - first); };
     try
     {
       auto made = std::make_shared<vtkMorphStepResult>(
         this->MorphStep(from, this->Match(displaced, kept.Steps.Fraction(step), monitor),
-          silent ? VALIDITY_NONE : this->Validity, progress(step - 1), progress(step), monitor));
+          this->Validity, progress(step - 1), progress(step), monitor));
       made->Valid.Measured = {}; // a series keeps meshes alone
       result = std::move(made);
     }
@@ -339,8 +345,7 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     }
     kept.Series.Keep(step, result, this->StepMemoryLimit);
   }
-  kept.Repeat = step < kept.Step;
-  return kept.Repeat ? nullptr : result;
+  return result;
 }
 
 vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
@@ -369,6 +374,11 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
   const auto start = Clock::now();
   vtkMorphStepResult result;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, result.Moved, monitor);
+  if (!result.Moved.allFinite())
+  {
+    throw morph::Error("The method gave positions that are not finite. Check the boundary for "
+                       "huge values, and the mesh for cells without volume.");
+  }
   result.Counts = report.counts;
   if (this->PostSmooth)
   {

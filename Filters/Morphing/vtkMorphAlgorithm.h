@@ -139,7 +139,7 @@ public:
    * has its own and this is without effect; one with a time range alone is taken at the ends of that many equal parts of
    * it. Default 0: no steps. Range [0, VTK_INT_MAX].
    */
-  vtkSetClampMacro(NumberOfSteps, int, 0, VTK_INT_MAX);
+  vtkSetClampMacro(NumberOfSteps, int, 0, 1000000);
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
@@ -346,8 +346,8 @@ public:
 
   ///@{
   /**
-   * As of the last execution: the part of the motion that the valid output has made, 1 for all of it, and NaN where it has
-   * inverted cells (field data LargestValidStep); and the sub-steps tried.
+   * As of the last execution: the part of the motion, with relative steps of the last step's, that the valid output has made, 1 for all of
+   * it, and NaN where it has inverted cells (field data LargestValidStep); and the sub-steps tried.
    */
   vtkGetMacro(LargestValidStep, double);
   vtkGetMacro(SubSteps, vtkIdType);

@@ -210,7 +210,7 @@ int vtkMorphBoundary::RequestUpdateExtent(
 }
 
 int vtkMorphBoundary::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
@@ -218,7 +218,7 @@ int vtkMorphBoundary::RequestData(
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
     { this->Morph(grid, boundary, target, output, monitor); } };
-  return this->Internals->Ports.RequestData(task, request, inputVector, outputVector);
+  return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
 
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,

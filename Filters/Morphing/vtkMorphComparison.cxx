@@ -72,7 +72,7 @@ double lastValidTime(const vtkMorphRun& run)
   return valid > 0 ? run.Steps[valid - 1].Time : NaN;
 }
 
-/// The first step that is not valid or has no mesh, of `steps`; -1 where there is none.
+/// The first step, of `steps`, that is not among the valid ones; -1 where all are.
 int firstInvertedStep(const vtkMorphRun& run, int steps)
 {
   return run.ValidSteps() < steps ? run.ValidSteps() : -1;
@@ -87,13 +87,14 @@ std::string vtkMorphRun::Title() const
 int vtkMorphRun::ValidSteps() const
 {
   const auto invalid = std::find_if(this->Steps.begin(), this->Steps.end(),
-    [](const Step& step) { return step.Inverted + step.Degenerate > 0; });
+    [this](const Step& step) { return step.Inverted + step.Degenerate > this->BadAtRest; });
   return static_cast<int>(invalid - this->Steps.begin());
 }
 
 double vtkMorphRun::LastValidMinimum() const
 {
-  return this->Steps.empty() ? NaN : this->Steps[std::max(0, this->ValidSteps() - 1)].Minimum;
+  const int valid = this->ValidSteps();
+  return valid > 0 ? this->Steps[valid - 1].Minimum : NaN;
 }
 
 double vtkMorphRun::Seconds() const

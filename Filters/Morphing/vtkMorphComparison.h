@@ -23,13 +23,15 @@ struct vtkMorphRun
   std::string Method;
   std::string Stepping;
   std::vector<Step> Steps; ///< one for each that gave a mesh
+  std::string Failure;     ///< what ended the run before its last step
+  vtkIdType BadAtRest = 0; ///< inverted and degenerate cells of the mesh itself
   double PeakMegabytes = 0;
   int Rank = 0; ///< 1 is best
 
   std::string Title() const;
-  /// How many steps from the first on have no inverted or degenerate cell.
+  /// How many steps from the first on have no more inverted and degenerate cells than the mesh at rest.
   int ValidSteps() const;
-  /// The last of these, or the first where there is none; NaN without steps.
+  /// Of the last of these; NaN where there is none.
   double LastValidMinimum() const;
   double Seconds() const;
 };

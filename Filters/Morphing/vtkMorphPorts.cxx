@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphPorts.h"
 
+#include "Error.h"
 #include "vtkMorphCrewMonitor.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
@@ -18,6 +20,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 int vtkMorphPorts::FillInformation(int port, vtkInformation* info)
@@ -38,7 +41,10 @@ int vtkMorphPorts::RequestInformation(
 {
   if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
   {
-    vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(0));
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      vtkMorphTime::CopySteps(boundary, outputVector->GetInformationObject(port));
+    }
   }
   return 1;
 }
@@ -75,26 +81,35 @@ int vtkMorphPorts::RequestUpdateExtent(
   }
   if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
   {
-    auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetInputExecutive(0, 0));
-    this->Time.Request(restTime, upstream ? upstream->GetPipelineMTime() : 0, boundaryTime,
-      inputVector[0]->GetInformationObject(0), boundary);
+    this->Time.Request(restTime, boundaryTime, inputVector[0]->GetInformationObject(0), boundary);
   }
   return 1;
 }
 
-int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+vtkDataObject* vtkMorphPorts::Fetch(int port, std::optional<double> time) const
 {
-  vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
-  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-  if (inputVector[1]->GetInformationObject(0))
+  vtkInformation* info = this->Filter->GetExecutive()->GetInputInformation(port, 0);
+  vtkMorphTime::Ask(info, time);
+  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(port, 0);
+  auto* upstream =
+    vtkStreamingDemandDrivenPipeline::SafeDownCast(source->GetProducer()->GetExecutive());
+  if (!upstream || !upstream->Update(source->GetIndex()))
   {
-    input = this->Time.TakeRest(input, request);
+    std::ostringstream text;
+    text << (port == 0 ? "The mesh" : "The boundary") << " could not be had";
+    if (time)
+    {
+      text << " at time " << *time;
+    }
+    text << ": the pipeline before it failed.";
+    throw morph::Error(text.str());
   }
-  if (!input)
-  {
-    return 1;
-  }
+  return vtkDataObject::GetData(info);
+}
+
+int vtkMorphPorts::RequestData(
+  const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
   const auto forOutputs = [outputVector](const auto& action)
   {
     for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
@@ -106,6 +121,13 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   vtkMorphCrewMonitor monitor(this->Filter, task.NumberOfThreads);
   const auto work = [&]
   {
+    vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+    if (inputVector[1]->GetInformationObject(0))
+    {
+      input = this->Time.TakeRest(
+        input, [this](int port, std::optional<double> time) { return this->Fetch(port, time); });
+    }
+    vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
     const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
     vtkMorphInput::RequireNotSwapped(input, boundary);
@@ -128,6 +150,7 @@ int vtkMorphPorts::RequestData(const Task& task, vtkInformation* request,
   }
   if (done)
   {
+    vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     forOutputs([boundary](vtkDataObject* output) { vtkMorphTime::CopyDataTime(boundary, output); });
   }
   return done;

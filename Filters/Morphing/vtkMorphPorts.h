@@ -46,8 +46,12 @@ public:
   };
   /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
   /// the outputs are empty; errors and warnings are the filter's.
-  int RequestData(const Task& task, vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
+  int RequestData(
+    const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+
+  /// For the work of a task: what the input port has at another time, none for that of its own choice. A repeated execution would not do:
+  /// VTK's executive goes on for ever where the input fails in one that continues another. Throws Error where it fails.
+  vtkDataObject* Fetch(int port, std::optional<double> time) const;
 
 private:
   vtkAlgorithm* Filter;

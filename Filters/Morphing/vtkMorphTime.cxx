@@ -26,11 +26,10 @@ void vtkMorphTime::CopyDataTime(vtkDataObject* boundary, vtkDataObject* output)
   output->GetInformation()->CopyEntry(boundary->GetInformation(), vtkDataObject::DATA_TIME_STEP());
 }
 
-void vtkMorphTime::Request(double restTime, vtkMTimeType meshTime,
-  std::optional<double> boundaryTime, vtkInformation* mesh, vtkInformation* boundary)
+void vtkMorphTime::Request(double restTime, std::optional<double> boundaryTime,
+  vtkInformation* mesh, vtkInformation* boundary)
 {
-  const double lastStep = this->RestStep;
-  this->HasRestStep = true;
+  this->RestStep.reset();
   if (const int count = mesh->Length(Pipeline::TIME_STEPS()))
   {
     const double* steps = mesh->Get(Pipeline::TIME_STEPS());
@@ -42,69 +41,49 @@ void vtkMorphTime::Request(double restTime, vtkMTimeType meshTime,
     const double* range = mesh->Get(Pipeline::TIME_RANGE());
     this->RestStep = std::min(std::max(restTime, range[0]), range[1]);
   }
-  else
+  this->BoundaryTime = boundaryTime;
+  this->OnePort = mesh == boundary;
+  Ask(boundary, boundaryTime);
+  if (!this->OnePort || this->RestStep)
   {
-    this->HasRestStep = false;
-  }
-
-  if (this->MeshTime != meshTime || this->RestStep != lastStep)
-  {
-    // Left over from an execution that failed upstream between its passes.
-    this->Rest = nullptr;
-  }
-  this->MeshTime = meshTime;
-
-  const bool onePort = mesh == boundary;
-  if (onePort && this->HasRestStep && !this->Rest)
-  {
-    this->BothAtRest = true;
-  }
-  if (this->HasRestStep)
-  {
-    mesh->Set(Pipeline::UPDATE_TIME_STEP(), this->RestStep);
-  }
-  else if (!onePort)
-  {
-    mesh->Remove(Pipeline::UPDATE_TIME_STEP());
-  }
-  if (this->BothAtRest)
-  {
-    boundary->Set(Pipeline::UPDATE_TIME_STEP(), this->RestStep);
-  }
-  else if (boundaryTime)
-  {
-    boundary->Set(Pipeline::UPDATE_TIME_STEP(), *boundaryTime);
-  }
-  else
-  {
-    boundary->Remove(Pipeline::UPDATE_TIME_STEP());
+    Ask(mesh, this->RestStep);
   }
 }
 
-vtkSmartPointer<vtkDataObject> vtkMorphTime::TakeRest(vtkDataObject* mesh, vtkInformation* request)
+void vtkMorphTime::Ask(vtkInformation* input, std::optional<double> time)
 {
-  vtkInformation* info = mesh ? mesh->GetInformation() : nullptr;
-  const bool overwritten = this->HasRestStep && info &&
-                           info->Has(vtkDataObject::DATA_TIME_STEP()) &&
-                           info->Get(vtkDataObject::DATA_TIME_STEP()) != this->RestStep;
-  const bool repeat = this->BothAtRest || (vtkMorphRanks::Count(overwritten) > 0 && !this->Rest);
-  if (repeat)
+  if (time)
   {
-    if (this->BothAtRest)
-    {
-      this->Rest.TakeReference(mesh->NewInstance());
-      this->Rest->ShallowCopy(mesh);
-    }
-    this->BothAtRest = !this->BothAtRest;
-    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-    return nullptr;
+    input->Set(Pipeline::UPDATE_TIME_STEP(), *time);
   }
-  request->Remove(Pipeline::CONTINUE_EXECUTING());
-  vtkSmartPointer<vtkDataObject> taken = mesh;
-  if (this->Rest)
+  else
   {
-    taken = this->Rest;
-    this->Rest = nullptr;
+    input->Remove(Pipeline::UPDATE_TIME_STEP());
   }
-  return taken;
+}
+
+vtkSmartPointer<vtkDataObject> vtkMorphTime::TakeRest(vtkDataObject* mesh, const Fetch& fetch) const
+{
+  const auto isAtRest = [this](vtkDataObject* data)
+  {
+    vtkInformation* info = data ? data->GetInformation() : nullptr;
+    return !info || !info->Has(vtkDataObject::DATA_TIME_STEP()) ||
+           info->Get(vtkDataObject::DATA_TIME_STEP()) == *this->RestStep;
+  };
+  const bool overwritten = vtkMorphRanks::Count(this->RestStep && !isAtRest(mesh)) > 0;
+  if (overwritten)
+  {
+    mesh = fetch(0, this->RestStep);
+  }
+  vtkSmartPointer<vtkDataObject> rest = mesh;
+  if (this->RestStep && mesh)
+  {
+    rest.TakeReference(mesh->NewInstance());
+    rest->ShallowCopy(mesh);
+  }
+  if (overwritten || (this->OnePort && this->RestStep))
+  {
+    fetch(1, this->BoundaryTime);
+  }
+  return rest;
 }

@@ -143,9 +143,8 @@ vtkMorphValidity::Outcome vtkMorphValidity::Ensure(
                          "Set Validity to Repair or Sub Step, move the boundary less, or use "
                          "Morph Inversion Free.");
     case vtkMorphAlgorithm::VALIDITY_REPORT:
-      monitor.warn(found + "The output Bad cells holds them all. Morph Inversion Free, or Validity "
-                           "set to Repair, keeps "
-                           "cells valid.");
+      outcome.Warning = found + "The output Bad cells holds them all. Morph Inversion Free, or "
+                                "Validity set to Repair, keeps cells valid.";
       break;
     default:
       break;

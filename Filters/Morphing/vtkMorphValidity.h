@@ -32,6 +32,7 @@ public:
     std::string Status = "Valid"; ///< see vtkMorphAlgorithm::GetMorphStatus()
     double LargestValidStep = 1;
     morph::Index SubSteps = 0;
+    std::string Warning;     ///< of inverted cells, where Mode asks for a report
     std::string Error;       ///< not empty: the mesh is valid but has not gone all the way
     morph::Quality Measured; ///< of the method's own mesh where that is the result; else empty
   };
