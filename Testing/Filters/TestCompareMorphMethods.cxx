@@ -12,6 +12,7 @@
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataAlgorithm.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
@@ -296,6 +297,44 @@ TEST_F(CompareMorphMethods, AMethodThatFailsEndsItsRun)
   EXPECT_TRUE(std::isnan(this->Number(1, 0, "FEMWARP, Relative")));
 }
 
+TEST_F(CompareMorphMethods, CellsThatAreInvertedAtRestCountForNoMethod)
+{
+  this->Choose(true, true);
+  auto grid = grids::copy(this->Grid);
+  grid->GetPoints()->SetPoint(62, 0.4, 2, 2); // the middle, behind its neighbor
+  this->Filter->SetInputData(grid);
+  this->Filter->SetBoundaryData(
+    grids::boundary(grid, [](const grids::Row& x) { return grids::Row(1.2 * x[0], x[1], x[2]); }));
+  grids::Listener listener(this->Filter);
+  this->Filter->Update();
+  ASSERT_FALSE(listener.Warnings.empty());
+  EXPECT_NE(listener.Warnings[0].find("cells at rest"), std::string::npos) << listener.Warnings[0];
+  ASSERT_GT(this->Number(0, 0, "InvertedCells"), 0);
+  // An affine motion inverts no cell, and mends none.
+  for (vtkIdType row = 0; row < 4; ++row)
+  {
+    EXPECT_EQ(this->Number(2, row, "FirstInvertedStep"), -1);
+    EXPECT_EQ(this->Number(2, row, "LastValidTime"), 4);
+  }
+}
+
+TEST_F(CompareMorphMethods, AMessageComesOnceARun)
+{
+  this->Choose(true, false);
+  this->Filter->SetRelative(false);
+  auto boundary = grids::boundary(this->Grid, waves);
+  boundary->GetPointData()
+    ->GetArray("MorphPointId")
+    ->SetName("vtkOriginalPointIds"); // draws a warning
+  this->Filter->SetBoundaryData(boundary);
+  grids::Listener listener(this->Filter);
+  this->Filter->Update();
+  EXPECT_EQ(this->Rows(0), 5);
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("FEMWARP, Absolute, step 0: "), std::string::npos)
+    << listener.Warnings[0];
+}
+
 TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
 {
   const auto errorAfter = [this](const std::string& text)
@@ -321,6 +360,9 @@ TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
   this->Filter->SetRelative(false);
   errorAfter("Neither absolute nor relative");
   this->Filter->SetAbsolute(true);
+  this->Filter->SetBoundaryIdArray("Nonsense");
+  errorAfter("No method gave a mesh. FEMWARP, Absolute: ");
+  this->Filter->SetBoundaryIdArray(nullptr);
   this->Filter->SetBoundaryConnection(nullptr);
   errorAfter("Boundary: nothing is connected");
   this->Filter->SetBoundaryData(grids::boundary(this->Grid, waves));

@@ -9,9 +9,11 @@
 #include "vtkSmoothingMorph.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTransform.h>
 #include <vtkTransformFilter.h>
 
@@ -342,6 +344,25 @@ TEST_F(AdjointInputs, TheMethodIsFoundBehindTheGradient)
   adjoint->Update();
   EXPECT_TRUE(gradients(adjoint->GetOutput()) == gradients(expected->GetOutput()));
   EXPECT_EQ(this->Morph->GetPrepareCount(), 1);
+}
+
+TEST_F(AdjointInputs, FollowsTheStepsOfItsMorph)
+{
+  this->Morph->SetInputData(this->Grid);
+  this->Morph->SetBoundaryData(this->Boundary);
+  this->Morph->SetNumberOfSteps(2);
+  auto adjoint = adjointOf(nullptr, this->Grid, this->Boundary, nullptr);
+  adjoint->SetGradientConnection(this->Morph->GetOutputPort());
+  adjoint->SetGradientArray("MorphDisplacement");
+  adjoint->UpdateInformation();
+  EXPECT_EQ(
+    adjoint->GetOutputInformation(0)->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  adjoint->UpdateTimeStep(2);
+  const morph::Points whole = gradients(adjoint->GetOutput());
+  adjoint->UpdateTimeStep(1);
+  const morph::Points half = gradients(adjoint->GetOutput());
+  EXPECT_GT(whole.norm(), 0);
+  EXPECT_LT((half - whole / 2).norm(), 1e-6 * whole.norm());
 }
 
 TEST_F(AdjointInputs, ApplyTransposeWithoutAPipeline)

@@ -26,7 +26,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-/// A boundary whose points at time t lie t of the way from `From` to `To`, at its own time steps or in a range.
+/// A boundary whose points at time t lie t of the way from `From` to `To`, at its own time steps or in a range; at time 1 while it is `Still`.
 class MovingBoundary : public vtkPolyDataAlgorithm
 {
 public:
@@ -35,6 +35,8 @@ public:
   vtkSmartPointer<vtkPolyData> From, To;
   std::vector<double> Steps;     ///< empty: the range alone
   std::vector<double> Delivered; ///< the times of its executions
+  double FailsAt = -1;
+  bool Still = false;
 
 protected:
   MovingBoundary() { this->SetNumberOfInputPorts(0); }
@@ -42,6 +44,12 @@ protected:
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
   {
     vtkInformation* info = outputVector->GetInformationObject(0);
+    info->Remove(Pipeline::TIME_STEPS());
+    info->Remove(Pipeline::TIME_RANGE());
+    if (this->Still)
+    {
+      return 1;
+    }
     const double range[2] = { this->Steps.empty() ? 0 : this->Steps.front(),
       this->Steps.empty() ? 1 : this->Steps.back() };
     if (!this->Steps.empty())
@@ -55,14 +63,23 @@ protected:
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
   {
     vtkInformation* info = outputVector->GetInformationObject(0);
-    const double time =
-      info->Has(Pipeline::UPDATE_TIME_STEP()) ? info->Get(Pipeline::UPDATE_TIME_STEP()) : 0;
+    const double time = this->Still ? 1
+                        : info->Has(Pipeline::UPDATE_TIME_STEP())
+                          ? info->Get(Pipeline::UPDATE_TIME_STEP())
+                          : 0;
     this->Delivered.push_back(time);
+    if (time == this->FailsAt)
+    {
+      return 0;
+    }
     auto* output = vtkPolyData::GetData(info);
     output->DeepCopy(this->From);
     const morph::Points from = grids::points(this->From);
     output->SetPoints(grids::cloud(from + time * (grids::points(this->To) - from))->GetPoints());
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    if (!this->Still)
+    {
+      output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    }
     return 1;
   }
 };
@@ -325,6 +342,64 @@ TEST_F(RelativeSteps, AnErrorNamesItsStep)
   EXPECT_EQ(this->Filter->GetInvertedCells(), 0);
 }
 
+TEST_F(RelativeSteps, InvertedCellsOfAStepThatWasKeptAreReportedToo)
+{
+  this->Filter->SetNumberOfSteps(4);
+  this->Filter->SetBoundaryData(grids::boundary(this->Grid,
+    [](const grids::Row& x) { return grids::Row(x[0], x[1], x[2] == 4 ? 1.6 : x[2]); }));
+  for (const int step : { 4, 3, 1, 3 })
+  {
+    grids::Listener listener(this->Filter);
+    EXPECT_EQ(this->PreparesAt(step), step == 4 ? 4 : 0) << step;
+    EXPECT_EQ(this->Filter->GetInvertedCells() > 0, step > 1);
+    EXPECT_EQ(listener.Warnings.size(), step > 1 ? 1u : 0u) << step;
+  }
+}
+
+TEST_F(RelativeSteps, ABoundaryThatVariedMeanwhileIsAnotherSeries)
+{
+  vtkNew<MovingBoundary> boundary;
+  boundary->From = grids::boundary(this->Grid, [](const grids::Row& x) { return x; });
+  boundary->To = grids::boundary(this->Grid, bulge);
+  boundary->Still = true;
+  this->Filter->SetBoundaryConnection(boundary->GetOutputPort());
+  this->Filter->SetNumberOfSteps(4);
+  this->Filter->UpdateTimeStep(4);
+  const morph::Points still = this->Result();
+  boundary->Still = false;
+  boundary->Steps = { 0, 1, 2, 3, 4 };
+  boundary->Modified();
+  this->Filter->UpdateTimeStep(4);
+  EXPECT_FALSE(this->Result() == still);
+  boundary->Still = true;
+  boundary->Modified();
+  this->Filter->UpdateTimeStep(4);
+  EXPECT_TRUE(this->Result() == still);
+}
+
+TEST_F(RelativeSteps, ATimeAtWhichTheBoundaryFailsEndsTheExecution)
+{
+  vtkNew<MovingBoundary> boundary;
+  boundary->From = grids::boundary(this->Grid, [](const grids::Row& x) { return x; });
+  boundary->To = grids::boundary(this->Grid, bulge);
+  boundary->Steps = { 0, 0.25, 0.5, 0.75, 1 };
+  boundary->FailsAt = 0.5;
+  this->Filter->SetBoundaryConnection(boundary->GetOutputPort());
+  grids::Listener listener(this->Filter);
+  EXPECT_EQ(this->Filter->UpdateTimeStep(1), 0);
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("The boundary could not be had at time 0.5"), std::string::npos)
+    << listener.Errors[0];
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  // The steps before it are kept.
+  EXPECT_EQ(this->PreparesAt(0), 0);
+  EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  boundary->FailsAt = -1;
+  boundary->Modified();
+  EXPECT_EQ(this->Filter->UpdateTimeStep(1), 1);
+  EXPECT_EQ(listener.Errors.size(), 1u);
+}
+
 TEST(RelativeStepsOfInversionFree, AimForTheMeshAtRest)
 {
   // There and back: what aims for the shapes at rest, and not for those of the step before, comes back to them.
@@ -361,4 +436,14 @@ TEST(MorphStepsOfARange, AreEqualPartsOfIt)
   filter->UpdateTimeStep(0.75);
   EXPECT_EQ(boundary->Delivered, (std::vector<double>{ 0, 0.25, 0.5, 0.75 }));
   EXPECT_EQ(filter->GetPrepareCount(), 3);
+  filter->SetSteppingToAbsolute();
+  filter->UpdateTimeStep(0.6);
+  EXPECT_EQ(boundary->Delivered.back(), 0.5);
+}
+
+TEST(MorphSteps, AreAMillionAtMost)
+{
+  vtkNew<vtkSimplexLinearMorph> filter;
+  filter->SetNumberOfSteps(VTK_INT_MAX);
+  EXPECT_EQ(filter->GetNumberOfSteps(), 1000000);
 }

@@ -27,6 +27,7 @@ public:
   vtkTypeMacro(GrowingGrid, vtkUnstructuredGridAlgorithm);
   std::vector<double> Steps;
   std::vector<double> Delivered; ///< the times of its executions
+  double FailsAt = -1;
 
 protected:
   GrowingGrid() { this->SetNumberOfInputPorts(0); }
@@ -52,6 +53,10 @@ protected:
     {
       time = info->Has(Pipeline::UPDATE_TIME_STEP()) ? info->Get(Pipeline::UPDATE_TIME_STEP())
                                                      : this->Steps.front();
+    }
+    if (time == this->FailsAt)
+    {
+      return 0;
     }
     morph::Mesh mesh = meshes::hexes(3, 3, 3);
     mesh.points *= 1 + time;
@@ -224,6 +229,24 @@ TEST(MorphTime, RestTime)
   }
 }
 
+TEST(MorphTime, BadCellsHaveTheTimesOfTheMesh)
+{
+  vtkNew<GrowingGrid> mesh, other;
+  mesh->Steps = { 0, 1, 2 };
+  vtkNew<RisingBoundary> boundary;
+  boundary->SetInputConnection(other->GetOutputPort());
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputConnection(mesh->GetOutputPort());
+  filter->SetBoundaryConnection(boundary->GetOutputPort());
+  filter->UpdateInformation();
+  EXPECT_FALSE(filter->GetOutputInformation(1)->Has(Pipeline::TIME_STEPS()));
+  boundary->Steps = { 0, 5 };
+  boundary->Modified();
+  filter->UpdateInformation();
+  ASSERT_EQ(filter->GetOutputInformation(1)->Length(Pipeline::TIME_STEPS()), 2);
+  EXPECT_EQ(filter->GetOutputInformation(1)->Get(Pipeline::TIME_RANGE())[1], 5);
+}
+
 TEST(MorphTime, AStaticBoundaryHasNoSteps)
 {
   vtkNew<GrowingGrid> mesh;
@@ -273,6 +296,28 @@ TEST_P(MorphTimeOneSource, RestMeshIsNotOverwritten)
     EXPECT_LT((vectorsOf(vectors) - expected).cwiseAbs().maxCoeff(), 1e-8);
   }
   EXPECT_EQ(filter->GetPrepareCount(), 1);
+}
+
+TEST_P(MorphTimeOneSource, ATimeThatFailsEndsTheExecution)
+{
+  const auto& [direct, restTime] = GetParam();
+  vtkNew<GrowingGrid> source;
+  source->Steps = { 0, 1, 2 };
+  source->FailsAt = 2;
+  vtkNew<PassGrid> between;
+  between->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetBoundaryConnection(direct ? source->GetOutputPort() : between->GetOutputPort());
+  filter->SetRestTime(restTime);
+  const double still = restTime;
+  filter->UpdateTimeStep(still);
+  EXPECT_EQ(sizeAndHeight(filter->GetOutput()), Place(3 * (1 + still), 0));
+  EXPECT_EQ(filter->UpdateTimeStep(2), 0);
+  source->FailsAt = -1;
+  source->Modified();
+  EXPECT_EQ(filter->UpdateTimeStep(2), 1);
+  EXPECT_EQ(sizeAndHeight(filter->GetOutput()), Place(9, 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(
