@@ -153,7 +153,7 @@ vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
   const morph::Quality quality = morph::measureQuality(
     mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
-  return static_cast<vtkIdType>(quality.inverted + quality.degenerate);
+  return static_cast<vtkIdType>(quality.inverted) + static_cast<vtkIdType>(quality.degenerate);
 }
 
 /// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first

@@ -82,6 +82,7 @@ struct vtkMorphAlgorithm::vtkInternals
   int BoundaryStep = -1; ///< that the boundary is asked for
   vtkMorphSeries Series;
   vtkMTimeType OwnTime = 0;      ///< of the filter, for Series
+  bool Varied = false;           ///< the boundary, for Series
   vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Series where it varies
   vtkMorphBoundaryMatch::Result Whole; ///< the whole motion, for Series where it does not
 
@@ -93,7 +94,6 @@ struct vtkMorphAlgorithm::vtkInternals
   bool IsSeries(int stepping) const { return stepping == RELATIVE && this->Steps.Any(); }
   /// Forgets the series if the filter, or a boundary that varies, was modified since.
   void CheckSeries(vtkMTimeType own, vtkMTimeType boundary);
-  bool Varied = false; ///< the boundary of Series
   /// Takes the grid over unless it is what is kept already.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 };
