@@ -58,6 +58,10 @@ int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientatio
   const std::vector<Index>& free, Points& points, Monitor& monitor)
 {
   Quality quality = measureQuality(mesh, points, orientation, {}, monitor);
+  if (!(quality.minimum > 0))
+  {
+    return 0;
+  }
   const Adjacency around = nodeToCells(mesh);
   Points trial = points;
   double least = quality.minimum;

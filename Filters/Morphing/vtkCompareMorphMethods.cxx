@@ -2,8 +2,8 @@
 #include "vtkCompareMorphMethods.h"
 
 #include "Error.h"
-#include "ScaledJacobian.h"
 #include "SubMonitor.h"
+#include "SubSteps.h"
 #include "Topology.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
@@ -151,9 +151,9 @@ private:
 vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
-  const morph::Quality quality = morph::measureQuality(
-    mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
-  return static_cast<vtkIdType>(quality.inverted) + static_cast<vtkIdType>(quality.degenerate);
+  return static_cast<vtkIdType>(
+    morph::invertedCells(mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), monitor)
+      .size());
 }
 
 /// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first

@@ -267,57 +267,56 @@ TEST(MorphTime, AStaticBoundaryHasNoSteps)
 /// The mesh from the source at its rest time, the boundary from the same source at others.
 class MorphTimeOneSource : public testing::TestWithParam<std::tuple<bool, double>>
 {
+protected:
+  vtkNew<GrowingGrid> Source;
+  vtkNew<PassGrid> Between;
+  vtkNew<vtkFEMWarpMorph> Filter;
+
+  void SetUp() override
+  {
+    const auto& [direct, restTime] = GetParam();
+    this->Source->Steps = { 0, 1, 2 };
+    this->Between->SetInputConnection(this->Source->GetOutputPort());
+    this->Filter->SetInputConnection(this->Source->GetOutputPort());
+    this->Filter->SetBoundaryConnection(
+      direct ? this->Source->GetOutputPort() : this->Between->GetOutputPort());
+    this->Filter->SetRestTime(restTime);
+  }
 };
 
 TEST_P(MorphTimeOneSource, RestMeshIsNotOverwritten)
 {
   // Fetching the boundary leaves the source's grid, port 0's data, at the boundary's time.
-  const auto& [direct, restTime] = GetParam();
-  vtkNew<GrowingGrid> source;
-  source->Steps = { 0, 1, 2 };
-  vtkNew<PassGrid> between;
-  between->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputConnection(source->GetOutputPort());
-  filter->SetBoundaryConnection(direct ? source->GetOutputPort() : between->GetOutputPort());
-  filter->SetRestTime(restTime);
-  EXPECT_EQ(stepsOf(filter), source->Steps);
+  const double restTime = std::get<1>(GetParam());
+  EXPECT_EQ(stepsOf(this->Filter), this->Source->Steps);
   for (const double time : { 2.0, 0.0, 1.0, 2.0 })
   {
     SCOPED_TRACE(time);
-    grids::Listener listener(filter);
-    filter->UpdateTimeStep(time);
+    grids::Listener listener(this->Filter);
+    this->Filter->UpdateTimeStep(time);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-    EXPECT_EQ(sizeAndHeight(filter->GetOutput()), Place(3 * (1 + time), 0));
-    EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), time);
-    auto* vectors = filter->GetOutput()->GetPointData()->GetArray("MorphDisplacement");
+    EXPECT_EQ(sizeAndHeight(this->Filter->GetOutput()), Place(3 * (1 + time), 0));
+    EXPECT_EQ(
+      this->Filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), time);
+    auto* vectors = this->Filter->GetOutput()->GetPointData()->GetArray("MorphDisplacement");
     ASSERT_NE(vectors, nullptr);
     const morph::Points expected = meshes::hexes(3, 3, 3).points * (time - restTime);
     EXPECT_LT((vectorsOf(vectors) - expected).cwiseAbs().maxCoeff(), 1e-8);
   }
-  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_EQ(this->Filter->GetPrepareCount(), 1);
 }
 
 TEST_P(MorphTimeOneSource, ATimeThatFailsEndsTheExecution)
 {
-  const auto& [direct, restTime] = GetParam();
-  vtkNew<GrowingGrid> source;
-  source->Steps = { 0, 1, 2 };
-  source->FailsAt = 2;
-  vtkNew<PassGrid> between;
-  between->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputConnection(source->GetOutputPort());
-  filter->SetBoundaryConnection(direct ? source->GetOutputPort() : between->GetOutputPort());
-  filter->SetRestTime(restTime);
-  const double still = restTime;
-  filter->UpdateTimeStep(still);
-  EXPECT_EQ(sizeAndHeight(filter->GetOutput()), Place(3 * (1 + still), 0));
-  EXPECT_EQ(filter->UpdateTimeStep(2), 0);
-  source->FailsAt = -1;
-  source->Modified();
-  EXPECT_EQ(filter->UpdateTimeStep(2), 1);
-  EXPECT_EQ(sizeAndHeight(filter->GetOutput()), Place(9, 0));
+  const double restTime = std::get<1>(GetParam());
+  this->Source->FailsAt = 2;
+  this->Filter->UpdateTimeStep(restTime);
+  EXPECT_EQ(sizeAndHeight(this->Filter->GetOutput()), Place(3 * (1 + restTime), 0));
+  EXPECT_EQ(this->Filter->UpdateTimeStep(2), 0);
+  this->Source->FailsAt = -1;
+  this->Source->Modified();
+  EXPECT_EQ(this->Filter->UpdateTimeStep(2), 1);
+  EXPECT_EQ(sizeAndHeight(this->Filter->GetOutput()), Place(9, 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(
