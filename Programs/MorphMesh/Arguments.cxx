@@ -33,7 +33,8 @@ const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output
 
 const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
-                               "written; 2 the command line is wrong;\n"
+                               "written and an old file stays;\n"
+                               "2 the command line is wrong;\n"
                                "3 the result is written, but has inverted or collapsed cells and "
                                "--require-valid was given, or\n"
                                "--validity SubStep or Repair came only part of the way: the "

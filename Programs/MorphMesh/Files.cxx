@@ -2,6 +2,8 @@
 #include "Files.h"
 
 #include "Messages.h"
+#include "ReadingGuard.h"
+#include "ReplaceFile.h"
 
 #include <vtkAVSucdReader.h>
 #include <vtkAppendFilter.h>
@@ -25,7 +27,15 @@
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <iostream>
+#include <iterator>
+#include <new>
+#include <system_error>
+#include <vector>
 
 namespace morph_mesh
 {
@@ -100,6 +110,82 @@ vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)
   return append->GetOutput();
 }
 
+/// Of the file and, for a parallel one, of the pieces that it names.
+std::uintmax_t bytesToRead(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::uintmax_t result = fs::file_size(path, error);
+  if (isOneOf(extension(path), { ".pvtu", ".pvtp" }))
+  {
+    std::ifstream file(path);
+    const std::string text(
+      (std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::string start = "Source=\"";
+    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at))
+    {
+      at += start.size();
+      const std::string piece = text.substr(at, text.find('"', at) - at);
+      const std::uintmax_t bytes = fs::file_size(fs::path(path).parent_path() / piece, error);
+      result += error ? 0 : bytes; // the reader names a piece that is missing
+    }
+  }
+  return result;
+}
+
+/// The first of the errors, which is the cause of the others.
+void requireNoErrors(
+  const std::string& path, const Messages& messages, const ConsoleMessages& inner)
+{
+  const std::vector<std::string>& errors = inner.errors.empty() ? messages.errors() : inner.errors;
+  if (!errors.empty())
+  {
+    // It may cite the file's bytes.
+    std::string cause = errors.front().substr(0, 500);
+    std::replace_if(
+      cause.begin(), cause.end(), [](char c) { return c < ' ' || c > '~'; }, ' ');
+    throw Failure(
+      "Cannot read " + path + ": the file is damaged, or not what its extension says: " + cause);
+  }
+}
+
+void printWarnings(const std::string& path, const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    std::cerr << "morph-mesh: warning: " << path << ": " << warning << "\n";
+  }
+}
+
+vtkSmartPointer<vtkDataObject> readGuarded(
+  const std::string& path, std::vector<std::string>& warnings)
+{
+  const ReadingGuard guard(path, bytesToRead(path));
+  ConsoleMessages inner;
+  const vtkSmartPointer<vtkAlgorithm> reader = makeReader(path);
+  Messages messages(reader);
+  try
+  {
+    reader->Update();
+    requireNoErrors(path, messages, inner);
+    vtkSmartPointer<vtkDataObject> data = reader->GetOutputDataObject(0);
+    if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+    {
+      data = merged(blocks);
+      requireNoErrors(path, messages, inner);
+    }
+    warnings = inner.warnings;
+    warnings.insert(warnings.end(), messages.warnings().begin(), messages.warnings().end());
+    return data;
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure("Cannot read " + path +
+                  ": it asks for more memory than there is, or than a file of its size can need. "
+                  "The file is damaged, or not what its extension says.");
+  }
+}
+
 vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
 {
   // Some readers say nothing of a file that is not there.
@@ -107,22 +193,19 @@ vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
   {
     throw Failure("Cannot read " + path + ": there is no such file.");
   }
-  const vtkSmartPointer<vtkAlgorithm> reader = makeReader(path);
-  Messages messages(reader);
-  messages.update("Cannot read " + path);
-  vtkDataObject* data = reader->GetOutputDataObject(0);
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    return merged(blocks);
-  }
+  std::vector<std::string> warnings;
+  vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
+  printWarnings(path, warnings);
   return data;
 }
 
+/// The writer writes into memory, which takes up to 3 times the size of the file. On a full disk
+/// VTK's XML writer would crash, and its legacy writer miss that the last block is lost.
 template <typename Writer>
-void writeFile(Writer* writer, vtkDataObject* data, const std::string& path)
+void runWriter(Writer* writer, vtkDataObject* data, const std::string& path)
 {
   Messages messages(writer);
-  writer->SetFileName(path.c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputDataObject(data);
   messages.update("Cannot write " + path);
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
@@ -135,17 +218,22 @@ void writeFile(Writer* writer, vtkDataObject* data, const std::string& path)
 template <typename Writer>
 void writeXml(vtkDataObject* data, const std::string& path)
 {
-  vtkNew<Writer> writer;
+  auto writer = vtkSmartPointer<Writer>::New();
   // Raw appended data, VTK's default, is no XML: Debian's ParaView cannot read it.
   writer->SetDataModeToBinary();
-  writeFile(writer.Get(), data, path);
+  runWriter(writer.Get(), data, path);
+  const std::string content = writer->GetOutputString();
+  writer = nullptr; // and its copy
+  replaceFile(path, content);
 }
 
 void writeLegacy(vtkDataObject* data, const std::string& path)
 {
   vtkNew<vtkDataSetWriter> writer;
   writer->SetFileTypeToBinary();
-  writeFile(writer.Get(), data, path);
+  runWriter(writer.Get(), data, path);
+  const auto length = static_cast<std::size_t>(writer->GetOutputStringLength());
+  replaceFile(path, { writer->GetOutputString(), length });
 }
 }
 
@@ -180,6 +268,7 @@ void requireGridFormat(const std::string& path)
   {
     throw Failure("Cannot write " + path + ": a grid is written as .vtu or .vtk.");
   }
+  requireReplaceable(path);
 }
 
 void requireBoundaryFormat(const std::string& path)
@@ -189,6 +278,7 @@ void requireBoundaryFormat(const std::string& path)
     throw Failure(
       "Cannot write " + path + ": a boundary, with its arrays, is written as .vtp or .vtk.");
   }
+  requireReplaceable(path);
 }
 
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)

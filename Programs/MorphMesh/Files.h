@@ -15,10 +15,12 @@ namespace morph_mesh
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
 vtkSmartPointer<vtkPointSet> readPoints(const std::string& path);
 
-/// Throws Failure where writeGrid() or writeBoundary() would for the extension: to be told before the work.
+/// Throws Failure where writeGrid() or writeBoundary() would for the extension, or for what stands
+/// at the path: to be told before the work.
 void requireGridFormat(const std::string& path);
 void requireBoundaryFormat(const std::string& path);
 
+/// Both replace a file as a whole, or leave it as it was.
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& path);
 void writeBoundary(vtkPointSet* boundary, const std::string& path);
 }

@@ -26,6 +26,10 @@ std::string bare(const char* message)
   {
     text.erase(0, object + 3);
   }
+  else if (text.rfind("Generic Warning: In ", 0) == 0) // no object said it
+  {
+    text.erase(0, text.find('\n') + 1);
+  }
   text.erase(text.find_last_not_of(" \n") + 1);
   return text;
 }
@@ -35,12 +39,26 @@ void keep(vtkObject*, unsigned long, void* list, void* message)
   static_cast<std::vector<std::string>*>(list)->push_back(bare(static_cast<const char*>(message)));
 }
 
+ConsoleMessages* listener = nullptr;
+
 class Console : public vtkOutputWindow
 {
 public:
   static Console* New();
   vtkTypeMacro(Console, vtkOutputWindow);
-  void DisplayText(const char* text) override { std::cerr << "morph-mesh: " << bare(text) << "\n"; }
+  void DisplayText(const char* text) override
+  {
+    // VTK has generic warnings, as of a number that it cannot read, where no object could err.
+    const bool warning = this->GetCurrentMessageType() == MESSAGE_TYPE_WARNING;
+    if (listener)
+    {
+      (warning ? listener->warnings : listener->errors).push_back(bare(text));
+    }
+    else
+    {
+      std::cerr << "morph-mesh: " << (warning ? "warning: " : "") << bare(text) << "\n";
+    }
+  }
 };
 
 vtkStandardNewMacro(Console);
@@ -54,6 +72,16 @@ void installConsole()
 {
   vtkOutputWindow::SetInstance(vtkNew<Console>());
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would say it once more
+}
+
+ConsoleMessages::ConsoleMessages()
+{
+  listener = this;
+}
+
+ConsoleMessages::~ConsoleMessages()
+{
+  listener = nullptr;
 }
 
 Messages::Messages(vtkAlgorithm* algorithm)

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What morph-mesh writes: a whole file, or none and the old one stays - after a kill at any moment, on a full disk, and
+where a file must not be changed; links, mode and owner stay.
+
+Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models> python3 output_files.py
+MORPH_TEST_SEED sets another seed of the moments at which the program is killed; MORPH_TEST_KILLS their number.
+"""
+import os
+import random
+import resource
+import signal
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["MORPH_MESH"]
+MODELS = Path(os.environ["MESHMORPHING_MODELS"])
+GRID = str(MODELS / "canister_hex_small.vtu")
+KILLS = int(os.environ.get("MORPH_TEST_KILLS", "60"))
+SEED = os.environ.get("MORPH_TEST_SEED", "1")
+OUTPUTS = ("out.vtu", "out.vtk")
+BOUNDARIES = ("out.vtp", "out.vtk")
+
+
+class OutputFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.common = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.common.cleanup)
+        cls.boundary = Path(cls.common.name) / "boundary.vtp"
+        subprocess.run([PROGRAM, "--extract-boundary", GRID, cls.boundary], check=True, stdout=subprocess.DEVNULL)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def command(self, output):
+        return [PROGRAM, "--quiet", GRID, str(self.boundary), str(output)]
+
+    def run_program(self, command, **options):
+        return subprocess.run(command, capture_output=True, text=True, timeout=120, **options)
+
+    def whole(self, path):
+        """Another run reads it."""
+        return self.run_program([PROGRAM, "--extract-boundary", str(path), str(path) + ".check.vtp"]).returncode == 0
+
+    def fails(self, result, message):
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stderr, "^morph-mesh: Cannot write .*" + message)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def only(self, *names):
+        """No temporary file is left."""
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(names))
+
+    def commands(self):
+        for name in OUTPUTS:
+            yield name, self.command(self.folder / name)
+        for name in BOUNDARIES:
+            yield name, [PROGRAM, "--quiet", "--extract-boundary", GRID, str(self.folder / name)]
+
+    def test_a_limit_on_the_size_of_files_leaves_the_old_file(self):
+        for name, command in self.commands():
+            self.run_program(command, check=True)
+            size = (self.folder / name).stat().st_size
+            for limit in (0, 1, size // 2, size * 19 // 20):  # the file holds seconds, so that its size varies
+                with self.subTest(name=name, limit=limit):
+                    (self.folder / name).write_bytes(b"old")
+                    result = self.run_program(command, preexec_fn=lambda limit=limit: resource.setrlimit(
+                        resource.RLIMIT_FSIZE, (limit, limit)))
+                    self.fails(result, "File too large")
+                    self.assertEqual((self.folder / name).read_bytes(), b"old")
+                    self.only(name)
+            (self.folder / name).unlink()
+
+    def test_a_full_disk_leaves_the_old_file(self):
+        for name, command in self.commands():
+            for size in ("4k", "16k", "40k"):  # of what is free besides the old file
+                with self.subTest(name=name, size=size):
+                    disk = self.run_program(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(self.folder)])
+                    if disk.returncode != 0:
+                        self.skipTest("no right to mount a small disk")
+                    try:
+                        (self.folder / name).write_bytes(b"old")
+                        result = self.run_program(command)
+                        self.fails(result, "No space left on device")
+                        self.assertEqual((self.folder / name).read_bytes(), b"old")
+                        self.only(name)
+                    finally:
+                        subprocess.run(["umount", str(self.folder)], check=True)
+
+    def kill(self, moment, command, output):
+        """Ends the program by SIGKILL; says whether it had ended before."""
+        program = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        before = output.stat()
+        if moment is None:  # as soon as the folder shows that it writes
+            names = set(os.listdir(self.folder))
+            while program.poll() is None and set(os.listdir(self.folder)) == names and output.stat() == before:
+                pass
+            time.sleep(self.random.expovariate(2000))
+        else:
+            time.sleep(moment)
+        program.send_signal(signal.SIGKILL)
+        return program.wait() == 0
+
+    def test_a_kill_leaves_the_old_file_or_the_new_one(self):
+        print(f"seed {SEED}, {KILLS} kills")
+        self.random = random.Random(SEED)
+        for name in OUTPUTS:
+            output = self.folder / name
+            command = self.command(output)
+            start = time.monotonic()
+            self.run_program(command, check=True)
+            duration = time.monotonic() - start
+            old = output.read_bytes()
+            ended = 0
+            for i in range(KILLS // len(OUTPUTS)):
+                output.write_bytes(old)
+                ended += self.kill(None if i % 2 else self.random.uniform(0, 1.2 * duration), command, output)
+                with self.subTest(name=name, kill=i):
+                    self.assertTrue(output.read_bytes() == old or self.whole(output))
+            self.assertLess(ended, KILLS // len(OUTPUTS))
+
+    def test_an_interrupt_removes_the_temporary_file(self):
+        output = self.folder / "out.vtk"
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for _ in range(5):
+                output.write_bytes(b"old")
+                program = subprocess.Popen(self.command(output), stderr=subprocess.DEVNULL)
+                while program.poll() is None and len(os.listdir(self.folder)) == 1:
+                    pass
+                program.send_signal(number)
+                self.assertIn(program.wait(), (0, -number))
+                self.only("out.vtk")
+
+    def test_mode_and_owner_are_kept_and_new_files_follow_the_mask(self):
+        output = self.folder / "out.vtu"
+        old_mask = os.umask(0o027)
+        self.addCleanup(os.umask, old_mask)
+        self.run_program(self.command(output), check=True)
+        self.assertEqual(stat.S_IMODE(output.stat().st_mode), 0o640)
+        for mode in (0o600, 0o666, 0o755):
+            output.write_bytes(b"old")
+            output.chmod(mode)
+            if os.getuid() == 0:
+                os.chown(output, 12345, 23456)
+            owner = output.stat().st_uid, output.stat().st_gid
+            self.run_program(self.command(output), check=True)
+            self.assertGreater(output.stat().st_size, 10000)
+            self.assertEqual(stat.S_IMODE(output.stat().st_mode), mode)
+            self.assertEqual((output.stat().st_uid, output.stat().st_gid), owner)
+
+    def test_symbolic_links_stay(self):
+        real = self.folder / "real"
+        real.mkdir()
+        for exists in (True, False):  # the second: a link to a file that is not there yet
+            target = real / f"target{exists}.vtu"
+            if exists:
+                target.write_bytes(b"old")
+            link, links = self.folder / f"link{exists}.vtu", self.folder / f"links{exists}.vtu"
+            link.symlink_to(Path("real") / target.name)
+            links.symlink_to(link)
+            self.run_program(self.command(links), check=True)
+            self.assertTrue(link.is_symlink() and links.is_symlink())
+            self.assertTrue(self.whole(target))
+        circle = self.folder / "circle.vtu"
+        circle.symlink_to(circle.name)
+        self.fails(self.run_program(self.command(circle)), "too many symbolic links")
+
+    def test_what_must_not_be_replaced(self):
+        (self.folder / "folder.vtu").mkdir()
+        self.fails(self.run_program(self.command(self.folder / "folder.vtu")), "no regular file")
+        os.symlink("/dev/null", self.folder / "device.vtk")
+        self.fails(self.run_program(self.command(self.folder / "device.vtk")), "no regular file")
+        self.fails(self.run_program(self.command(self.folder / "none" / "out.vtu")), "No such file or directory")
+
+    def test_what_is_read_only_stays(self):
+        output = self.folder / "out.vtu"
+        output.write_bytes(b"old")
+        output.chmod(0o444)
+        options = {}
+        if os.getuid() == 0:  # for whom nothing is read-only
+            options["user"] = 65534
+            os.chmod(self.common.name, 0o755)
+            os.chown(self.folder, 65534, 65534)
+            os.chown(output, 65534, 65534)
+        self.fails(self.run_program(self.command(output), **options), "Permission denied")
+        output.chmod(0o644)
+        self.folder.chmod(0o555)
+        self.addCleanup(self.folder.chmod, 0o755)
+        self.fails(self.run_program(self.command(output), **options), "Permission denied")
+        self.assertEqual(output.read_bytes(), b"old")
+
+    def test_the_input_may_be_the_output(self):
+        grid = self.folder / "grid.vtu"
+        grid.write_bytes(Path(GRID).read_bytes())
+        self.run_program([PROGRAM, "--quiet", str(grid), str(self.boundary), str(grid)], check=True)
+        self.assertTrue(self.whole(grid))
+
+    def test_a_long_name(self):
+        output = self.folder / ("x" * 250 + ".vtu")
+        self.run_program(self.command(output), check=True)
+        self.assertTrue(output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
