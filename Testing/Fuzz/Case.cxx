@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Case.h"
+
+#include "RandomExtras.h"
+#include "SameData.h"
+#include "vtkBoundaryDisplacement.h"
+#include "vtkClassifyBoundary.h"
+#include "vtkCompareMorphMethods.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkLBWarpMorph.h"
+#include "vtkMorphAdjoint.h"
+#include "vtkMorphAlgorithm.h"
+#include "vtkMorphBoundary.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
+#include "vtkWeightedResidualMorph.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkExecutive.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+
+namespace fuzz
+{
+namespace
+{
+/// Keeps what no observer hears.
+class Window : public vtkOutputWindow
+{
+public:
+  static Window* New();
+  vtkTypeMacro(Window, vtkOutputWindow);
+  void DisplayText(const char* text) override { this->Texts.emplace_back(text); }
+  std::vector<std::string> Texts;
+};
+vtkStandardNewMacro(Window);
+
+Window* window()
+{
+  static vtkNew<Window> instance;
+  vtkOutputWindow::SetInstance(instance);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  return instance;
+}
+
+/// Calls `heard` with the text or, of progress, null.
+class Observer
+{
+public:
+  Observer(vtkObject* subject, unsigned long event, std::function<void(const char*)> heard)
+    : Subject(subject)
+    , Heard(std::move(heard))
+  {
+    this->Command->SetClientData(&this->Heard);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long event, void* data, void* text)
+      {
+        const bool isText = event == vtkCommand::ErrorEvent || event == vtkCommand::WarningEvent;
+        (*static_cast<std::function<void(const char*)>*>(data))(
+          isText ? static_cast<const char*>(text) : nullptr);
+      });
+    this->Tag = subject->AddObserver(event, this->Command);
+  }
+  ~Observer() { this->Subject->RemoveObserver(this->Tag); }
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+
+private:
+  vtkSmartPointer<vtkObject> Subject;
+  std::function<void(const char*)> Heard;
+  vtkNew<vtkCallbackCommand> Command;
+  unsigned long Tag = 0;
+};
+
+/// Without the place in the code and the object's address.
+std::function<void(const char*)> into(std::vector<std::string>& list)
+{
+  return [&list](const char* text)
+  {
+    const std::string all = text;
+    const std::size_t end = all.find("): ");
+    list.push_back(end == std::string::npos ? all : all.substr(end + 3));
+    while (!list.back().empty() && list.back().back() == '\n')
+    {
+      list.back().pop_back();
+    }
+  };
+}
+
+vtkSmartPointer<vtkMorphAlgorithm> morphOfAdjoint(Choices& choices)
+{
+  switch (choices.pick("adjoint.method",
+    { "FEMWARP", "LBWARP", "weighted residual", "simplex-linear", "natural neighbor", "none",
+      "inversion-free" },
+    { 3, 3, 3, 3, 3, 0.3, 0.3 }))
+  {
+    case 0:
+      return vtkSmartPointer<vtkFEMWarpMorph>::New();
+    case 1:
+      return vtkSmartPointer<vtkLBWarpMorph>::New();
+    case 2:
+      return vtkSmartPointer<vtkWeightedResidualMorph>::New();
+    case 3:
+      return vtkSmartPointer<vtkSimplexLinearMorph>::New();
+    case 4:
+      return vtkSmartPointer<vtkSimplexNaturalNeighborMorph>::New();
+    case 6:
+      return vtkSmartPointer<vtkInversionFreeMorph>::New();
+    default:
+      return nullptr;
+  }
+}
+
+template <typename F>
+void setThreads(vtkAlgorithm* algorithm, int threads)
+{
+  if (auto* filter = F::SafeDownCast(algorithm))
+  {
+    filter->SetNumberOfThreads(threads);
+  }
+}
+
+template <typename F>
+void setBoundaryNames(vtkAlgorithm* algorithm, const std::string& ids, const std::string& vectors)
+{
+  if (auto* filter = F::SafeDownCast(algorithm))
+  {
+    filter->SetBoundaryIdArray(ids.empty() ? nullptr : ids.c_str());
+    filter->SetDisplacementArray(vectors.empty() ? nullptr : vectors.c_str());
+  }
+}
+
+template <typename F>
+void setSurfaceName(vtkAlgorithm* algorithm, const char* name)
+{
+  if (auto* filter = F::SafeDownCast(algorithm))
+  {
+    filter->SetSurfaceIdArray(name);
+  }
+}
+}
+
+Case::Case(Choices& made, const Filter& ofFilter)
+  : choices(made)
+  , filter(ofFilter)
+{
+  window();
+  this->grid = randomGrid(made);
+  this->inputs = { this->grid.data };
+  const std::string& name = ofFilter.name;
+  if (ofFilter.isMorph || name == "MorphBoundary" || name == "CompareMorphMethods" ||
+      name == "MorphAdjoint")
+  {
+    this->boundary = randomBoundary(made, this->grid);
+    this->inputs.push_back(this->boundary.data);
+  }
+  vtkSmartPointer<vtkDataObject> more;
+  if (name == "MorphBoundary")
+  {
+    this->isRegular = randomTarget(made, this->grid, more) && this->isRegular;
+    this->inputs.push_back(more);
+  }
+  else if (name == "MorphAdjoint")
+  {
+    this->isRegular = randomGradient(made, this->grid, more) && this->isRegular;
+    this->inputs.push_back(more);
+  }
+  else if (name == "BoundaryDisplacement")
+  {
+    if (made.chance("displace.surface", 0.3) && this->grid.isAsMesh)
+    {
+      this->inputs[0] = boundaryOfGrid(made, this->grid);
+    }
+    vtkNew<vtkBoundaryDisplacement> unused;
+    this->isRegular = setMotion(made, this->grid, unused, more) && this->isRegular;
+    this->inputs.push_back(more);
+  }
+}
+
+void Case::setNames(vtkAlgorithm* algorithm)
+{
+  std::string ids = this->boundary.idArray, vectors = this->boundary.displacementArray;
+  if (this->choices.chance("names.wrong", 0.015))
+  {
+    ids = "NoSuchIds";
+    this->isRegular = false;
+  }
+  if (this->choices.chance("names.wrongDisplacement", 0.015))
+  {
+    vectors = "NoSuchVectors";
+    this->isRegular = false;
+  }
+  setBoundaryNames<vtkMorphAlgorithm>(algorithm, ids, vectors);
+  setBoundaryNames<vtkMorphBoundary>(algorithm, ids, vectors);
+  setBoundaryNames<vtkCompareMorphMethods>(algorithm, ids, vectors);
+  const int surface = this->choices.pick("names.surface",
+    { "none", "Surface", "Temperature", "NoSuchArray", "ScaledJacobian" },
+    { 10, 0.5, 0.5, 0.3, 0.3 });
+  constexpr const char* names[] = { nullptr, "Surface", "Temperature", "NoSuchArray",
+    "ScaledJacobian" };
+  setSurfaceName<vtkClassifyBoundary>(algorithm, names[surface]);
+  setSurfaceName<vtkMorphBoundary>(algorithm, names[surface]);
+  setSurfaceName<vtkBoundaryDisplacement>(algorithm, names[surface]);
+}
+
+vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
+{
+  vtkSmartPointer<vtkAlgorithm> algorithm = this->filter.make();
+  for (std::size_t port = 0; port < this->inputs.size(); ++port)
+  {
+    if (this->inputs[port])
+    {
+      algorithm->SetInputDataObject(static_cast<int>(port), this->inputs[port]);
+    }
+  }
+  this->isRegular = setProperties(this->choices, this->filter, algorithm) && this->isRegular;
+  vtkSmartPointer<vtkAlgorithm> named = algorithm;
+  if (auto* adjoint = vtkMorphAdjoint::SafeDownCast(algorithm))
+  {
+    if (auto morph = morphOfAdjoint(this->choices))
+    {
+      morph->SetNumberOfThreads(1);
+      adjoint->SetMorph(morph);
+      named = morph;
+    }
+    else
+    {
+      this->isRegular = false;
+    }
+    adjoint->SetGradientArray("Gradient");
+  }
+  if (auto* displacement = vtkBoundaryDisplacement::SafeDownCast(algorithm))
+  {
+    vtkSmartPointer<vtkDataObject> known;
+    setMotion(this->choices, this->grid, displacement, known);
+    displacement->SetDisplacementArray("Displacement");
+  }
+  this->setNames(named);
+  if (threads > 0)
+  {
+    setThreads<vtkMorphAlgorithm>(named, threads);
+    setThreads<vtkMorphBoundary>(named, threads);
+    setThreads<vtkClassifyBoundary>(named, threads);
+    setThreads<vtkBoundaryDisplacement>(named, threads);
+    setThreads<vtkCompareMorphMethods>(named, threads);
+  }
+  return algorithm;
+}
+
+Run execute(vtkAlgorithm* filter)
+{
+  Run run;
+  Window* heard = window();
+  heard->Texts.clear();
+  {
+    const Observer errors(filter, vtkCommand::ErrorEvent, into(run.errors));
+    const Observer warnings(filter, vtkCommand::WarningEvent, into(run.warnings));
+    const Observer pipeline(
+      filter->GetExecutive(), vtkCommand::ErrorEvent, into(run.fromExecutive));
+    const Observer progress(filter, vtkCommand::ProgressEvent,
+      [&](const char*) { run.progress.push_back(filter->GetProgress()); });
+    filter->Update();
+    for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+    {
+      run.outputs.push_back(deepCopy(filter->GetOutputDataObject(port)));
+    }
+  }
+  run.fromOthers = heard->Texts;
+  return run;
+}
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Properties.h"
+#include "RandomBoundary.h"
+#include "RandomGrid.h"
+
+#include <vtkAlgorithm.h>
+
+#include <string>
+#include <vector>
+
+namespace fuzz
+{
+/// One filter's input data and properties.
+class Case
+{
+public:
+  Case(Choices& choices, const Filter& filter);
+  /// A new filter with the inputs and properties of this case. `threads`: 0 for those of the case.
+  vtkSmartPointer<vtkAlgorithm> makeFilter(int threads = 0);
+
+  Choices& choices;
+  const Filter& filter;
+  RandomGrid grid;
+  RandomBoundary boundary;
+  std::vector<vtkSmartPointer<vtkDataObject>> inputs; ///< of ports 0, 1, ...
+  bool isRegular =
+    true; ///< properties are in range, and inputs other than grid and boundary are right
+
+private:
+  void setNames(vtkAlgorithm* algorithm);
+};
+
+/// What a filter did and said in an execution.
+struct Run
+{
+  std::vector<std::string> errors;
+  std::vector<std::string> warnings;
+  std::vector<std::string> fromExecutive; ///< errors of the pipeline itself
+  std::vector<std::string> fromOthers;    ///< what VTK's other classes said
+  std::vector<double> progress;
+  std::vector<vtkSmartPointer<vtkDataObject>> outputs;
+};
+
+/// Executes the filter; outputs are copies.
+Run execute(vtkAlgorithm* filter);
+}

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Oracles.h"
+
+#include "RandomMesh.h"
+#include "Recount.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkMorphAlgorithm.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace fuzz
+{
+namespace
+{
+using morph::Index;
+using Row = Eigen::RowVector3d;
+
+std::string text(const Row& x)
+{
+  std::ostringstream stream;
+  stream.precision(17);
+  stream << "(" << x << ")";
+  return stream.str();
+}
+
+bool isFloat(vtkPointSet* data)
+{
+  return data->GetPoints() && data->GetPoints()->GetDataType() == VTK_FLOAT;
+}
+
+double fieldValue(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() == 1 ? array->GetComponent(0, 0) : NAN;
+}
+
+/// `written`: the point array that the filter writes; others may have come with the input.
+Finding checkFinite(vtkPointSet* output, const char* written)
+{
+  const morph::Points points = pointsOf(output);
+  if (!points.allFinite())
+  {
+    return { "not finite", "points" };
+  }
+  vtkDataArray* array = output->GetPointData()->GetArray(written);
+  for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
+  {
+    const int components = array->GetNumberOfComponents();
+    if (!std::isfinite(array->GetComponent(i / components, static_cast<int>(i % components))))
+    {
+      return { "not finite", written };
+    }
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> ghosts(vtkDataSet* data)
+{
+  std::vector<std::uint8_t> skip;
+  auto* array = vtkUnsignedCharArray::SafeDownCast(
+    data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  for (vtkIdType c = 0; array && c < array->GetNumberOfValues(); ++c)
+  {
+    skip.push_back(array->GetValue(c) &
+                   (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL));
+  }
+  return skip;
+}
+
+/// Counts of inverted cells and certificates against those of Recount.h.
+Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
+{
+  const morph::Mesh& mesh = made.grid.mesh;
+  const morph::Points points = pointsOf(output);
+  if (volumeNodes(mesh).empty() || points.rows() != mesh.numberOfNodes())
+  {
+    return {};
+  }
+  const std::vector<std::uint8_t> skip = ghosts(output);
+  const Recount count = recount(mesh, mesh.points, points, skip);
+  const double reported =
+    fieldValue(output, "InvertedCells") + fieldValue(output, "DegenerateCells");
+  if (!(reported >= static_cast<double>(count.lowest) &&
+        reported <= static_cast<double>(count.highest)))
+  {
+    return { "inverted cells", std::to_string(reported) + " reported, " +
+                                 std::to_string(count.lowest) + " to " +
+                                 std::to_string(count.highest) + " counted" };
+  }
+  vtkDataArray* quality = output->GetCellData()->GetArray("ScaledJacobian");
+  for (Index c = 0; quality && c < mesh.numberOfCells(); ++c)
+  {
+    const double value = quality->GetComponent(c, 0);
+    if ((count.bad[c] == 1 && value > 0) || (count.bad[c] == 0 && value <= 0) || value > 1 + 1e-9)
+    {
+      return { "scaled Jacobian",
+        "of cell " + std::to_string(c) + " is " + std::to_string(value) +
+          (count.bad[c] == 1 ? ", but it is inverted" : ", but it is not") };
+    }
+  }
+  auto* array = vtkSignedCharArray::SafeDownCast(
+    output->GetCellData()->GetAbstractArray("JacobianCertificate"));
+  if (array && array->GetNumberOfValues() == mesh.numberOfCells())
+  {
+    const std::vector<signed char> certificate(
+      array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues());
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      if (count.bad[c] == 1 && certificate[c] == 1)
+      {
+        return { "certificate", "of cell " + std::to_string(c) + ", which is inverted" };
+      }
+    }
+    const Index cell =
+      falselyCertified(mesh, mesh.points, points, certificate, made.choices.seed());
+    if (cell >= 0)
+    {
+      return { "certificate", "of cell " + std::to_string(cell) + ", which is inverted inside" };
+    }
+  }
+  return {};
+}
+
+/// Cells and arrays are those of the input.
+Finding checkCells(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
+{
+  if (input->GetNumberOfPoints() != output->GetNumberOfPoints() ||
+      input->GetNumberOfCells() != output->GetNumberOfCells())
+  {
+    return { "other cells", "numbers differ" };
+  }
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    vtkIdType size, otherSize;
+    const vtkIdType *ids, *otherIds;
+    input->GetCells()->GetCellAtId(c, size, ids);
+    const std::vector<vtkIdType> nodes(ids, ids + size);
+    output->GetCells()->GetCellAtId(c, otherSize, otherIds);
+    if (input->GetCellType(c) != output->GetCellType(c) ||
+        nodes != std::vector<vtkIdType>(otherIds, otherIds + otherSize))
+    {
+      return { "other cells", "cell " + std::to_string(c) };
+    }
+  }
+  return {};
+}
+
+bool isWhole(vtkMorphAlgorithm* filter)
+{
+  const std::string status = filter->GetMorphStatus();
+  return status == "Valid" || status == "Inverted" || status == "SubStepped" ||
+         status == "Repaired";
+}
+
+/// Prescribed nodes are where the boundary puts them.
+Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructuredGrid* output)
+{
+  const morph::Points points = pointsOf(output);
+  const double scale = filter->GetScaleFactor();
+  for (const auto& [node, target] : made.boundary.targets)
+  {
+    const Row rest = made.grid.mesh.points.row(node);
+    const Row x = points.row(node);
+    const Row wanted = scale == 1   ? target
+                       : scale == 0 ? rest
+                                    : Row(rest + scale * (target - rest));
+    bool isThere = true;
+    for (int j = 0; j < 3; ++j)
+    {
+      const double value =
+        isFloat(output) ? static_cast<double>(static_cast<float>(wanted[j])) : wanted[j];
+      const double rounding =
+        (scale == 1 && made.boundary.isExact) || scale == 0
+          ? 0
+          : (isFloat(output) ? 1e-6 : 1e-14) *
+              (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j])));
+      isThere = isThere && std::abs(x[j] - value) <= rounding;
+    }
+    if (!isThere)
+    {
+      return { "prescribed node",
+        std::to_string(node) + " is at " + text(x) + ", not at " + text(wanted) };
+    }
+  }
+  return {};
+}
+
+bool keepsAffineMaps(const Case& made, vtkMorphAlgorithm* filter)
+{
+  const Choices& choices = made.choices;
+  const bool isOne = made.filter.isLinear || (vtkInversionFreeMorph::SafeDownCast(filter) &&
+                                               choices.value("property.TargetShape") == 0 &&
+                                               made.boundary.matrix.determinant() > 0.2);
+  const double tolerance = choices.value("property.Tolerance");
+  return isOne && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
+         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_SUB_STEP &&
+         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_REPAIR &&
+         made.choices.value("hostile.mesh") == 0 && made.choices.value("hostile.boundary") == 0;
+}
+
+Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructuredGrid* output)
+{
+  const morph::Mesh& mesh = made.grid.mesh;
+  if (!made.boundary.isAffine || !keepsAffineMaps(made, filter) ||
+      !isValid(mesh, mesh.points, 0.02))
+  {
+    return {};
+  }
+  const morph::Points points = pointsOf(output);
+  const double scale = filter->GetScaleFactor();
+  const double farthest = mesh.points.cwiseAbs().maxCoeff() + points.cwiseAbs().maxCoeff();
+  const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
+  const double allowed =
+    1e-6 * made.grid.size * (1 + std::abs(scale)) + (isRounded ? 1e-5 : 1e-11) * farthest;
+  for (const Index n : volumeNodes(mesh))
+  {
+    const Row rest = mesh.points.row(n);
+    const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
+    const Row wanted = rest + scale * (mapped - rest);
+    if (!((points.row(n) - wanted).norm() <= allowed))
+    {
+      return { "affine map", "node " + std::to_string(n) + " is at " + text(points.row(n)) +
+                               ", not at " + text(wanted) };
+    }
+  }
+  return {};
+}
+
+Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+{
+  auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
+  const std::string status = filter->GetMorphStatus();
+  if (output->GetNumberOfPoints() == 0)
+  {
+    return status == "None" ? Finding{} : Finding{ "status", status + " without an output" };
+  }
+  if (const Finding found = checkFinite(output, "MorphDisplacement"))
+  {
+    return found;
+  }
+  if (!made.grid.isAsMesh)
+  {
+    return {};
+  }
+  if (const Finding found = checkCells(made.grid.grid(), output))
+  {
+    return found;
+  }
+  if (const Finding found = checkCounts(made, output))
+  {
+    return found;
+  }
+  const double reported =
+    fieldValue(output, "InvertedCells") + fieldValue(output, "DegenerateCells");
+  const auto counted =
+    static_cast<double>(filter->GetInvertedCells() + filter->GetDegenerateCells());
+  if (reported != counted)
+  {
+    return { "status", "getters and field data differ" };
+  }
+  const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired";
+  // Positions are valid as computed; rounding to float may undo that, and ghosts are not measured.
+  if (claimsValid && !isFloat(output) && !made.grid.hasGhosts &&
+      !(reported == 0 && filter->GetMinScaledJacobian() > 0))
+  {
+    return { "status", status + " with inverted cells" };
+  }
+  if (!made.boundary.isRight || !run.errors.empty() || !isWhole(filter))
+  {
+    return {};
+  }
+  // A huge tolerance lets any point stand for any node.
+  if (filter->GetMatchTolerance() <= 1e-3)
+  {
+    if (const Finding found = checkPrescribed(made, filter, output))
+    {
+      return found;
+    }
+    return checkAffine(made, filter, output);
+  }
+  return {};
+}
+
+/// The sum over the boundary is that over the mesh, since the methods keep translations.
+Finding checkAdjoint(const Case& made, const Run& run)
+{
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  auto* carrier = vtkPointSet::SafeDownCast(made.inputs[2]);
+  vtkDataArray* gradient = output->GetPointData()->GetArray("MorphGradient");
+  vtkDataArray* given = carrier ? carrier->GetPointData()->GetArray("Gradient") : nullptr;
+  const bool namesAll = made.boundary.isAffine && made.boundary.isRight && made.isRegular;
+  if (!gradient || !given || !namesAll || made.choices.value("hostile.mesh") != 0 ||
+      !isValid(made.grid.mesh, made.grid.mesh.points, 0.02))
+  {
+    return {};
+  }
+  Row sum = Row::Zero(), wanted = Row::Zero();
+  double sizes = 0;
+  for (vtkIdType p = 0; p < gradient->GetNumberOfTuples(); ++p)
+  {
+    double value[3];
+    gradient->GetTuple(p, value);
+    sum += Row(value[0], value[1], value[2]);
+  }
+  for (const Index n : volumeNodes(made.grid.mesh))
+  {
+    double value[3];
+    given->GetTuple(n, value);
+    wanted += Row(value[0], value[1], value[2]);
+    sizes += Row(value[0], value[1], value[2]).norm();
+  }
+  return (sum - wanted).norm() <= 1e-5 * sizes
+           ? Finding{}
+           : Finding{ "adjoint", "sums to " + text(sum) + ", not " + text(wanted) };
+}
+
+/// The boundary's nodes are the outer ones, in ascending order.
+Finding checkExtracted(const Case& made, vtkPointSet* output)
+{
+  vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+  std::vector<Index> nodes;
+  for (vtkIdType p = 0; ids && p < ids->GetNumberOfTuples(); ++p)
+  {
+    nodes.push_back(static_cast<Index>(ids->GetComponent(p, 0)));
+  }
+  return nodes == made.grid.outer
+           ? Finding{}
+           : Finding{ "boundary nodes", std::to_string(nodes.size()) + " found, " +
+                                          std::to_string(made.grid.outer.size()) + " counted" };
+}
+}
+
+Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  if (auto* morph = vtkMorphAlgorithm::SafeDownCast(filter))
+  {
+    return checkMorph(made, morph, run);
+  }
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  if (!run.errors.empty() || !run.fromExecutive.empty() || !output)
+  {
+    return {};
+  }
+  static const std::map<std::string, const char*> written = { { "MorphAdjoint", "MorphGradient" },
+    { "BoundaryDisplacement", "BoundaryDisplacement" }, { "ExtractMorphBoundary", "RestPosition" },
+    { "ClassifyBoundary", "CurveParameter" } };
+  const auto name = written.find(made.filter.name);
+  const Finding notFinite = checkFinite(output, name == written.end() ? "" : name->second);
+  if (notFinite)
+  {
+    return notFinite;
+  }
+  if (made.filter.name == "MorphAdjoint")
+  {
+    return checkAdjoint(made, run);
+  }
+  if (!made.grid.isAsMesh || output->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  if (made.filter.name == "ScaledJacobian")
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(output);
+    const Finding found = checkCells(made.grid.grid(), grid);
+    return found ? found : checkCounts(made, grid);
+  }
+  if (made.filter.name == "ExtractMorphBoundary")
+  {
+    return checkExtracted(made, output);
+  }
+  return {};
+}
+}

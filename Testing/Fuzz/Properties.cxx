@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Properties.h"
+
+#include "vtkBoundaryDisplacement.h"
+#include "vtkClassifyBoundary.h"
+#include "vtkCompareMorphMethods.h"
+#include "vtkExtractMorphBoundary.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkLBWarpMorph.h"
+#include "vtkMorphAdjoint.h"
+#include "vtkMorphBoundary.h"
+#include "vtkScaledJacobian.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
+#include "vtkSmoothingMorph.h"
+#include "vtkWeightedResidualMorph.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace fuzz
+{
+namespace
+{
+using Table = std::vector<Property>;
+
+template <typename F>
+Property real(const char* name, void (F::*set)(double), double plain, double low, double high)
+{
+  return { name, plain, low, high, false,
+    [set](vtkAlgorithm* filter, double value) { (F::SafeDownCast(filter)->*set)(value); } };
+}
+
+template <typename F>
+Property whole(const char* name, void (F::*set)(int), int plain, int low, int high)
+{
+  return { name, static_cast<double>(plain), static_cast<double>(low), static_cast<double>(high),
+    true, [set](vtkAlgorithm* filter, double value) {
+      (F::SafeDownCast(filter)->*set)(static_cast<int>(value));
+    } };
+}
+
+template <typename F>
+Property flag(const char* name, void (F::*set)(bool), bool plain)
+{
+  return { name, plain ? 1.0 : 0.0, 0, 1, true,
+    [set](vtkAlgorithm* filter, double value) { (F::SafeDownCast(filter)->*set)(value != 0); } };
+}
+
+template <typename F>
+Property threads()
+{
+  return whole<F>("NumberOfThreads", &F::SetNumberOfThreads, 1, 1, 3);
+}
+
+Table joined(Table first, const Table& second)
+{
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// Those of vtkMorphAlgorithm.
+Table ofMorph(bool certify = false)
+{
+  using F = vtkMorphAlgorithm;
+  return { threads<F>(), real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
+    whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 0, 0, 3),
+    whole<F>("Stepping", &F::SetStepping, 0, 0, 1),
+    real<F>("StepMemoryLimit", &F::SetStepMemoryLimit, 1000, 0, 0.01),
+    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
+    flag<F>("HoldUnnamedBoundary", &F::SetHoldUnnamedBoundary, true),
+    whole<F>("Validity", &F::SetValidity, F::VALIDITY_REPORT, 0, 4),
+    flag<F>("Certify", &F::SetCertify, certify),
+    whole<F>("MaximumSubSteps", &F::SetMaximumSubSteps, 64, 1, 20),
+    flag<F>("PostSmooth", &F::SetPostSmooth, false),
+    whole<F>("PostSmoothIterations", &F::SetPostSmoothIterations, 20, 1, 40),
+    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1),
+    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
+}
+
+Table ofInversionFree()
+{
+  using F = vtkInversionFreeMorph;
+  return { whole<F>("InitialGuess", &F::SetInitialGuess, 0, 0, 5),
+    whole<F>("TargetShape", &F::SetTargetShape, 1, 0, 2),
+    flag<F>("ImproveWorst", &F::SetImproveWorst, true),
+    flag<F>("LowMemory", &F::SetLowMemory, false) };
+}
+
+Table ofSmoothing()
+{
+  using F = vtkSmoothingMorph;
+  return { whole<F>("TargetShape", &F::SetTargetShape, F::IDEAL, 0, 1),
+    whole<F>("IterationLimit", &F::SetIterationLimit, 50, 1, 100),
+    real<F>("StopMove", &F::SetStopMove, 1e-3, 1e-12, 1) };
+}
+
+Table ofMorphBoundary()
+{
+  using F = vtkMorphBoundary;
+  return { threads<F>(), whole<F>("PrescribedDimension", &F::SetPrescribedDimension, 1, 0, 2),
+    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 1),
+    whole<F>("NumberOfNeighbors", &F::SetNumberOfNeighbors, 20, 1, 40),
+    whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2),
+    real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
+    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
+    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
+    flag<F>("FeaturesInside", &F::SetFeaturesInside, false),
+    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
+    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
+    real<F>("ProjectionDistance", &F::SetProjectionDistance, 0.1, 0, 10),
+    real<F>("ProjectionAngle", &F::SetProjectionAngle, 60, 0, 180),
+    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1),
+    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
+}
+
+Table ofBoundaryDisplacement()
+{
+  using F = vtkBoundaryDisplacement;
+  return { threads<F>(), whole<F>("Moving", &F::SetMoving, 0, 0, 3),
+    whole<F>("Motion", &F::SetMotion, 0, 0, 3),
+    { "Vector", 0, -2, 2, false,
+      [](vtkAlgorithm* filter, double value)
+      { F::SafeDownCast(filter)->SetVector(value, -0.3 * value, 0.1); } },
+    real<F>("Distance", &F::SetDistance, 0, -1, 1),
+    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
+    whole<F>("Surroundings", &F::SetSurroundings, 1, 0, 2),
+    real<F>("FalloffRadius", &F::SetFalloffRadius, 0.1, 0, 10),
+    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 1),
+    whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2),
+    real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
+    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
+    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
+    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
+}
+
+Table ofClassify()
+{
+  using F = vtkClassifyBoundary;
+  return { threads<F>(), real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
+    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
+    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
+    flag<F>("FeaturesInside", &F::SetFeaturesInside, false) };
+}
+
+Table ofCompare()
+{
+  using F = vtkCompareMorphMethods;
+  // Plain: one method, one step. All of them would take too long.
+  return { threads<F>(), flag<F>("Smoothing", &F::SetSmoothing, false),
+    flag<F>("WeightedResidual", &F::SetWeightedResidual, false),
+    flag<F>("SimplexLinear", &F::SetSimplexLinear, false),
+    flag<F>("SimplexNaturalNeighbor", &F::SetSimplexNaturalNeighbor, false),
+    flag<F>("FEMWARP", &F::SetFEMWARP, true), flag<F>("LBWARP", &F::SetLBWARP, false),
+    flag<F>("InversionFree", &F::SetInversionFree, false),
+    flag<F>("Absolute", &F::SetAbsolute, true), flag<F>("Relative", &F::SetRelative, false),
+    whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 1, 1, 3),
+    real<F>("Percentile", &F::SetPercentile, 1, 0, 100),
+    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
+    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
+    flag<F>("HoldUnnamedBoundary", &F::SetHoldUnnamedBoundary, true),
+    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1) };
+}
+
+template <typename F>
+std::function<vtkSmartPointer<vtkAlgorithm>()> maker()
+{
+  return [] { return vtkSmartPointer<vtkAlgorithm>(vtkSmartPointer<F>::New()); };
+}
+
+/// Out of range, or at its ends.
+double wildValue(const Property& property, Random& random)
+{
+  if (property.isWhole)
+  {
+    constexpr int values[] = { -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min(),
+      1000, 0 };
+    return values[random.below(5)];
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double values[] = { std::numeric_limits<double>::quiet_NaN(), infinity, -infinity,
+    1e300, -1e300, 1e78, 1e40, -1, 0, 1e-300, std::numeric_limits<double>::quiet_NaN() };
+  return values[random.below(11)];
+}
+
+/// Values that make a run last for as long as it was told to are no endless runs.
+bool isTooLong(const Property& property, double value)
+{
+  return (property.name == "NumberOfSteps" && value > 50) ||
+         (property.name == "PostSmoothIterations" && value > 1000) ||
+         (property.name == "IterationLimit" && value > 1000);
+}
+}
+
+const std::vector<Filter>& filters()
+{
+  static const std::vector<Filter> all = {
+    { "FEMWarpMorph", 3, true, true, maker<vtkFEMWarpMorph>(),
+      joined(ofMorph(), { real<vtkFEMWarpMorph>(
+                          "Tolerance", &vtkFEMWarpMorph::SetTolerance, 1e-10, 1e-15, 0.999) }) },
+    { "LBWarpMorph", 3, true, true, maker<vtkLBWarpMorph>(),
+      joined(ofMorph(),
+        { real<vtkLBWarpMorph>("Tolerance", &vtkLBWarpMorph::SetTolerance, 1e-10, 1e-15, 0.999),
+          whole<vtkLBWarpMorph>("OutsideHull", &vtkLBWarpMorph::SetOutsideHull, 0, 0, 1) }) },
+    { "WeightedResidualMorph", 3, true, true, maker<vtkWeightedResidualMorph>(),
+      joined(ofMorph(), { whole<vtkWeightedResidualMorph>("NumberOfNeighbors",
+                            &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100),
+                          flag<vtkWeightedResidualMorph>("AdaptiveNeighbors",
+                            &vtkWeightedResidualMorph::SetAdaptiveNeighbors, false) }) },
+    { "SimplexLinearMorph", 3, true, true, maker<vtkSimplexLinearMorph>(), ofMorph() },
+    { "SimplexNaturalNeighborMorph", 3, true, true, maker<vtkSimplexNaturalNeighborMorph>(),
+      joined(ofMorph(), { whole<vtkSimplexNaturalNeighborMorph>("Coordinates",
+                            &vtkSimplexNaturalNeighborMorph::SetCoordinates, 0, 0, 1),
+                          real<vtkSimplexNaturalNeighborMorph>("MemoryLimit",
+                            &vtkSimplexNaturalNeighborMorph::SetMemoryLimit, 4000, 0, 0.01) }) },
+    { "InversionFreeMorph", 3, true, false, maker<vtkInversionFreeMorph>(),
+      joined(ofMorph(true), ofInversionFree()) },
+    { "SmoothingMorph", 3, true, false, maker<vtkSmoothingMorph>(),
+      joined(ofMorph(), ofSmoothing()) },
+    { "ScaledJacobian", 3, false, false, maker<vtkScaledJacobian>(),
+      { threads<vtkScaledJacobian>(),
+        flag<vtkScaledJacobian>("Certify", &vtkScaledJacobian::SetCertify, false) } },
+    { "ClassifyBoundary", 3, false, false, maker<vtkClassifyBoundary>(), ofClassify() },
+    { "ExtractMorphBoundary", 2, false, false, maker<vtkExtractMorphBoundary>(),
+      { threads<vtkExtractMorphBoundary>() } },
+    { "MorphBoundary", 3, false, false, maker<vtkMorphBoundary>(), ofMorphBoundary() },
+    { "BoundaryDisplacement", 3, false, false, maker<vtkBoundaryDisplacement>(),
+      ofBoundaryDisplacement() },
+    { "CompareMorphMethods", 1, false, false, maker<vtkCompareMorphMethods>(), ofCompare() },
+    { "MorphAdjoint", 2, false, false, maker<vtkMorphAdjoint>(), {} },
+  };
+  return all;
+}
+
+const Filter& filterOf(std::uint64_t seed)
+{
+  int shares = 0;
+  for (const Filter& filter : filters())
+  {
+    shares += filter.share;
+  }
+  auto at = static_cast<int>(seed % static_cast<std::uint64_t>(shares));
+  const Filter* found = filters().data();
+  while (at >= found->share)
+  {
+    at -= found->share;
+    ++found;
+  }
+  return *found;
+}
+
+bool setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm)
+{
+  const bool hostile = choices.chance("hostile.properties", 0.12);
+  const bool isMorph = filter.isMorph;
+  bool regular = true;
+  for (const Property& property : filter.properties)
+  {
+    const auto draw = [&](Random& random)
+    {
+      if (!random.happens(hostile ? 0.3 : isMorph ? 0.12 : 0.25))
+      {
+        return property.plain;
+      }
+      double value = random.between(property.low, property.high);
+      if (property.isWhole)
+      {
+        const int last = static_cast<int>(property.high - property.low);
+        value = property.low + random.below(last + 1);
+      }
+      if (hostile && random.happens(0.5))
+      {
+        const double wild = wildValue(property, random);
+        value = isTooLong(property, wild) ? value : wild;
+      }
+      return value;
+    };
+    const double value = choices.number("property." + property.name, property.plain, draw);
+    // What is plain here need not be the filter's default.
+    property.set(algorithm, value);
+    regular =
+      regular && (value == property.plain || (value >= property.low && value <= property.high));
+  }
+  return regular;
+}
+}

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RandomExtras.h"
+
+#include "vtkBoundaryDisplacement.h"
+#include "vtkExtractMorphBoundary.h"
+
+#include <vtkBox.h>
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkSphere.h>
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fuzz
+{
+namespace
+{
+using morph::Index;
+using Row = Eigen::RowVector3d;
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+Row middleOf(const RandomGrid& grid)
+{
+  return grid.mesh.numberOfNodes() > 0 ? Row(grid.mesh.points.row(grid.mesh.numberOfNodes() / 2))
+                                       : Row(0, 0, 0);
+}
+
+/// A wavy sheet, or a rough sphere, round the mesh.
+vtkSmartPointer<vtkPolyData> surface(Random& random, const RandomGrid& grid)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> polygons;
+  const int n = 3 + random.below(4);
+  const bool isSphere = random.happens(0.5);
+  const Row middle = middleOf(grid);
+  for (int j = 0; j < n; ++j)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      const double u = static_cast<double>(i) / (n - 1), v = static_cast<double>(j) / (n - 1);
+      Row x(u - 0.5, v - 0.5, 0.1 * random.unit());
+      if (isSphere)
+      {
+        x = 0.4 * Row(std::cos(6.3 * u) * std::sin(3.1 * v), std::sin(6.3 * u) * std::sin(3.1 * v),
+                    std::cos(3.1 * v));
+      }
+      points->InsertNextPoint(Row(middle + grid.size * x).data());
+    }
+  }
+  const bool quads = random.happens(0.5);
+  for (int j = 0; j + 1 < n; ++j)
+  {
+    for (int i = 0; i + 1 < n; ++i)
+    {
+      const vtkIdType a = i + n * j;
+      const vtkIdType quad[] = { a, a + 1, a + 1 + n, a + n };
+      const vtkIdType other[] = { a, a + 1 + n, a + n };
+      polygons->InsertNextCell(quads ? 4 : 3, quad);
+      if (!quads)
+      {
+        polygons->InsertNextCell(3, other);
+      }
+    }
+  }
+  result->SetPoints(points);
+  result->SetPolys(polygons);
+  return result;
+}
+}
+
+bool randomTarget(Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkDataObject>& target)
+{
+  if (!choices.chance("target", 0.4))
+  {
+    return true;
+  }
+  Random random = choices.stream("target");
+  auto data = surface(random, grid);
+  target = data;
+  if (!choices.chance("hostile.target", 0.25))
+  {
+    return true;
+  }
+  const int wrong = choices.pick("target.wrong",
+    { "nothing", "ids", "NaN", "huge point", "huge", "no polygons", "flat polygons", "tiny",
+      "strips", "other type" },
+    { 0, 2, 1, 1, 1, 1, 1, 1, 1, 1 });
+  vtkPoints* points = data->GetPoints();
+  vtkDataArray* ids = data->GetPolys()->GetConnectivityArray();
+  double x[3];
+  switch (wrong)
+  {
+    case 1:
+    {
+      constexpr double ids1[] = { -1, 1000, 1e9 };
+      ids->SetComponent(random.below(static_cast<int>(ids->GetNumberOfTuples())), 0,
+        random.happens(0.3) ? static_cast<double>(points->GetNumberOfPoints())
+                            : ids1[random.below(3)]);
+      break;
+    }
+    case 2:
+    case 3:
+    {
+      const vtkIdType at = random.below(static_cast<int>(points->GetNumberOfPoints()));
+      points->GetPoint(at, x);
+      x[random.below(3)] = wrong == 2 ? NaN : random.power(40, 300);
+      points->SetPoint(at, x);
+      break;
+    }
+    case 4:
+    case 7:
+    {
+      const double factor = wrong == 4 ? random.power(20, 250) : random.power(-250, -20);
+      for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p)
+      {
+        points->GetPoint(p, x);
+        points->SetPoint(p, factor * x[0], factor * x[1], factor * x[2]);
+      }
+      break;
+    }
+    case 5:
+      data->SetPolys(nullptr);
+      break;
+    case 6:
+      for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+      {
+        if (random.happens(0.3))
+        {
+          ids->SetComponent(i, 0, 0);
+        }
+      }
+      break;
+    case 8:
+      data->SetStrips(data->GetPolys());
+      data->SetPolys(nullptr);
+      break;
+    case 9:
+      target = grid.data;
+      break;
+    default:
+      break;
+  }
+  return false;
+}
+
+bool setMotion(Choices& choices, const RandomGrid& grid, vtkBoundaryDisplacement* filter,
+  vtkSmartPointer<vtkDataObject>& selection)
+{
+  Random random = choices.stream("displace");
+  const bool hostile = choices.chance("hostile.motion", 0.12);
+  const Row middle = middleOf(grid);
+  const double size = grid.size;
+  vtkNew<vtkTransform> transform;
+  transform->PostMultiply();
+  transform->Translate((-middle).eval().data());
+  transform->RotateWXYZ(random.between(-40, 40), 0.3, random.unit(), 1);
+  const double zero = hostile && random.happens(0.3) ? 0 : 1;
+  transform->Scale(random.between(0.8, 1.2), zero * random.between(0.8, 1.2), 1);
+  transform->Translate(middle.data());
+  transform->Translate(0.1 * size * random.unit(), 0, 0);
+  if (hostile && random.happens(0.4))
+  {
+    transform->Translate(random.happens(0.5) ? NaN : random.power(30, 300), 0, 0);
+  }
+  filter->SetTransform(transform);
+
+  vtkSmartPointer<vtkImplicitFunction> region;
+  switch (choices.pick("displace.region", { "none", "sphere", "box", "plane" }, { 1, 1, 1, 1 }))
+  {
+    case 1:
+    {
+      vtkNew<vtkSphere> sphere;
+      sphere->SetCenter(middle.x() + size / 2, middle.y(), middle.z());
+      sphere->SetRadius(hostile && random.happens(0.3) ? NaN : random.between(0.1, 1) * size);
+      region = sphere;
+      break;
+    }
+    case 2:
+    {
+      vtkNew<vtkBox> box;
+      box->SetBounds(middle.x(), middle.x() + size, middle.y() - size, middle.y() + size,
+        middle.z() - size, middle.z() + size);
+      region = box;
+      break;
+    }
+    case 3:
+    {
+      vtkNew<vtkPlane> plane;
+      plane->SetOrigin(middle.x(), middle.y(), middle.z());
+      plane->SetNormal(hostile ? NaN : random.between(-1, 1), random.unit(), 1);
+      region = plane;
+      break;
+    }
+    default:
+      break;
+  }
+  filter->SetRegion(region);
+  const int patches = random.below(4);
+  for (int i = 0; i < patches; ++i)
+  {
+    const std::string patch = (random.happens(0.8) ? "Surface " : "Curve ") +
+                              std::to_string(random.below(6) - (hostile ? 2 : 0));
+    filter->AddPatch(hostile && random.happens(0.3) ? "Surface x" : patch.c_str());
+    if (random.happens(0.3))
+    {
+      filter->AddHeldPatch(("Surface " + std::to_string(random.below(6))).c_str());
+    }
+  }
+  if (choices.chance("displace.selection", 0.4))
+  {
+    vtkNew<vtkIdTypeArray> ids;
+    const int count = random.below(8);
+    for (int i = 0; i < count; ++i)
+    {
+      ids->InsertNextValue(
+        hostile && random.happens(0.3)
+          ? 5000
+          : random.below(static_cast<int>(std::max<Index>(grid.mesh.numberOfNodes(), 1))));
+    }
+    vtkNew<vtkSelectionNode> node;
+    node->SetContentType(vtkSelectionNode::INDICES);
+    node->SetFieldType(random.happens(0.5) ? vtkSelectionNode::POINT : vtkSelectionNode::CELL);
+    node->SetSelectionList(ids);
+    vtkNew<vtkSelection> chosen;
+    chosen->AddNode(node);
+    selection = chosen;
+  }
+  return !hostile;
+}
+
+bool randomGradient(
+  Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkDataObject>& carrier)
+{
+  carrier = nullptr;
+  if (!grid.grid())
+  {
+    return false;
+  }
+  Random random = choices.stream("gradient");
+  vtkNew<vtkUnstructuredGrid> copy;
+  copy->ShallowCopy(grid.grid());
+  vtkNew<vtkDoubleArray> gradient;
+  gradient->SetName("Gradient");
+  gradient->SetNumberOfComponents(3);
+  gradient->SetNumberOfTuples(copy->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
+  {
+    gradient->SetTuple3(p, random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  }
+  copy->GetPointData()->AddArray(gradient);
+  carrier = copy;
+  if (!choices.chance("hostile.gradient", 0.12) || copy->GetNumberOfPoints() == 0)
+  {
+    return true;
+  }
+  switch (
+    choices.pick("gradient.wrong", { "none", "NaN", "short", "name", "huge" }, { 0, 1, 1, 1, 1 }))
+  {
+    case 1:
+      gradient->SetComponent(random.below(static_cast<int>(copy->GetNumberOfPoints())), 1, NaN);
+      break;
+    case 2:
+      gradient->SetNumberOfTuples(copy->GetNumberOfPoints() / 2);
+      break;
+    case 3:
+      gradient->SetName("NoGradient");
+      break;
+    default:
+      gradient->SetComponent(random.below(static_cast<int>(copy->GetNumberOfPoints())), 1, 1e300);
+      break;
+  }
+  return false;
+}
+
+vtkSmartPointer<vtkDataObject> boundaryOfGrid(Choices& choices, const RandomGrid& grid)
+{
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetNumberOfThreads(1);
+  extract->SetInputDataObject(grid.data);
+  extract->Update();
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->ShallowCopy(extract->GetOutput());
+  if (!choices.chance("hostile.surface", 0.2))
+  {
+    return surface;
+  }
+  Random random = choices.stream("surface");
+  const int wrong = choices.pick("surface.wrong",
+    { "nothing", "no rest positions", "polygon ids", "node ids", "odd arrays", "no polygons" },
+    { 0, 1, 1, 1, 1, 1 });
+  vtkDataArray* corners = surface->GetPolys()->GetConnectivityArray();
+  vtkDataArray* nodes = surface->GetPointData()->GetArray("MorphPointId");
+  bool odd = false;
+  switch (wrong)
+  {
+    case 1:
+      surface->GetPointData()->RemoveArray("RestPosition");
+      break;
+    case 2:
+    case 3:
+    {
+      // Of their own: extract's output is not to be touched.
+      vtkNew<vtkPolyData> copy;
+      copy->DeepCopy(surface);
+      surface = copy;
+      corners = surface->GetPolys()->GetConnectivityArray();
+      nodes = surface->GetPointData()->GetArray("MorphPointId");
+      vtkDataArray* ids = wrong == 2 ? corners : nodes;
+      constexpr double values[] = { -1, 5000, 1e9 };
+      if (ids && ids->GetNumberOfTuples() > 0)
+      {
+        ids->SetComponent(
+          random.below(static_cast<int>(ids->GetNumberOfTuples())), 0, values[random.below(3)]);
+      }
+      break;
+    }
+    case 4:
+      addArrays(choices, surface, "surface", true, odd);
+      break;
+    default:
+      surface->SetPolys(nullptr);
+      break;
+  }
+  return surface;
+}
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Choices.h"
+
+#include "Mesh.h"
+
+#include <vtkDataObject.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <vector>
+
+namespace fuzz
+{
+/// What a filter gets on port 0.
+struct RandomGrid
+{
+  vtkSmartPointer<vtkDataObject> data; ///< null, or of any type
+  morph::Mesh mesh;                    ///< what `data` was made from
+  std::vector<morph::Index> outer;     ///< outerNodes() of `mesh`
+  double size = 0;                     ///< of `mesh`
+  bool isAsMesh =
+    true; ///< false: `data` is no grid, or its cells, ids or points are not those of `mesh`
+  bool hasGhosts = false;
+  bool hasOddArrays = false; ///< arrays that are too short, too long or of unexpected types
+
+  vtkUnstructuredGrid* grid() const { return vtkUnstructuredGrid::SafeDownCast(this->data); }
+};
+
+RandomGrid randomGrid(Choices& choices);
+
+/// The points as a grid has them: in float, those of the mesh are rounded.
+morph::Points pointsOf(vtkPointSet* data);
+
+/// Adds point and cell arrays: of the names that the filters read or write, of the right length and type or not.
+void addArrays(
+  Choices& choices, vtkDataSet* data, const std::string& prefix, bool hostile, bool& hasOddArrays);
+}

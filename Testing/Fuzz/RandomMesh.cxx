@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RandomMesh.h"
+
+#include "../Core/Meshes.h"
+#include "CellShape.h"
+#include "Quadratic.h"
+
+#include <vtkCell.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace fuzz
+{
+using morph::Index;
+using morph::Mesh;
+
+namespace
+{
+using Row = Eigen::RowVector3d;
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+Mesh voxels(int nx, int ny, int nz)
+{
+  const Mesh hexes = meshes::hexes(nx, ny, nz);
+  Mesh mesh;
+  mesh.points = hexes.points;
+  mesh.offsets.push_back(0);
+  for (Index c = 0; c < hexes.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(hexes.cell(c), hexes.cell(c) + 8);
+    std::swap(nodes[2], nodes[3]);
+    std::swap(nodes[6], nodes[7]);
+    meshes::add(mesh, morph::Voxel, nodes);
+  }
+  return mesh;
+}
+
+/// Each box in six pyramids round its centre.
+Mesh pyramids(int nx, int ny, int nz)
+{
+  const Mesh hexes = meshes::hexes(nx, ny, nz);
+  Mesh mesh;
+  mesh.offsets.push_back(0);
+  mesh.points.resize(hexes.numberOfNodes() + hexes.numberOfCells(), 3);
+  mesh.points.topRows(hexes.numberOfNodes()) = hexes.points;
+  for (Index c = 0; c < hexes.numberOfCells(); ++c)
+  {
+    const Index apex = hexes.numberOfNodes() + c;
+    Row middle = Row::Zero();
+    for (int k = 0; k < 8; ++k)
+    {
+      middle += hexes.points.row(hexes.cell(c)[k]) / 8;
+    }
+    mesh.points.row(apex) = middle;
+    const morph::CellShape& hexahedron = *morph::cellShape(morph::Hexahedron);
+    for (int f = 0; f < 6; ++f)
+    {
+      // Faces are outward; a pyramid's base is seen from its apex.
+      const int(&corner)[4] = hexahedron.faces[f].corner;
+      meshes::add(mesh, morph::Pyramid,
+        { hexes.cell(c)[corner[3]], hexes.cell(c)[corner[2]], hexes.cell(c)[corner[1]],
+          hexes.cell(c)[corner[0]], apex });
+    }
+  }
+  return mesh;
+}
+
+/// Cells of any type between random points.
+Mesh soup(Random random)
+{
+  Mesh mesh;
+  mesh.offsets.push_back(0);
+  mesh.points.resize(30 + random.below(40), 3);
+  for (double& x : mesh.points.reshaped())
+  {
+    x = random.between(0, 3);
+  }
+  const int cells = 1 + random.below(15);
+  while (mesh.numberOfCells() < cells)
+  {
+    const auto type = static_cast<std::uint8_t>(random.below(36));
+    if (const morph::CellShape* shape = morph::cellShape(type))
+    {
+      const int size = shape->numberOfNodes < 0 ? 1 + random.below(6) : shape->numberOfNodes;
+      std::vector<Index> nodes(size);
+      for (Index& node : nodes)
+      {
+        node = random.below(static_cast<int>(mesh.numberOfNodes()));
+      }
+      meshes::add(mesh, type, nodes);
+    }
+  }
+  return mesh;
+}
+
+Mesh lattice(Choices& choices)
+{
+  const int kind = choices.pick("mesh.cells",
+    { "hexahedra", "tetrahedra", "wedges", "hexahedra and pyramids", "hexahedra and wedges",
+      "voxels", "pyramids", "soup" },
+    { 6, 6, 3, 2, 2, 1, 1, 0.6 });
+  const int order =
+    kind == 5 || kind == 7
+      ? 0
+      : choices.pick("mesh.order", { "linear", "quadratic", "fully quadratic", "quadratic-linear" },
+          { 7, 1, 1, 0.5 });
+  // Quadratic cells bring many nodes.
+  const double large = order == 0 ? 0.15 : 0.03;
+  const auto length = [large](Random& random) {
+    return random.happens(large) ? 3 + random.below(2) : random.happens(0.12) ? 1 : 2;
+  };
+  const int nx = choices.whole("mesh.nx", 2, length);
+  const int ny = choices.whole("mesh.ny", 2, length);
+  const int nz = choices.whole("mesh.nz", 2, length);
+  using Maker = Mesh (*)(int, int, int);
+  constexpr Maker makers[] = { meshes::hexes, meshes::tets, meshes::wedges,
+    meshes::hexesAndPyramids, meshes::hexesAndWedges, voxels, pyramids };
+  Mesh mesh = kind == 7 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
+  // In part: mid-side nodes that the neighbor does not have.
+  const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
+  return order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
+}
+
+Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
+{
+  Mesh result;
+  result.points = mesh.points;
+  result.offsets.push_back(0);
+  for (const Index c : cells)
+  {
+    meshes::add(
+      result, mesh.types[c], std::vector<Index>(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c)));
+  }
+  return result;
+}
+
+/// Cells that lie elsewhere in the list, are missing or come twice: holes, several bodies, edges with four faces.
+void changeCells(Choices& choices, Mesh& mesh, bool hostile)
+{
+  std::vector<Index> cells(mesh.numberOfCells());
+  std::iota(cells.begin(), cells.end(), Index{ 0 });
+  Random random = choices.stream("cells.random");
+  if (const double part =
+        choices.chance("cells.missing", 0.08) ? choices.stream("part").between(0.1, 0.7) : 0)
+  {
+    std::vector<Index> left;
+    for (const Index c : cells)
+    {
+      if (!random.happens(part))
+      {
+        left.push_back(c);
+      }
+    }
+    cells = left;
+  }
+  if (choices.chance("cells.shuffled", 0.1))
+  {
+    for (std::size_t i = cells.size(); i > 1; --i)
+    {
+      std::swap(cells[i - 1], cells[random.below(static_cast<int>(i))]);
+    }
+  }
+  if (hostile && choices.chance("cells.twice", 0.06))
+  {
+    const bool all = random.happens(0.4);
+    const std::vector<Index> once = cells;
+    for (const Index c : once)
+    {
+      if (all || random.happens(0.2))
+      {
+        cells.push_back(c);
+      }
+    }
+  }
+  if (hostile && choices.chance("cells.none", 0.02))
+  {
+    cells.clear();
+  }
+  mesh = withCells(mesh, cells);
+  if (hostile && choices.chance("cells.insideOut", 0.1) && mesh.numberOfCells() > 0)
+  {
+    const double part = random.happens(0.3) ? 1 : random.between(0, 0.5);
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      if (mesh.cellSize(c) >= 4 && random.happens(part))
+      {
+        std::swap(mesh.connectivity[mesh.offsets[c]], mesh.connectivity[mesh.offsets[c] + 1]);
+      }
+    }
+  }
+  if (hostile && choices.chance("cells.repeatedNodes", 0.08) && mesh.numberOfCells() > 0)
+  {
+    const int times = 1 + random.below(3);
+    for (int i = 0; i < times; ++i)
+    {
+      const int c = random.below(static_cast<int>(mesh.numberOfCells()));
+      const int size = static_cast<int>(mesh.cellSize(c));
+      if (size > 0)
+      {
+        Index* nodes = mesh.connectivity.data() + mesh.offsets[c];
+        nodes[random.below(size)] = nodes[random.below(size)];
+      }
+    }
+  }
+  if (choices.chance("cells.lowerDimensions", 0.1) && mesh.numberOfNodes() > 0)
+  {
+    constexpr std::uint8_t types[] = { morph::Vertex, morph::PolyVertex, morph::Line,
+      morph::PolyLine, morph::Triangle, morph::TriangleStrip, morph::Polygon, morph::Pixel,
+      morph::Quad, morph::QuadraticEdge, morph::QuadraticTriangle, morph::QuadraticQuad,
+      morph::BiquadraticQuad, morph::QuadraticLinearQuad, morph::BiquadraticTriangle,
+      morph::EmptyCell };
+    const int more = 1 + random.below(5);
+    for (int i = 0; i < more; ++i)
+    {
+      const std::uint8_t type = types[random.below(static_cast<int>(std::size(types)))];
+      const int given = morph::cellShape(type)->numberOfNodes;
+      std::vector<Index> nodes(given < 0 ? 3 + random.below(3) : given);
+      for (Index& node : nodes)
+      {
+        node = random.below(static_cast<int>(mesh.numberOfNodes()));
+      }
+      meshes::add(mesh, type, nodes);
+    }
+  }
+}
+
+/// Moves nodes at random, in units of a cell.
+void jitter(Choices& choices, Mesh& mesh, bool hostile)
+{
+  const std::vector<Index> outer = outerNodes(mesh);
+  const std::set<Index> isOuter(outer.begin(), outer.end());
+  const double inside = choices.number("jitter.inside", 0,
+    [hostile](Random& r)
+    { return r.happens(0.3) ? 0 : r.between(0, hostile && r.happens(0.3) ? 3 : 0.2); });
+  const double outside = choices.number("jitter.outside", 0,
+    [hostile](Random& r)
+    { return r.happens(0.7) ? 0 : r.between(0, hostile && r.happens(0.3) ? 2 : 0.15); });
+  Random random = choices.stream("jitter");
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    const double amount = isOuter.count(n) ? outside : inside;
+    for (int j = 0; j < 3; ++j)
+    {
+      mesh.points(n, j) += amount * random.between(-1, 1);
+    }
+  }
+}
+
+/// Turns, stretches, mirrors, scales and moves the mesh.
+void place(Choices& choices, Mesh& mesh, bool hostile)
+{
+  Random random = choices.stream("place");
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+  if (choices.chance("place.turned", 0.3))
+  {
+    A = Eigen::AngleAxisd(random.between(-3, 3),
+      Eigen::Vector3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1.1))
+        .normalized())
+          .toRotationMatrix();
+  }
+  const double most = hostile ? 4 : 0.7;
+  if (choices.chance("place.stretched", 0.2))
+  {
+    A = A * Eigen::Vector3d(random.power(-most, most), random.power(-most, most), 1).asDiagonal();
+  }
+  if (choices.chance("place.mirrored", 0.06))
+  {
+    A.col(0) *= -1;
+  }
+  if (hostile && choices.chance("place.flat", 0.04))
+  {
+    A.row(2).setZero();
+  }
+  if (hostile && choices.chance("place.onePoint", 0.02))
+  {
+    A.setZero();
+  }
+  const double power = choices.number("place.power", 0,
+    [hostile](Random& r)
+    {
+      const double wide = r.between(-6, 6);
+      constexpr double far[] = { -30, -45, -60, -110, -200, -310, 30, 45, 60, 110, 160, 200, 300 };
+      const double extreme = far[r.below(static_cast<int>(std::size(far)))] + r.between(-3, 3);
+      return r.happens(hostile ? 0.3 : 0) ? extreme : r.happens(0.25) ? wide : 0;
+    });
+  const double away = choices.number("place.away", 0,
+    [hostile](Random& r)
+    {
+      const double sizes = r.between(-10, 10);
+      const double far = r.power(1, hostile ? 14 : 3);
+      return r.happens(hostile ? 0.3 : 0.1) ? far : r.happens(0.2) ? sizes : 0;
+    });
+  const double scale = std::pow(10.0, power);
+  const Row shift = away * scale * Row(1, -0.7, 0.3);
+  mesh.points = (scale * (mesh.points * A.transpose()).array()).matrix();
+  mesh.points.rowwise() += shift;
+}
+
+/// Coordinates that are not finite, points on one place, points without cells.
+void spoilPoints(Choices& choices, Mesh& mesh, bool hostile)
+{
+  Random random = choices.stream("points");
+  if (choices.chance("points.unused", 0.08))
+  {
+    const Index before = mesh.numberOfNodes();
+    mesh.points.conservativeResize(before + 1 + random.below(4), 3);
+    for (Index n = before; n < mesh.numberOfNodes(); ++n)
+    {
+      mesh.points.row(n) = Row(random.between(-9, 9), random.between(-9, 9), 5);
+    }
+  }
+  if (choices.chance("points.renumbered", 0.15))
+  {
+    std::vector<Index> order(mesh.numberOfNodes());
+    std::iota(order.begin(), order.end(), Index{ 0 });
+    for (std::size_t i = order.size(); i > 1; --i)
+    {
+      std::swap(order[i - 1], order[random.below(static_cast<int>(i))]);
+    }
+    mesh = meshes::renumbered(mesh, order);
+  }
+  if (!hostile || mesh.numberOfNodes() == 0)
+  {
+    return;
+  }
+  const auto any = [&] { return random.below(static_cast<int>(mesh.numberOfNodes())); };
+  const int notFinite = choices.pick("points.value",
+    { "as made", "NaN", "infinite", "1e200", "1e80", "1e-200" }, { 40, 1, 1, 1, 1, 1 });
+  if (notFinite > 0)
+  {
+    constexpr double values[] = { 0, NaN, Infinity, 1e200, 1e80, 1e-200 };
+    mesh.points(any(), random.below(3)) = values[notFinite];
+  }
+  if (choices.chance("points.together", 0.06))
+  {
+    const int times = 1 + random.below(4);
+    for (int i = 0; i < times; ++i)
+    {
+      mesh.points.row(any()) = mesh.points.row(any()).eval();
+    }
+  }
+}
+}
+
+std::vector<Index> outerNodes(const Mesh& mesh)
+{
+  std::map<std::vector<vtkIdType>, std::pair<int, std::vector<vtkIdType>>> faces;
+  vtkNew<vtkGenericCell> cell;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+    if (!shape || shape->dimension != 3)
+    {
+      continue;
+    }
+    cell->SetCellType(mesh.types[c]);
+    for (Index k = 0; k < mesh.cellSize(c); ++k)
+    {
+      cell->PointIds->SetId(k, mesh.cell(c)[k]);
+    }
+    for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
+    {
+      vtkIdList* ids = cell->GetFace(f)->GetPointIds();
+      const std::vector<vtkIdType> nodes(ids->begin(), ids->end());
+      // Corners come first.
+      std::set<vtkIdType> corners(
+        nodes.begin(), nodes.begin() + std::min<std::size_t>(nodes.size(), shape->faces[f].size));
+      auto& [uses, all] = faces[std::vector<vtkIdType>(corners.begin(), corners.end())];
+      ++uses;
+      all = nodes;
+    }
+  }
+  std::set<Index> outer;
+  for (const auto& [corners, face] : faces)
+  {
+    if (face.first == 1 && corners.size() >= 3)
+    {
+      outer.insert(face.second.begin(), face.second.end());
+    }
+  }
+  return { outer.begin(), outer.end() };
+}
+
+std::vector<Index> volumeNodes(const Mesh& mesh)
+{
+  std::set<Index> nodes;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+    if (shape && shape->dimension == 3)
+    {
+      nodes.insert(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+    }
+  }
+  return { nodes.begin(), nodes.end() };
+}
+
+double meshSize(const Mesh& mesh)
+{
+  const std::vector<Index> nodes = volumeNodes(mesh);
+  if (nodes.empty())
+  {
+    return 0;
+  }
+  Eigen::AlignedBox3d box;
+  for (const Index n : nodes)
+  {
+    box.extend(mesh.points.row(n).transpose());
+  }
+  // Halves: the box of a huge mesh may be wider than the largest number.
+  return 2 * (box.max() / 2 - box.min() / 2).stableNorm();
+}
+
+Mesh randomMesh(Choices& choices)
+{
+  const bool hostile = choices.chance("hostile.mesh", 0.22);
+  Mesh mesh = lattice(choices);
+  changeCells(choices, mesh, hostile);
+  jitter(choices, mesh, hostile);
+  place(choices, mesh, hostile);
+  spoilPoints(choices, mesh, hostile);
+  return mesh;
+}
+}

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Recount.h"
+
+#include "CellShape.h"
+#include "Choices.h"
+
+#include <vtkCell3D.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkNonLinearCell.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace fuzz
+{
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
+using Vector = Eigen::Vector3d;
+
+constexpr double Rounding = 1e-9;
+
+/// The corner, then its three neighbors, right-handed in a valid cell.
+using Corners = std::vector<std::array<int, 4>>;
+
+const Corners& cornersOf(morph::Shape shape)
+{
+  static const Corners none;
+  static const Corners tet = { { 0, 1, 2, 3 } };
+  static const Corners hex = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 }, { 3, 0, 2, 7 },
+    { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
+  static const Corners wedge = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
+    { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
+  static const Corners pyramid = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 }, { 3, 0, 2, 4 } };
+  switch (shape)
+  {
+    case morph::Shape::Tet:
+      return tet;
+    case morph::Shape::Hex:
+      return hex;
+    case morph::Shape::Wedge:
+      return wedge;
+    case morph::Shape::Pyramid:
+      return pyramid;
+    default:
+      return none;
+  }
+}
+
+Vector direction(const Vector& edge)
+{
+  const double length = edge.stableNorm();
+  return length > 0 ? Vector(edge / length) : Vector(Vector::Zero());
+}
+
+struct Determinants
+{
+  double least = std::numeric_limits<double>::infinity(); ///< of edges of length 1
+  double most = -std::numeric_limits<double>::infinity();
+  double volume = 0; ///< the sum of those of the edges themselves
+};
+
+bool isVolume(const Mesh& mesh, Index c)
+{
+  const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+  return shape && shape->dimension == 3;
+}
+
+/// `unit`: what lengths are divided by.
+Determinants determinants(const Mesh& mesh, const Points& points, Index c, double unit)
+{
+  const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
+  const auto corner = [&](int k) -> Vector
+  { return points.row(mesh.cell(c)[shape.cornerNode[k]]).transpose() / unit; };
+  Determinants result;
+  const auto take = [&result](const Vector& a, const Vector& b, const Vector& d)
+  {
+    const double value = direction(a).dot(direction(b).cross(direction(d)));
+    result.least = std::min(result.least, value);
+    result.most = std::max(result.most, value);
+  };
+  for (const auto& at : cornersOf(shape.shape))
+  {
+    const Vector x = corner(at[0]);
+    const Vector a = corner(at[1]) - x, b = corner(at[2]) - x, d = corner(at[3]) - x;
+    take(a, b, d);
+    result.volume += a.dot(b.cross(d));
+  }
+  if (shape.shape == morph::Shape::Hex)
+  {
+    const auto mean = [&](std::array<int, 4> to, std::array<int, 4> from)
+    {
+      Vector sum = Vector::Zero();
+      for (int k = 0; k < 4; ++k)
+      {
+        sum += corner(to[k]) - corner(from[k]);
+      }
+      return sum;
+    };
+    take(mean({ 1, 2, 5, 6 }, { 0, 3, 4, 7 }), mean({ 2, 3, 6, 7 }, { 0, 1, 4, 5 }),
+      mean({ 4, 5, 6, 7 }, { 0, 1, 2, 3 }));
+  }
+  return result;
+}
+
+double extent(const Points& points)
+{
+  const double most = points.size() > 0 ? points.cwiseAbs().maxCoeff() : 0;
+  return most > 0 && std::isfinite(most) ? most : 1;
+}
+
+/// For each cell +1, -1, or 0 where nobody can tell: one for the cells of one shape in one body.
+std::vector<int> senses(const Mesh& mesh, const Points& reference)
+{
+  std::vector<Index> parent(mesh.numberOfNodes());
+  std::iota(parent.begin(), parent.end(), Index{ 0 });
+  const auto root = [&parent](Index n)
+  {
+    while (parent[n] != n)
+    {
+      n = parent[n] = parent[parent[n]];
+    }
+    return n;
+  };
+  struct Group
+  {
+    double sum = 0, size = 0;
+    int cells = 0;
+  };
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const int corners = isVolume(mesh, c) ? morph::cellShape(mesh.types[c])->numberOfCorners : 0;
+    for (int k = 1; k < corners; ++k)
+    {
+      parent[root(mesh.cell(c)[k])] = root(mesh.cell(c)[0]);
+    }
+  }
+  std::map<std::pair<Index, morph::Shape>, Group> groups;
+  const auto groupOf = [&](Index c) -> Group& {
+    return groups[{ root(mesh.cell(c)[0]), morph::cellShape(mesh.types[c])->shape }];
+  };
+  const double unit = extent(reference);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isVolume(mesh, c))
+    {
+      const double volume = determinants(mesh, reference, c, unit).volume;
+      Group& group = groupOf(c);
+      group.sum += volume;
+      group.size += std::abs(volume);
+      ++group.cells;
+    }
+  }
+  std::vector<int> result(mesh.numberOfCells(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isVolume(mesh, c))
+    {
+      const Group& group = groupOf(c);
+      const bool isClear = std::abs(group.sum) > 0.5 * group.size && group.cells > 1;
+      result[c] = !isClear ? 0 : group.sum > 0 ? 1 : -1;
+    }
+  }
+  return result;
+}
+}
+
+Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
+  const std::vector<std::uint8_t>& skip)
+{
+  Recount result;
+  result.bad.assign(mesh.numberOfCells(), 0);
+  const std::vector<int> sense = senses(mesh, reference);
+  const double unit = extent(points);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!isVolume(mesh, c) || (!skip.empty() && skip[c]))
+    {
+      continue;
+    }
+    Determinants found = determinants(mesh, points, c, unit);
+    if (sense[c] < 0)
+    {
+      std::swap(found.least, found.most);
+      found.least *= -1;
+      found.most *= -1;
+    }
+    const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
+    const bool isQuadratic = shape.numberOfNodes > shape.numberOfCorners;
+    if (sense[c] == 0)
+    {
+      // Inverted whatever the sense is: both signs occur.
+      result.bad[c] = found.least < -Rounding && found.most > Rounding ? 1 : -1;
+    }
+    else
+    {
+      result.bad[c] = found.least < -Rounding ? 1 : found.least <= Rounding || isQuadratic ? -1 : 0;
+    }
+    result.lowest += result.bad[c] == 1;
+    result.highest += result.bad[c] != 0;
+  }
+  return result;
+}
+
+bool isValid(const Mesh& mesh, const Points& points, double least)
+{
+  const double unit = extent(points);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isVolume(mesh, c) && !(determinants(mesh, points, c, unit).least > least))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& points,
+  const std::vector<signed char>& certificate, std::uint64_t seed)
+{
+  const std::vector<int> sense = senses(mesh, reference);
+  const double unit = extent(points);
+  Random random(seed);
+  vtkNew<vtkGenericCell> cell;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!isVolume(mesh, c) || certificate[c] != 1 || sense[c] == 0)
+    {
+      continue;
+    }
+    const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
+    const bool isVoxel = mesh.types[c] == morph::Voxel; // taken as a hexahedron in VTK's order
+    cell->SetCellType(isVoxel ? std::uint8_t{ morph::Hexahedron } : mesh.types[c]);
+    const auto nodes = static_cast<int>(mesh.cellSize(c));
+    std::vector<double> slopes(3 * nodes);
+    for (int sample = 0; sample < 12; ++sample)
+    {
+      double at[3] = { random.unit(), random.unit(), random.unit() };
+      // Corners and edges are where cells invert first.
+      for (double& x : at)
+      {
+        x = random.happens(0.3) ? std::round(x) : x;
+      }
+      const bool isTriangular =
+        shape.shape == morph::Shape::Tet || shape.shape == morph::Shape::Wedge;
+      if (isTriangular && at[0] + at[1] > 1)
+      {
+        at[0] = 1 - at[0];
+        at[1] = 1 - at[1];
+      }
+      if (shape.shape == morph::Shape::Tet)
+      {
+        at[2] *= 1 - at[0] - at[1];
+      }
+      if (shape.shape == morph::Shape::Pyramid)
+      {
+        at[2] *= 0.9; // no determinant at the apex
+      }
+      cell->InterpolateDerivs(at, slopes.data());
+      Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+      for (int a = 0; a < nodes; ++a)
+      {
+        const int node = isVoxel ? shape.cornerNode[a] : a;
+        const Vector x = points.row(mesh.cell(c)[node]).transpose() / unit;
+        for (int j = 0; j < 3; ++j)
+        {
+          jacobian.col(j) += x * slopes[j * nodes + a];
+        }
+      }
+      const double lengths =
+        jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
+      if (sense[c] * jacobian.determinant() < -1e-8 * lengths)
+      {
+        return c;
+      }
+    }
+  }
+  return -1;
+}
+}

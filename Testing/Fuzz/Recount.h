@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fuzz
+{
+/// How many volume cells are inverted or degenerate, counted from determinants at corners (and the centre of
+/// hexahedra) without the library's own code. Rounding and cells whose sense nobody can tell leave a range.
+struct Recount
+{
+  morph::Index lowest = 0;
+  morph::Index highest =
+    0; ///< counts all quadratic cells: they may be inverted between their corners
+  std::vector<std::int8_t> bad; ///< #cells: 1 surely, 0 surely not, -1 either
+};
+
+/// `reference`: positions that tell which way round the cells of a body are. `skip`: #cells or empty.
+Recount recount(const morph::Mesh& mesh, const morph::Points& reference,
+  const morph::Points& points, const std::vector<std::uint8_t>& skip = {});
+
+/// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
+bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
+
+/// A cell that `certificate` calls positive everywhere, and that is inverted at a random place; -1 if there is none.
+/// Determinants are those of VTK's own shape functions.
+morph::Index falselyCertified(const morph::Mesh& mesh, const morph::Points& reference,
+  const morph::Points& points, const std::vector<signed char>& certificate, std::uint64_t seed);
+}
