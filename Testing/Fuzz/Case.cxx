@@ -183,12 +183,12 @@ Case::Case(Choices& made, const Filter& ofFilter)
 void Case::setNames(vtkAlgorithm* algorithm)
 {
   std::string ids = this->boundary.idArray, vectors = this->boundary.displacementArray;
-  if (this->choices.chance("names.wrong", 0.015))
+  if (this->choices.chance("names.wrong", 0.007))
   {
     ids = "NoSuchIds";
     this->isRegular = false;
   }
-  if (this->choices.chance("names.wrongDisplacement", 0.015))
+  if (this->choices.chance("names.wrongDisplacement", 0.007))
   {
     vectors = "NoSuchVectors";
     this->isRegular = false;
@@ -198,7 +198,7 @@ void Case::setNames(vtkAlgorithm* algorithm)
   setBoundaryNames<vtkCompareMorphMethods>(algorithm, ids, vectors);
   const int surface = this->choices.pick("names.surface",
     { "none", "Surface", "Temperature", "NoSuchArray", "ScaledJacobian" },
-    { 10, 0.5, 0.5, 0.3, 0.3 });
+    { 10, 0.3, 0.3, 0.1, 0.3 });
   constexpr const char* names[] = { nullptr, "Surface", "Temperature", "NoSuchArray",
     "ScaledJacobian" };
   setSurfaceName<vtkClassifyBoundary>(algorithm, names[surface]);

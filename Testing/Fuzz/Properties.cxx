@@ -253,7 +253,7 @@ const Filter& filterOf(std::uint64_t seed)
 
 bool setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm)
 {
-  const bool hostile = choices.chance("hostile.properties", 0.12);
+  const bool hostile = choices.chance("hostile.properties", 0.09);
   const bool isMorph = filter.isMorph;
   bool regular = true;
   for (const Property& property : filter.properties)

@@ -297,7 +297,7 @@ vtkSmartPointer<vtkDataObject> otherData(int type, vtkPointSet* data)
 RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
 {
   RandomBoundary boundary;
-  const bool hostile = choices.chance("hostile.boundary", 0.15);
+  const bool hostile = choices.chance("hostile.boundary", 0.13);
   const Map map = motion(choices, grid, hostile, boundary);
   Random random = choices.stream("boundary");
   const int ids = choices.pick("boundary.ids",

@@ -163,7 +163,7 @@ RandomGrid randomGrid(Choices& choices)
   result.size = meshSize(result.mesh);
   result.data = grid;
 
-  const bool hostile = choices.chance("hostile.grid", 0.15);
+  const bool hostile = choices.chance("hostile.grid", 0.1);
   if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.foreign", 0.12))
   {
     addForeignCells(choices, grid);

@@ -117,7 +117,7 @@ Mesh lattice(Choices& choices)
   // Quadratic cells bring many nodes.
   const double large = order == 0 ? 0.15 : 0.03;
   const auto length = [large](Random& random) {
-    return random.happens(large) ? 3 + random.below(2) : random.happens(0.12) ? 1 : 2;
+    return random.happens(large) ? 3 + random.below(2) : random.happens(0.05) ? 1 : 2;
   };
   const int nx = choices.whole("mesh.nx", 2, length);
   const int ny = choices.whole("mesh.ny", 2, length);
@@ -423,7 +423,7 @@ double meshSize(const Mesh& mesh)
 
 Mesh randomMesh(Choices& choices)
 {
-  const bool hostile = choices.chance("hostile.mesh", 0.22);
+  const bool hostile = choices.chance("hostile.mesh", 0.17);
   Mesh mesh = lattice(choices);
   changeCells(choices, mesh, hostile);
   jitter(choices, mesh, hostile);
