@@ -3,19 +3,25 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+# Minutes on two cores, without ccache.
+debian_budget=35
+sanitizer_budget=12
+
 usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package] [-j N]
 From a bare Debian 12 to tested builds: installs the packages, then
-- builds the plugin (preset paraview) and runs the tests labelled core, filters, programs, install and paraview;
-- builds with sanitizers (preset asan) and runs core, with --asan-filters filters too (10 minutes more on two cores);
+- builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs, install and paraview;
+- builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget of
+  $sanitizer_budget minutes is left;
 - unpacks Debian's VTK 9.1, builds the library and the Python module with it (preset vtk91), and runs core, filters,
-  programs and install;
+  fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine.
-The summaries come last. The exit status is 0 if every test passed.
+The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a stage that takes
+longer than its budget is named, but is no failure.
   --no-install    leave the packages alone
   --no-asan       leave the sanitizers out
-  --asan-filters  the filters with sanitizers too
+  --asan-filters  the filters with sanitizers however long that takes
   --no-plain-vtk  leave VTK 9.1 out
   --no-package    leave the Debian package out
   -j N            processes to build and to test with (default: all cores)
@@ -42,38 +48,79 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-if [ "$install" = yes ]; then Utilities/install-packages.sh; fi
-if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+stages=() # "seconds group name" of each
+left_out=()
+# Runs a command as a stage of a group: stage <group> <name> <command>...
+stage() {
+  local group=$1 name=$2 start=$SECONDS result=0
+  shift 2
+  "$@" || result=$?
+  stages+=("$((SECONDS - start)) $group $name")
+  return $result
+}
+seconds_of() { printf '%s\n' "${stages[@]}" | awk -v group="$1" '$2 == group { sum += $1 } END { print sum + 0 }'; }
+minutes() { awk -v seconds="$1" 'BEGIN { printf "%.1f", seconds / 60 }'; }
 
 status=0
-for preset in "${presets[@]}"; do
-  if [ "$preset" = vtk91 ]; then Utilities/plain-vtk.sh --unpack-only; fi
-  what=()
-  which=()
-  if [ "$preset" = asan ] && [ "$asan_filters" = no ]; then
-    what=(--target MeshMorphingCoreTests)
-    which=(-L core)
+build() { cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
+# The log of several runs of one preset is one: they are summed up together.
+tests() { ctest --preset "$1" -j "$jobs" "${@:2}" 2>&1 | tee -a "build/$1/ctest.log"; }
+
+sanitized() {
+  stage sanitizers "build asan (core, fuzz)" build asan --target MeshMorphingCoreTests MeshMorphingFuzz
+  stage sanitizers "tests asan (core)" tests asan -L core || status=1
+  stage sanitizers "tests asan (fuzz)" tests asan -L fuzz || status=1
+  if [ "$asan_filters" = no ] && [ "$(seconds_of sanitizers)" -gt $((sanitizer_budget * 30)) ]; then
+    left_out+=("filters with sanitizers: less than half of the budget was left")
+    return
   fi
+  stage sanitizers "build asan (filters)" build asan --target MeshMorphingFiltersTests
+  stage sanitizers "tests asan (filters)" tests asan -L filters || status=1
+}
+
+make_package() {
+  { Utilities/package.sh -j "$jobs" && Testing/Install/package.sh build/deb/*.deb; } 2>&1 | tee build/package.log
+}
+
+if [ "$install" = yes ]; then stage setup "packages" Utilities/install-packages.sh; fi
+if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+for preset in "${presets[@]}"; do
+  if [ "$preset" = vtk91 ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
   cmake --preset "$preset"
-  cmake --build --preset "$preset" -j "$jobs" "${what[@]}"
-  ctest --preset "$preset" -j "$jobs" "${which[@]}" 2>&1 | tee "build/$preset/ctest.log" || status=1
+  rm -f "build/$preset/ctest.log"
+  if [ "$preset" = asan ]; then
+    sanitized
+  else
+    stage debian "build $preset" build "$preset"
+    stage debian "tests $preset" tests "$preset" || status=1
+  fi
 done
 package_summary="left out"
 if [ "$package" = yes ]; then
   mkdir -p build
   package_status=0
-  { Utilities/package.sh -j "$jobs" && Testing/Install/package.sh build/deb/*.deb; } 2>&1 |
-    tee build/package.log || package_status=${PIPESTATUS[0]}
+  stage debian "Debian package" make_package || package_status=$?
   package_summary=$(tail -n 1 build/package.log)
   # 77: no right to try it.
   if [ "$package_status" -ne 0 ] && [ "$package_status" -ne 77 ]; then status=1; fi
 fi
+
 for preset in "${presets[@]}"; do
-  echo
-  echo "== preset $preset"
-  sed -n '/ tests passed/,$p' "build/$preset/ctest.log"
+  printf '\n== preset %s\n' "$preset"
+  awk '/^Test project/ { on = 0 } / tests passed/ { on = 1 } on' "build/$preset/ctest.log"
 done
-echo
-echo "== Debian package"
-echo "$package_summary"
+printf '\n== Debian package\n%s\n\n== Minutes\n' "$package_summary"
+for one in "${stages[@]}"; do
+  read -r seconds group name <<< "$one"
+  printf '%-26s%6s\n' "$name" "$(minutes "$seconds")"
+done
+for group in "debian $debian_budget" "sanitizers $sanitizer_budget"; do
+  read -r group budget <<< "$group"
+  taken=$(seconds_of "$group")
+  if [ "$taken" -eq 0 ]; then continue; fi
+  over="within its budget"
+  if [ "$taken" -gt $((budget * 60)) ]; then over="EXCEEDED its budget"; fi
+  printf '%-26s%6s  %s of %s minutes\n' "all of $group" "$(minutes "$taken")" "$over" "$budget"
+done
+if [ ${#left_out[@]} -gt 0 ]; then printf 'Left out: %s\n' "${left_out[@]}"; fi
 exit $status

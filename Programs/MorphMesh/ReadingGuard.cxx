@@ -110,7 +110,7 @@ void handleSignals()
 
 ReadingGuard::ReadingGuard(const std::string& path, std::uintmax_t bytes)
 {
-  const std::uintmax_t seconds = 5 + 2 * (bytes / 1000000);
+  const std::uintmax_t seconds = 3 + 2 * (bytes / 1000000);
   const std::string start = "morph-mesh: Cannot read " + path + ": VTK's reader ";
   const std::string end = ". The file is damaged, or not what its extension says.\n";
   state.crashed = start + "crashed" + end;

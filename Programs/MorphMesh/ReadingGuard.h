@@ -10,7 +10,7 @@ namespace morph_mesh
 /// While this object lives, such a reader ends the program with exit status 1 and one message that
 /// names the file:
 /// - after a signal of the processor, or abort();
-/// - after 5 s of computing and 2 s more for each megabyte of the file.
+/// - after 3 s of computing and 2 s more for each megabyte of the file.
 /// Memory is limited to what was taken before, 1 GiB and 1100 times the size of the file, the most
 /// that zlib can expand to; beyond that the readers get std::bad_alloc.
 /// What C libraries print to standard error is dropped.
