@@ -72,9 +72,9 @@ class SeriesRun:
         where the method gives no mesh."""
         self._filter.UpdateTimeStep(float(number))
         output = self.mesh()
-        if output.GetNumberOfPoints() == 0:
-            raise RuntimeError(f"no mesh at step {number}")
         field = output.GetFieldData()
+        if field.GetAbstractArray("MorphStatus").GetValue(0) == "Failed":
+            raise RuntimeError(f"no mesh at step {number}")
 
         def value(name):
             return field.GetArray(name).GetValue(0)

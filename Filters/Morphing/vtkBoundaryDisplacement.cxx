@@ -10,7 +10,9 @@
 #include "vtkMorphMonitor.h"
 #include "vtkMorphMotion.h"
 #include "vtkMorphPatches.h"
+#include "vtkMorphProperty.h"
 #include "vtkMorphSpread.h"
+#include "vtkMorphSurface.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
@@ -30,6 +32,34 @@
 #include <algorithm>
 
 vtkStandardNewMacro(vtkBoundaryDisplacement);
+
+vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
+vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkBoundaryDisplacement, Distance)
+vtkMorphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
+
+void vtkBoundaryDisplacement::SetVector(double x, double y, double z)
+{
+  const double values[3] = { x, y, z };
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!vtkMorphProperty::Accepts(this, "Vector", values[i], this->Vector[i]))
+    {
+      return;
+    }
+  }
+  if (!std::equal(values, values + 3, this->Vector))
+  {
+    std::copy(values, values + 3, this->Vector);
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::SetVector(const double vector[3])
+{
+  this->SetVector(vector[0], vector[1], vector[2]);
+}
 
 namespace
 {
@@ -281,12 +311,12 @@ int vtkBoundaryDisplacement::RequestData(
     output->Initialize();
     this->ResetResults();
   };
-  const int done = vtkMorphExecution::Run(this, "displace this mesh's boundary", displace, clear);
+  vtkMorphExecution::Run(this, "displace this mesh's boundary", displace, clear);
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningMacro(<< warning);
   }
-  return done;
+  return 1;
 }
 
 void vtkBoundaryDisplacement::Classify(vtkPointSet* input, vtkMorphMonitor& monitor)
@@ -368,6 +398,11 @@ void vtkBoundaryDisplacement::Displace(
     monitor.warn(warning);
   }
   own.Warnings.clear();
+  vtkMorphSurface::WarnOfNone(own.Model.Faces(), monitor);
+  if (own.Model.Faces().nodes.empty())
+  {
+    return;
+  }
   this->Choose(input, selection);
   monitor.check();
 

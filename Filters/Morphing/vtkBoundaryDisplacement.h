@@ -31,12 +31,18 @@
  * options that they depend on are the same (ClassifyCount, PrepareCount). The result does not depend
  * on what was kept.
  *
- * Warnings: faces that the motion leaves without area (a scale of zero, for instance), and surfaces
- * that it would reflect. Errors, with an empty output: those of vtkClassifyBoundary; a surface
- * without polygons, MorphPointId or RestPosition; nothing chosen, or nothing on the boundary; patches
- * or arrays that do not exist; places that are not finite; nodes without a normal. An execution that
- * is aborted gives an empty output and no message. With several MPI processes an execution is
- * collective. Cost, where all is kept: a few passes over the boundary.
+ * RequestInformation reads the input's data where they are up to date: it finds the boundary's
+ * patches, so that a window can list their names before the first execution, and keeps what it
+ * finds for that. On a large mesh this takes as long as the first execution would.
+ *
+ * Warnings: faces that the motion leaves without area (a scale of zero, for instance), surfaces
+ * that it would reflect, and a mesh without any outer face, whose boundary is empty. Errors: those
+ * of vtkClassifyBoundary; a surface without polygons, MorphPointId or RestPosition; nothing chosen,
+ * or nothing on the boundary; patches or arrays that do not exist; places that are not finite,
+ * beyond 1e50, or in single precision beyond 3.4e38; nodes without a normal. The output is then
+ * empty, not the boundary where it was: a morph would take that for a motion of nothing. An
+ * execution that is aborted gives an empty output and no message. With several MPI processes an
+ * execution is collective. Cost, where all is kept: a few passes over the boundary.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -167,9 +173,11 @@ public:
 
   ///@{
   /**
-   * The displacement of all moving nodes, in the unit of the points. Default 0, 0, 0.
+   * The displacement of all moving nodes, in the unit of the points: finite numbers. Default 0, 0,
+   * 0.
    */
-  vtkSetVector3Macro(Vector, double);
+  virtual void SetVector(double x, double y, double z);
+  virtual void SetVector(const double vector[3]);
   vtkGetVector3Macro(Vector, double);
   ///@}
 
@@ -179,7 +187,7 @@ public:
    * negative is inwards. Normals are area-weighted over the faces that move, or, at nodes without
    * one, over all faces round the node. Default 0.
    */
-  vtkSetMacro(Distance, double);
+  virtual void SetDistance(double value);
   vtkGetMacro(Distance, double);
   ///@}
 
@@ -196,7 +204,7 @@ public:
   /**
    * How much of the motion to apply; 0 leaves the boundary where it is. Default 1, any finite number.
    */
-  vtkSetMacro(ScaleFactor, double);
+  virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
   ///@}
 
@@ -226,7 +234,7 @@ public:
    * inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1, range
    * [0, 10]; 0 is as STAY.
    */
-  vtkSetClampMacro(FalloffRadius, double, 0.0, 10.0);
+  virtual void SetFalloffRadius(double value);
   vtkGetMacro(FalloffRadius, double);
   ///@}
 
@@ -265,9 +273,9 @@ public:
    * How the geometry is found: see vtkClassifyBoundary. Of a boundary on port 0, SurfaceIdArray is a
    * cell array of it.
    */
-  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  virtual void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);
-  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  virtual void SetCornerAngle(double value);
   vtkGetMacro(CornerAngle, double);
   vtkSetStringMacro(SurfaceIdArray);
   vtkGetStringMacro(SurfaceIdArray);

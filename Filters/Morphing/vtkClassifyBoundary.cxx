@@ -7,6 +7,7 @@
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
+#include "vtkMorphProperty.h"
 #include "vtkMorphSurface.h"
 
 #include <vtkDataObject.h>
@@ -20,6 +21,9 @@
 #include <numeric>
 
 vtkStandardNewMacro(vtkClassifyBoundary);
+
+vtkMorphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
 
 vtkClassifyBoundary::vtkClassifyBoundary()
 {
@@ -70,13 +74,13 @@ int vtkClassifyBoundary::RequestData(
       this->Classify(grid, outputVector, monitor);
     }
   };
-  const int done = vtkMorphExecution::Run(
+  vtkMorphExecution::Run(
     this, "classify this mesh's boundary", classify, [&] { this->Clear(outputVector); });
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningMacro(<< warning);
   }
-  return done;
+  return 1;
 }
 
 void vtkClassifyBoundary::Classify(
@@ -86,6 +90,7 @@ void vtkClassifyBoundary::Classify(
   vtkMorphInput::RequireVolumeCells(mesh);
   monitor.progress(0.1);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
+  vtkMorphSurface::WarnOfNone(faces, monitor);
 
   vtkMorphGeometry::Options options;
   options.FeatureAngle = this->FeatureAngle;

@@ -28,11 +28,12 @@
  * data, with the cell arrays `GeometryDimension` and `GeometryId`. Mid-side and face nodes of
  * quadratic cells belong to the edge or face they are in the middle of.
  *
- * Errors, with empty outputs: composite data (use Merge Blocks first), no volume cells, cells that
- * a morph does not support, coordinates that are not finite, arrays of the wrong type or length or
- * that contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives
- * empty outputs and no message. With several MPI processes an execution is collective. Cost: a
- * pass over the cells, and a sort of the boundary's edges.
+ * A mesh without any outer face gives a warning. Errors, with empty outputs: composite data (use
+ * Merge Blocks first), no volume cells, cells that a morph does not support, coordinates that are
+ * not finite or above 1e50, an extent below 1e-50, arrays of the wrong type or length or that
+ * contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives empty
+ * outputs and no message. With several MPI processes an execution is collective. Cost: a pass over
+ * the cells, and a sort of the boundary's edges.
  *
  * M. L. Staten et al., "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", Proc.
  * 20th Int. Meshing Roundtable (2011) 293-311.
@@ -70,7 +71,7 @@ public:
    * Neighboring boundary faces whose normals turn by more than this lie on different surfaces.
    * Degrees, default 25, range [0, 180].
    */
-  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  virtual void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);
   ///@}
 
@@ -79,7 +80,7 @@ public:
    * A curve that turns by more than this at a node has a vertex there. Degrees, default 45, range
    * [0, 180].
    */
-  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  virtual void SetCornerAngle(double value);
   vtkGetMacro(CornerAngle, double);
   ///@}
 

@@ -15,6 +15,7 @@
 #include "vtkMorphMonitor.h"
 #include "vtkMorphPeakMemory.h"
 #include "vtkMorphPorts.h"
+#include "vtkMorphProperty.h"
 #include "vtkMorphRanks.h"
 #include "vtkMorphSteps.h"
 #include "vtkSimplexLinearMorph.h"
@@ -24,7 +25,6 @@
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkCallbackCommand.h>
-#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
@@ -45,6 +45,11 @@
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkCompareMorphMethods);
+
+vtkMorphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
+vtkMorphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
+vtkMorphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
+vtkMorphSetNumberMacro(vtkCompareMorphMethods, RestTime)
 
 struct vtkCompareMorphMethods::vtkInternals
 {
@@ -90,8 +95,8 @@ std::string withoutOrigin(const std::string& message)
   return text;
 }
 
-/// Follows a filter at work inside another one: keeps its errors, the executive's too, off the console, and passes progress and
-/// abort on.
+/// Follows a filter at work inside another one: keeps its messages off the console, and passes
+/// progress and abort on.
 class Follower
 {
 public:
@@ -101,17 +106,17 @@ public:
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(Follower::Called);
-    this->Tags = { { filter, filter->AddObserver(vtkCommand::ErrorEvent, this->Command) },
-      { filter, filter->AddObserver(vtkCommand::WarningEvent, this->Command) },
-      { filter, filter->AddObserver(vtkCommand::ProgressEvent, this->Command) },
-      { filter->GetExecutive(),
-        filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command) } };
+    for (const auto event :
+      { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
+    {
+      this->Tags.push_back(filter->AddObserver(event, this->Command));
+    }
   }
   ~Follower()
   {
-    for (const auto& [object, tag] : this->Tags)
+    for (const unsigned long tag : this->Tags)
     {
-      object->RemoveObserver(tag);
+      this->Filter->RemoveObserver(tag);
     }
   }
   Follower(const Follower&) = delete;
@@ -126,7 +131,7 @@ public:
   }
 
 private:
-  static void Called(vtkObject* caller, unsigned long event, void* self, void* data)
+  static void Called(vtkObject*, unsigned long event, void* self, void* data)
   {
     auto* follower = static_cast<Follower*>(self);
     if (event == vtkCommand::ProgressEvent)
@@ -134,7 +139,7 @@ private:
       follower->Monitor.progress(*static_cast<double*>(data));
       follower->Filter->SetAbortExecute(follower->Monitor.cancelled());
     }
-    else if (caller == follower->Filter)
+    else
     {
       (event == vtkCommand::ErrorEvent ? follower->Errors : follower->Warnings)
         .push_back(withoutOrigin(static_cast<const char*>(data)));
@@ -145,7 +150,7 @@ private:
   morph::Monitor& Monitor;
   std::vector<std::string> Errors, Warnings;
   vtkNew<vtkCallbackCommand> Command;
-  std::vector<std::pair<vtkObject*, unsigned long>> Tags;
+  std::vector<unsigned long> Tags;
 };
 
 vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
@@ -172,12 +177,8 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
     Follower follower(filter, part);
     filter->UpdateTimeStep(times[i]);
     monitor.check();
-    const bool failed = filter->GetOutput()->GetNumberOfPoints() == 0;
-    std::vector<std::string> messages = follower.Messages();
-    if (failed && messages.empty())
-    {
-      messages.emplace_back("no mesh.");
-    }
+    const bool failed = std::string(filter->GetMorphStatus()) == "Failed";
+    const std::vector<std::string> messages = follower.Messages();
     for (const std::string& message : messages)
     {
       if (told.insert(message).second)
@@ -267,7 +268,7 @@ int vtkCompareMorphMethods::RequestData(
   {
     reset();
     vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
-    return 0;
+    return 1;
   }
   const vtkMorphPorts::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)

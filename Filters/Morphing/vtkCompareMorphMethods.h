@@ -24,11 +24,13 @@
  * valid for the most steps; among those, what has the higher least scaled Jacobian at the last valid
  * one, to 0.01; among those, what takes less time.
  *
- * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself are
- * those of a boundary or mesh that is missing or of a wrong type, no chosen method or stepping, and several
- * MPI processes; the outputs are empty then, and after an abort.
+ * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself
+ * are those of a boundary or mesh that is missing or of a wrong type, no chosen method or stepping,
+ * and several MPI processes; the outputs are empty then, and after an abort. Data sets and
+ * properties are checked as vtkMorphAlgorithm checks them.
  *
- * Cost: that of all methods and steps. Boundaries that vary are all fetched first and kept meanwhile.
+ * Cost: that of all methods and steps. Boundaries that vary are all fetched first and kept
+ * meanwhile: from within RequestData, for the reason that vtkMorphAlgorithm gives.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311:
@@ -112,7 +114,7 @@ public:
   ///@{
   /**
    * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps(). Default
-   * 20, as in the paper. Range [1, VTK_INT_MAX].
+   * 20, as in the paper. Range [1, 1000000]; what is beyond it becomes the nearest end.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -123,7 +125,7 @@ public:
    * LowScaledJacobian is the value that this percentage of the cells lie below. Default 1, range [0,
    * 100].
    */
-  vtkSetClampMacro(Percentile, double, 0.0, 100.0);
+  virtual void SetPercentile(double value);
   vtkGetMacro(Percentile, double);
   ///@}
 
@@ -135,14 +137,14 @@ public:
   vtkGetStringMacro(BoundaryIdArray);
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);
-  vtkSetMacro(ScaleFactor, double);
+  virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
-  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  virtual void SetMatchTolerance(double value);
   vtkGetMacro(MatchTolerance, double);
   vtkSetMacro(HoldUnnamedBoundary, bool);
   vtkGetMacro(HoldUnnamedBoundary, bool);
   vtkBooleanMacro(HoldUnnamedBoundary, bool);
-  vtkSetMacro(RestTime, double);
+  virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);

@@ -14,6 +14,8 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <string>
+
 vtkStandardNewMacro(vtkExtractMorphBoundary);
 
 vtkExtractMorphBoundary::vtkExtractMorphBoundary() = default;
@@ -31,6 +33,7 @@ int vtkExtractMorphBoundary::RequestData(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  vtkMorphMonitor monitor(this, this->NumberOfThreads);
   const auto extract = [&]
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
@@ -38,22 +41,28 @@ int vtkExtractMorphBoundary::RequestData(
     grid = vtkMorphInput::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {
-      this->Extract(grid, output);
+      this->Extract(grid, output, monitor);
     }
   };
-  return vtkMorphExecution::Run(
+  vtkMorphExecution::Run(
     this, "extract this mesh's boundary", extract, [&] { output->Initialize(); });
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return 1;
 }
 
-void vtkExtractMorphBoundary::Extract(vtkUnstructuredGrid* grid, vtkPolyData* output)
+void vtkExtractMorphBoundary::Extract(
+  vtkUnstructuredGrid* grid, vtkPolyData* output, vtkMorphMonitor& monitor)
 {
-  vtkMorphMonitor monitor(this, this->NumberOfThreads);
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
   vtkMorphInput::RequireVolumeCells(mesh);
   monitor.progress(0.2);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   monitor.progress(0.6);
   monitor.check();
+  vtkMorphSurface::WarnOfNone(faces, monitor);
   vtkMorphSurface::Write(grid, mesh, faces, output);
 }
 

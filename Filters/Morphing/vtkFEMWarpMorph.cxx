@@ -2,10 +2,13 @@
 #include "vtkFEMWarpMorph.h"
 
 #include "FemWarp.h"
+#include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkFEMWarpMorph);
+
+vtkMorphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
 
 vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
 vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;

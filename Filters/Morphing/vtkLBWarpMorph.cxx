@@ -2,10 +2,13 @@
 #include "vtkLBWarpMorph.h"
 
 #include "LogBarrierWarp.h"
+#include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkLBWarpMorph);
+
+vtkMorphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
 
 vtkLBWarpMorph::vtkLBWarpMorph() = default;
 vtkLBWarpMorph::~vtkLBWarpMorph() = default;

@@ -42,7 +42,7 @@ public:
    * Residual, relative to the right-hand side and for each coordinate, at which the solver stops.
    * Changing it does not prepare anew. Default 1e-10, range [1e-15, 0.999].
    */
-  vtkSetClampMacro(Tolerance, double, 1e-15, 0.999);
+  virtual void SetTolerance(double value);
   vtkGetMacro(Tolerance, double);
   ///@}
 

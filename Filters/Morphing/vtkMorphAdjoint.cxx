@@ -55,7 +55,7 @@ vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
   return nullptr;
 }
 
-vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
+vtkDataArray* requireGradient(vtkPointSet* carrier, const std::string& name)
 {
   if (name.empty())
   {
@@ -63,8 +63,7 @@ vtkDataArray* requireGradient(vtkDataObject* carrier, const std::string& name)
       "GradientArray is not set: name the point array that holds the derivatives of the "
       "objective with respect to the nodes.");
   }
-  vtkPointSet* points = vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
-  vtkDataArray* array = points->GetPointData()->GetArray(name.c_str());
+  vtkDataArray* array = carrier->GetPointData()->GetArray(name.c_str());
   if (!array)
   {
     throw morph::Error("GradientArray names '" + name +
@@ -197,7 +196,11 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
                        "the gradient on port 2 by a pipeline with that filter in it.");
   }
   vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
-  vtkDataArray* gradient = requireGradient(carrier, vtkMorphInput::ArrayName(this->GradientArray));
+  // The mesh was looked at before.
+  vtkPointSet* holder = carrier == rest
+                          ? rest
+                          : vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
+  vtkDataArray* gradient = requireGradient(holder, vtkMorphInput::ArrayName(this->GradientArray));
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");
   morph->Transpose(rest, points, gradient, result, monitor);

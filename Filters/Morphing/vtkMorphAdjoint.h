@@ -24,7 +24,8 @@
  * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of the method
  * alone, and a warning says so.
  *
- * Time: as vtkMorphAlgorithm's; port 2 is asked for the time that the output is.
+ * Time: as vtkMorphAlgorithm's, updates from within RequestData included; port 2 is asked for the
+ * time that the output is.
  *
  * Errors give no result: one message, and an empty output. Among them: no method, one that is not linear, no
  * gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.

@@ -9,6 +9,7 @@
 #include "vtkMorphBadCells.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphCrewMonitor.h"
+#include "vtkMorphDataCheck.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphGradient.h"
 #include "vtkMorphInput.h"
@@ -16,6 +17,7 @@
 #include "vtkMorphMonitor.h"
 #include "vtkMorphOutput.h"
 #include "vtkMorphPorts.h"
+#include "vtkMorphProperty.h"
 #include "vtkMorphQuality.h"
 #include "vtkMorphRanks.h"
 #include "vtkMorphSeries.h"
@@ -131,6 +133,11 @@ void vtkMorphAlgorithm::vtkInternals::CheckSeries(vtkMTimeType own, vtkMTimeType
   this->BoundaryTime = boundary;
 }
 
+vtkMorphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
+vtkMorphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
+vtkMorphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
+vtkMorphSetNumberMacro(vtkMorphAlgorithm, RestTime)
+
 vtkMorphAlgorithm::vtkMorphAlgorithm()
   : Internals(new vtkInternals(this))
 {
@@ -210,43 +217,53 @@ int vtkMorphAlgorithm::RequestData(
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkInternals& kept = *this->Internals;
   std::string partial;
-  vtkSmartPointer<vtkUnstructuredGrid> rest;
   // A process without cells has no series, and would not know which step to ask the boundary for.
   if (kept.IsSeries(this->Stepping) && kept.Steps.FromBoundary() && vtkMorphRanks::Count(true) > 1)
   {
     this->ResetResults();
     vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
                   "Run on one, or set Stepping to Absolute.");
-    return 0;
+    this->WriteUndeformed(nullptr, "Failed", output);
+    return 1;
   }
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    {
-      rest = grid;
-      partial = this->Morph(grid, boundary, output, badCells, monitor);
-    } };
+    { partial = this->Morph(grid, boundary, output, badCells, monitor); },
+    [&](vtkDataObject* input, const char* status)
+    { this->WriteUndeformed(input, status, output); } };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
-  if (done && kept.Steps.Any() && !kept.Steps.FromBoundary())
+  if (kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
     for (vtkUnstructuredGrid* data : { output, badCells })
     {
       data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
     }
   }
-  if (done && rest && output->GetNumberOfPoints() == 0 && vtkMorphVersion::AbortRequested(this))
-  {
-    // Whoever stops a drag midway wants to see the mesh it began with.
-    vtkMorphVersion::KeepAbortedOutput(this);
-    output->ShallowCopy(rest);
-    kept.Status = "Cancelled";
-    vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
-  }
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
   }
   return done;
+}
+
+void vtkMorphAlgorithm::WriteUndeformed(
+  vtkDataObject* input, const char* status, vtkUnstructuredGrid* output)
+{
+  // Who stops a drag midway, or makes a mistake, wants to see the mesh it began with.
+  if (vtkMorphVersion::AbortRequested(this))
+  {
+    vtkMorphVersion::KeepAbortedOutput(this);
+  }
+  output->Initialize();
+  if (vtkMorphInput::IsReadable(input))
+  {
+    output->ShallowCopy(input);
+  }
+  this->Internals->Status = status;
+  vtkMorphOutput::AddField(output, "MorphStatus", status);
+  vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
+  vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
 }
 
 std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
@@ -313,6 +330,8 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
   }
   auto [step, result] = kept.Series.LastUntil(kept.Step);
   const double first = step;
+  constexpr int Most = 10; // messages about steps before the last; a million help nobody
+  int partial = 0;
   while (step < kept.Step)
   {
     ++step;
@@ -339,11 +358,15 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     {
       throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
     }
-    if (step < kept.Step && !result->Valid.Error.empty())
+    if (step < kept.Step && !result->Valid.Error.empty() && ++partial <= Most)
     {
       monitor.warn("Step " + std::to_string(step) + ": " + result->Valid.Error);
     }
     kept.Series.Keep(step, result, this->StepMemoryLimit);
+  }
+  if (partial > Most)
+  {
+    monitor.warn(std::to_string(partial - Most) + " more steps came only part of the way.");
   }
   return result;
 }
@@ -374,10 +397,12 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
   const auto start = Clock::now();
   vtkMorphStepResult result;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, result.Moved, monitor);
-  if (!result.Moved.allFinite())
+  if (const auto wrong = vtkMorphDataCheck::Immoderate(result.Moved); !wrong.empty())
   {
-    throw morph::Error("The method gave positions that are not finite. Check the boundary for "
-                       "huge values, and the mesh for cells without volume.");
+    throw morph::Error("The method gave positions that are not finite or beyond 1e50, at node ids " +
+                       morph::listIds(wrong) +
+                       ". Check the boundary for huge values, and the mesh for cells without "
+                       "volume.");
   }
   result.Counts = report.counts;
   if (this->PostSmooth)
@@ -445,6 +470,15 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   const morph::Quality quality =
     known ? result.Valid.Measured
           : vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
+  if (kept.Status != "Inverted" && quality.inverted + quality.degenerate > 0)
+  {
+    // The mesh in double precision is valid, and what is written is not.
+    kept.Status = "Inverted";
+    this->LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+    monitor.warn("Rounding to single precision inverts " +
+                 std::to_string(quality.inverted + quality.degenerate) +
+                 " cells. Set OutputPointsPrecision to double.");
+  }
   vtkMorphQuality::Write(quality, output);
   vtkMorphQuality::RemoveCertificate(output);
   if (this->Certify)
@@ -484,7 +518,7 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
 {
   vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
-  const int done = vtkMorphExecution::Run(
+  const vtkMorphExecution::Outcome outcome = vtkMorphExecution::Run(
     this, "apply the adjoint",
     [&]
     {
@@ -496,7 +530,7 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
   {
     vtkWarningMacro(<< warning);
   }
-  return done != 0;
+  return outcome != vtkMorphExecution::Outcome::Failed;
 }
 
 void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
@@ -550,10 +584,11 @@ vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
 void vtkMorphAlgorithm::ResetResults()
 {
   this->Internals->Counts.clear();
-  this->MinScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  // No loop that looks for 0 inverted cells, or for a minimum above 0, passes without a result.
+  this->MinScaledJacobian = -1;
   this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
-  this->InvertedCells = 0;
-  this->DegenerateCells = 0;
+  this->InvertedCells = -1;
+  this->DegenerateCells = -1;
   this->WorstCellId = -1;
   this->BoundaryInvertedCells = 0;
   this->CertifiedCells = 0;

@@ -45,13 +45,28 @@
  * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
  * asked for RestTime. Stepping tells whether a step starts from the mesh at rest or from the mesh of the step before.
  *
- * Errors give no result: one message, and empty outputs. Among them: composite data (use Merge
- * Blocks first), no points, no volume cells, cells of other types than tetrahedra, hexahedra, voxels, wedges,
- * pyramids and their quadratic forms, coordinates that are not finite, no way to match the
- * boundary, arrays that are not numeric or not as long as port 1 has points, ids that do not exist,
- * a node with two targets, ids that RestPosition contradicts, a ScaleFactor that is not finite,
- * cells on more than one MPI rank, relative steps after a boundary that varies in time on several processes. An execution that is aborted gives the mesh at
- * rest (MorphStatus "Cancelled") and no message. Inverted cells are no error by themselves: see Validity.
+ * After an error there is one message, and output 0 is the undeformed mesh, as port 0 has it, or
+ * empty where that cannot be read; MorphStatus is "Failed", and InvertedCells and MinScaledJacobian
+ * are -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
+ * the errors: composite data (use Merge Blocks first), no points, no volume cells, cells of other
+ * types than tetrahedra, hexahedra, voxels, wedges, pyramids and their quadratic forms, no way to
+ * match the boundary, a node with two targets, ids that RestPosition contradicts, cells on more
+ * than one MPI rank, relative steps after a boundary that varies in time on several processes. Data
+ * sets on any port are refused where an array has fewer values than there are points or cells,
+ * where cells name points that do not exist, where coordinates are not finite or above 1e50, and
+ * where their largest extent is below 1e-50 but not 0; so are motions beyond 1e50, and in single
+ * precision beyond 3.4e38. An execution that is aborted gives the undeformed mesh (MorphStatus
+ * "Cancelled", the same -1) and no message. Inverted cells are no error by themselves: see
+ * Validity.
+ *
+ * A property that is a floating-point number takes no NaN, no infinity and nothing outside its
+ * range: the setter raises an error, and the old value stays. Integers outside their range become
+ * the nearest end of it, as usual in VTK.
+ *
+ * Where a port's data have to be had at another time than the pipeline has left them at (one reader
+ * on both ports, relative steps that were skipped), this filter updates what is connected to it
+ * from within RequestData. CONTINUE_EXECUTING is not used: VTK's executive repeats without end
+ * where the input fails in a repeated execution.
  *
  * With several MPI processes an execution is collective: it has to take place on all of them.
  *
@@ -127,7 +142,7 @@ public:
    * How much of the boundary's motion to apply: target = rest + ScaleFactor (target - rest). 0
    * gives the rest positions and 1 the targets, bit for bit. Default 1, any finite number.
    */
-  vtkSetMacro(ScaleFactor, double);
+  virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
   ///@}
 
@@ -137,7 +152,7 @@ public:
    * steps 0 (at rest), 1, ..., NumberOfSteps, and at step i the boundary has made i / NumberOfSteps of ScaleFactor's
    * motion. Between steps the one before counts; where no time is asked for, the last. A boundary with several time steps
    * has its own and this is without effect; one with a time range alone is taken at the ends of that many equal parts of
-   * it. Default 0: no steps. Range [0, VTK_INT_MAX].
+   * it. Default 0: no steps. Range [0, 1000000]; what is beyond it becomes the nearest end.
    */
   vtkSetClampMacro(NumberOfSteps, int, 0, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -170,7 +185,7 @@ public:
    * going back to it takes some steps again; the result does not depend on it. The last one is kept in
    * any case. Default 1000, range [0, 1e12].
    */
-  vtkSetClampMacro(StepMemoryLimit, double, 0.0, 1e12);
+  virtual void SetStepMemoryLimit(double value);
   vtkGetMacro(StepMemoryLimit, double);
   ///@}
 
@@ -180,7 +195,7 @@ public:
    * are found by position, the point itself. In units of the diagonal of the bounding box of the
    * volume cells' nodes. Default 1e-6, range [0, 1].
    */
-  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  virtual void SetMatchTolerance(double value);
   vtkGetMacro(MatchTolerance, double);
   ///@}
 
@@ -213,7 +228,7 @@ public:
    * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared anew at each step.
    * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where that fails, sub-steps of
    * vtkInversionFreeMorph.
-   * Refuse: an error that names them, and an empty output.
+   * Refuse: an error that names them, and the undeformed mesh.
    *
    * With the last three a boundary that inverts cells by itself, at corners whose nodes it all prescribes, is refused at once, naming
    * these cells. Where SubStep and Repair find no valid mesh for the whole motion there is an error, but the output is the
@@ -275,14 +290,15 @@ public:
    * first step where all are after it. Default -1e300, so the first. No matter where port 0 has no
    * time steps.
    */
-  vtkSetMacro(RestTime, double);
+  virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
   ///@}
 
   ///@{
   /**
-   * Threads to compute with; they are std::threads, whatever backend vtkSMPTools uses by default. 0
-   * means all cores. The result does not depend on it. Default 0, range [0, VTK_INT_MAX].
+   * Threads to compute with, by the backend that vtkSMPTools uses, or, where that is Sequential (as
+   * ParaView's is by default), by std::threads. 0 means as many as the backend has, or all cores.
+   * The result depends neither on it nor on the backend. Default 0, range [0, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
@@ -300,8 +316,8 @@ public:
 
   ///@{
   /**
-   * Quality of the output as of the last execution; see vtkScaledJacobian. NaN, 0 and -1 where
-   * there was no result.
+   * Quality of the output as of the last execution; see vtkScaledJacobian. Where there was no
+   * result all are -1 but the mean, which is NaN: no test for 0 passes after an error.
    */
   vtkGetMacro(MinScaledJacobian, double);
   vtkGetMacro(MeanScaledJacobian, double);
@@ -337,9 +353,10 @@ public:
 
   ///@{
   /**
-   * How the last execution ended: "Valid"; "Inverted", with cells that are; "SubStepped" or "Repaired", valid with the help of
-   * Validity; "Partial", valid but not all the way; "Cancelled", the mesh at rest; "None" where there was no result. The field
-   * data MorphStatus holds it too.
+   * How the last execution ended: "Valid"; "Inverted", with cells that are; "SubStepped" or
+   * "Repaired", valid with the help of Validity; "Partial", valid but not all the way; "Cancelled"
+   * or, after an error, "Failed", with the undeformed mesh; "None" before there was an execution.
+   * The field data MorphStatus holds it too.
    */
   const char* GetMorphStatus() const;
   ///@}
@@ -438,6 +455,8 @@ private:
   friend class vtkMorphAdjoint;
 
   void ResetResults();
+  /// Makes `output` the undeformed mesh, where that can be read, without a result.
+  void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
   /// ApplyTranspose() that throws.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
     vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);

@@ -14,6 +14,7 @@
 #include "vtkMorphMonitor.h"
 #include "vtkMorphOutput.h"
 #include "vtkMorphPorts.h"
+#include "vtkMorphProperty.h"
 #include "vtkMorphSurface.h"
 #include "vtkMorphTarget.h"
 
@@ -34,6 +35,14 @@
 #include <limits>
 
 vtkStandardNewMacro(vtkMorphBoundary);
+
+vtkMorphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
+vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
+vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
+vtkMorphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
+vtkMorphSetNumberMacro(vtkMorphBoundary, RestTime)
 
 struct vtkMorphBoundary::vtkInternals
 {
@@ -217,7 +226,12 @@ int vtkMorphBoundary::RequestData(
   const vtkMorphPorts::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { this->Morph(grid, boundary, target, output, monitor); } };
+    { this->Morph(grid, boundary, target, output, monitor); },
+    [&](vtkDataObject*, const char*)
+    {
+      vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
+      vtkMorphOutput::AddField(output, "FoldedFaces", static_cast<int>(this->FoldedFaces));
+    } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
 
@@ -230,6 +244,7 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
   vtkMorphInput::RequireVolumeCells(mesh);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
+  vtkMorphSurface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
   vtkMorphGeometry::Options options;
   options.FeatureAngle = this->FeatureAngle;
@@ -295,6 +310,7 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
 
   const bool isFloat = vtkMorphOutput::IsFloat(grid, this->OutputPointsPrecision);
   morph::Points moved = motion.moved();
+  vtkMorphOutput::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
   if (isFloat)
   {
     moved = moved.cast<float>().cast<double>().eval();
@@ -355,9 +371,9 @@ void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
 
 void vtkMorphBoundary::ResetResults()
 {
-  this->MinScaledJacobian = std::numeric_limits<double>::quiet_NaN();
+  this->MinScaledJacobian = -1;
   this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
-  this->FoldedFaces = 0;
+  this->FoldedFaces = -1;
   this->GivenPoints = 0;
   this->HeldVertices = 0;
   this->ProjectedPoints = 0;

@@ -35,13 +35,16 @@
  * data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints, UnprojectedPoints. No
  * motion gives the rest positions bit for bit.
  *
- * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime.
+ * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime. Where one
+ * reader is on both ports it is updated from within RequestData, for the reason that
+ * vtkMorphAlgorithm gives.
  *
- * Errors, with an empty output: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports; port
- * 1 names no node of a dimension up to PrescribedDimension; a target without polygons. An execution
- * that is aborted gives an empty output and no message. With several MPI processes an execution is
- * collective. Cost: a search for the nearest
- * curve nodes for each surface node, and a few in the target.
+ * Errors: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports, the target's included;
+ * port 1 names no node of a dimension up to PrescribedDimension; a target without polygons. The
+ * output is then empty, not the boundary where it was: a morph would take that for a motion of
+ * nothing. MinScaledJacobian and FoldedFaces are then -1. An execution that is aborted gives the
+ * same, and no message. With several MPI processes an execution is collective. Cost: a search for
+ * the nearest curve nodes for each surface node, and a few in the target.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -143,9 +146,9 @@ public:
    * How the geometry is found: see vtkClassifyBoundary. FeatureAngle is also that between the faces
    * of the target.
    */
-  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  virtual void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);
-  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  virtual void SetCornerAngle(double value);
   vtkGetMacro(CornerAngle, double);
   vtkSetStringMacro(SurfaceIdArray);
   vtkGetStringMacro(SurfaceIdArray);
@@ -165,9 +168,9 @@ public:
   vtkGetStringMacro(BoundaryIdArray);
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);
-  vtkSetMacro(ScaleFactor, double);
+  virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
-  vtkSetClampMacro(MatchTolerance, double, 0.0, 1.0);
+  virtual void SetMatchTolerance(double value);
   vtkGetMacro(MatchTolerance, double);
   ///@}
 
@@ -176,7 +179,7 @@ public:
    * How far a node may go to the target, in units of the diagonal of the bounding box of the volume
    * cells' nodes. Default 0.1, range [0, 10].
    */
-  vtkSetClampMacro(ProjectionDistance, double, 0.0, 10.0);
+  virtual void SetProjectionDistance(double value);
   vtkGetMacro(ProjectionDistance, double);
   ///@}
 
@@ -186,7 +189,7 @@ public:
    * projected: keeps nodes of a thin wall from the wall's other side. The target's normals may all
    * point inwards. Degrees, default 60, range [0, 180].
    */
-  vtkSetClampMacro(ProjectionAngle, double, 0.0, 180.0);
+  virtual void SetProjectionAngle(double value);
   vtkGetMacro(ProjectionAngle, double);
   ///@}
 
@@ -194,7 +197,7 @@ public:
   /**
    * The time at which port 0 is at rest; see vtkMorphAlgorithm. Default -1e300, so the first.
    */
-  vtkSetMacro(RestTime, double);
+  virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
   ///@}
 
@@ -218,7 +221,8 @@ public:
 
   ///@{
   /**
-   * Quality of the moved faces as of the last execution: NaN and 0 where there was no result.
+   * Quality of the moved faces as of the last execution: -1 where there was no result, but for the
+   * mean, which is then NaN.
    */
   vtkGetMacro(MinScaledJacobian, double);
   vtkGetMacro(MeanScaledJacobian, double);

@@ -2,6 +2,7 @@
 #include "vtkMorphBoundaryMatch.h"
 
 #include "Error.h"
+#include "vtkMorphDataCheck.h"
 #include "vtkMorphMesh.h"
 
 #include <vtkAbstractArray.h>
@@ -13,6 +14,8 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStaticPointLocator.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +83,7 @@ vtkDataArray* findArray(vtkPointSet* boundary, const std::string& name)
     throw Error("The boundary's point array " + quoted(name) + " has " +
                 std::to_string(array->GetNumberOfTuples()) + " tuples for " +
                 std::to_string(boundary->GetNumberOfPoints()) +
-                " points. Give it one for each point, or remove it.");
+                " points. Give it one for each, or remove the array.");
   }
   return numbers;
 }
@@ -163,12 +166,16 @@ Pairs byPosition(const Points& positions, const morph::Mesh& rest, const std::ve
   locator->BuildLocator();
 
   Pairs pairs;
+  // The locator turns places into bucket numbers, and those far outside overflow.
+  const Eigen::AlignedBox3d box(rest.points.colwise().minCoeff().transpose() -
+      Eigen::Vector3d::Constant(tolerance),
+    rest.points.colwise().maxCoeff().transpose() + Eigen::Vector3d::Constant(tolerance));
   std::vector<std::uint8_t> taken(rest.numberOfNodes(), 0);
   for (Index i = 0; i < positions.rows(); ++i)
   {
     double distance2 = 0;
     const vtkIdType closest =
-      positions.row(i).allFinite()
+      box.contains(positions.row(i).transpose())
         ? locator->FindClosestPointWithinRadius(tolerance, positions.row(i).data(), distance2)
         : -1;
     if (closest < 0)
@@ -353,7 +360,7 @@ Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pai
       requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
   }
   Points targets(static_cast<Index>(pairs.size()), 3);
-  std::vector<Index> notFinite;
+  std::vector<Index> notFinite, huge;
   for (std::size_t k = 0; k < pairs.size(); ++k)
   {
     const auto [point, node] = pairs[k];
@@ -368,6 +375,10 @@ Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pai
     {
       notFinite.push_back(node);
     }
+    else if (!vtkMorphDataCheck::IsModerate(to))
+    {
+      huge.push_back(node);
+    }
   }
   if (!notFinite.empty())
   {
@@ -375,6 +386,11 @@ Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pai
       "The boundary has coordinates or displacements that are not finite (NaN or infinite), "
       "at node ids " +
       morph::listIds(notFinite) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error("The boundary moves nodes beyond 1e50, at node ids " + morph::listIds(huge) +
+                ". Use another unit, or correct the displacements.");
   }
   return targets;
 }
@@ -406,10 +422,6 @@ namespace vtkMorphBoundaryMatch
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options)
 {
-  if (!std::isfinite(options.ScaleFactor))
-  {
-    throw Error("ScaleFactor is " + text(options.ScaleFactor) + "; it has to be a finite number.");
-  }
   const Points positions = vtkMorphMesh::FromPoints(boundary->GetPoints());
   if (positions.rows() == 0)
   {
@@ -457,6 +469,7 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
     }
   }
   const double scale = options.ScaleFactor;
+  std::vector<Index> huge;
   result.Targets.resize(static_cast<Index>(result.Ids.size()), 3);
   for (std::size_t k = 0; k < result.Ids.size(); ++k)
   {
@@ -476,6 +489,15 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
     {
       to = from + scale * (targets.row(r) - from);
     }
+    if (!vtkMorphDataCheck::IsModerate(to))
+    {
+      huge.push_back(result.Ids[k]);
+    }
+  }
+  if (!huge.empty())
+  {
+    throw Error("ScaleFactor " + text(scale) + " moves nodes beyond 1e50, at node ids " +
+                morph::listIds(huge) + ". Lower it.");
   }
   if (result.Unmatched > 0)
   {

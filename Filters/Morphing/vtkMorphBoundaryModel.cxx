@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "FaceAreas.h"
 #include "vtkMorphBoundaryMatch.h"
+#include "vtkMorphDataCheck.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphSurface.h"
@@ -71,21 +72,24 @@ vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int compo
   return array;
 }
 
-morph::Points finitePoints(morph::Points points, const char* what)
+/// Coordinates that cannot be computed with are refused; `what`: "coordinates".
+morph::Points moderatePoints(morph::Points points, const char* what)
 {
-  std::vector<Index> wrong;
-  for (Index n = 0; n < points.rows(); ++n)
+  std::vector<Index> notFinite, huge;
+  for (const Index n : vtkMorphDataCheck::Immoderate(points))
   {
-    if (!points.row(n).allFinite())
-    {
-      wrong.push_back(n);
-    }
+    (points.row(n).allFinite() ? huge : notFinite).push_back(n);
   }
-  if (!wrong.empty())
+  if (!notFinite.empty())
   {
     throw Error(std::string("The input has ") + what +
-                " that are not finite (NaN or infinite), at its points " + morph::listIds(wrong) +
-                ".");
+                " that are not finite (NaN or infinite), at its points " +
+                morph::listIds(notFinite) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error(std::string("The input has ") + what + " above 1e50, at its points " +
+                morph::listIds(huge) + ".");
   }
   return points;
 }
@@ -103,9 +107,7 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
     const vtkIdType* begin = corners->GetPointer(0);
     faces.connectivity.insert(faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
     faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
-    const bool isInside = std::all_of(begin, begin + corners->GetNumberOfIds(),
-      [&](vtkIdType p) { return p >= 0 && p < surface->GetNumberOfPoints(); });
-    if (!isInside || corners->GetNumberOfIds() < 3)
+    if (corners->GetNumberOfIds() < 3)
     {
       wrong.push_back(surface->GetNumberOfVerts() + surface->GetNumberOfLines() + c);
     }
@@ -118,15 +120,19 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
   }
   if (!wrong.empty())
   {
-    throw Error("The input has polygons with fewer than three points or with points that do not "
-                "exist: its cells " +
-                morph::listIds(wrong) + ".");
+    throw Error("The input has polygons with fewer than three points: its cells " +
+                morph::listIds(wrong) + ". Remove them.");
   }
   faces.nodes = faces.connectivity;
   std::sort(faces.nodes.begin(), faces.nodes.end());
   faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
   faces.between.offsets.assign(faces.nodes.size() + 1, 0);
   return faces;
+}
+
+bool samePoints(const morph::Points& a, const morph::Points& b)
+{
+  return a.rows() == b.rows() && a == b; // Eigen reads past the end of the shorter one
 }
 
 bool sameFaces(const morph::BoundaryFaces& a, const morph::BoundaryFaces& b)
@@ -201,13 +207,13 @@ void vtkMorphBoundaryModel::TakeSurface(vtkPolyData* surface,
 {
   morph::BoundaryFaces faces = polygons(surface);
   requireExtracted(surface, vtkMorphBoundaryMatch::IdName, 1);
-  morph::Points rest = finitePoints(
+  morph::Points rest = moderatePoints(
     vtkMorphMesh::FromVectors(requireExtracted(surface, vtkMorphBoundaryMatch::RestName, 3)),
     "values of RestPosition");
   morph::Points points =
-    finitePoints(vtkMorphMesh::FromPoints(surface->GetPoints()), "coordinates");
+    moderatePoints(vtkMorphMesh::FromPoints(surface->GetPoints()), "coordinates");
   const bool sameGeometry =
-    next.GeometryKey == geometryKey && sameFaces(next.Faces, faces) && next.Rest == rest;
+    next.GeometryKey == geometryKey && sameFaces(next.Faces, faces) && samePoints(next.Rest, rest);
   if (!sameGeometry)
   {
     next.Geometry = vtkMorphGeometry::Classify(surface, rest, faces, options, monitor);
@@ -217,7 +223,7 @@ void vtkMorphBoundaryModel::TakeSurface(vtkPolyData* surface,
     next.BodyOfNode.assign(points.rows(), -1);
     ++this->Classified;
   }
-  if (!sameGeometry || next.Mesh.points != points)
+  if (!sameGeometry || !samePoints(next.Mesh.points, points))
   {
     next.MotionVersion = ++this->Versions;
   }

@@ -25,6 +25,11 @@ public:
     vtkPointSet* input, const vtkMorphGeometry::Options& options, morph::Monitor& monitor);
 
   const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< where they are
+  /// Where they were: a surface's RestPosition, and a grid's own points.
+  const morph::Points& Rest() const
+  {
+    return this->Kept.Mesh.numberOfCells() > 0 ? this->Kept.Mesh.points : this->Kept.Rest;
+  }
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
   /// Of a surface: at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }

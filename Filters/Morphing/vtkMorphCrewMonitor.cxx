@@ -147,6 +147,11 @@ void vtkMorphCrewMonitor::parallelFor(morph::Index n, morph::Index grain,
     body(0, n);
     return;
   }
+  if (!IsSequential())
+  {
+    this->vtkMorphMonitor::parallelFor(n, grain, body);
+    return;
+  }
   if (!this->Members)
   {
     this->Members = std::make_unique<Crew>(this->GetThreads() - 1);

@@ -54,6 +54,8 @@ namespace vtkMorphDisplacedSurface
 void Write(const vtkMorphBoundaryModel& model, const vtkMorphSpread::Result& result,
   vtkPointSet* input, int precision, vtkPolyData* output)
 {
+  vtkMorphOutput::RequireWritable(model.Rest(), result.Moved,
+    vtkMorphOutput::IsFloat(input, precision), "the boundary's nodes");
   output->ShallowCopy(model.Surface());
   if (vtkMorphOutput::IsFloat(input, precision))
   {

@@ -12,7 +12,7 @@
 
 namespace vtkMorphExecution
 {
-int Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
+Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
   const std::function<void()>& clear)
 {
   bool cancelled = false;
@@ -44,6 +44,10 @@ int Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& wor
   {
     vtkErrorWithObjectMacro(filter, << problem);
   }
-  return outcome == vtkMorphRanks::Outcome::Success ? 1 : 0;
+  if (outcome != vtkMorphRanks::Outcome::Success)
+  {
+    return Outcome::Failed;
+  }
+  return cancelled ? Outcome::Cancelled : Outcome::Done;
 }
 }

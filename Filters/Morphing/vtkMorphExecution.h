@@ -9,11 +9,19 @@ class vtkAlgorithm;
 /// The frame of every filter's RequestData: nothing that is thrown reaches VTK.
 namespace vtkMorphExecution
 {
-/// Calls `work` on each MPI process, and returns what RequestData has to. Where it throws on any of
-/// them, all of them call `clear`, and one reports the error, as one of `filter`'s; where
-/// it was cancelled `clear` is called, and nobody is told: whoever cancelled knows. `task`: what
-/// there may be too little memory for ("morph this mesh").
-int Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
+enum class Outcome
+{
+  Done,
+  Cancelled,
+  Failed
+};
+
+/// Calls `work` on each MPI process. Where it throws on any of them, all of them call `clear`, and
+/// one reports the error, as one of `filter`'s; where it was cancelled `clear` is called, and
+/// nobody is told: whoever cancelled knows. RequestData has to return 1 in any case: after a 0 the
+/// executive adds ten lines of its own. `task`: what there may be too little memory for ("morph
+/// this mesh").
+Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
   const std::function<void()>& clear);
 }
 

@@ -44,6 +44,11 @@ morph::Points Require(vtkDataArray* gradient, vtkIdType nodes)
 void Gather(const morph::Points& prescribed, const std::vector<morph::Index>& sources,
   vtkIdType points, vtkDoubleArray* result)
 {
+  if (!prescribed.allFinite())
+  {
+    throw morph::Error("The gradient with respect to the boundary is not finite. Scale the "
+                       "objective, so that its derivatives are smaller.");
+  }
   result->SetNumberOfComponents(3);
   result->SetNumberOfTuples(points);
   result->Fill(0);

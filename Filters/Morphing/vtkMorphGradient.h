@@ -19,7 +19,8 @@ namespace vtkMorphGradient
 morph::Points Require(vtkDataArray* gradient, vtkIdType nodes);
 
 /// `prescribed`: #prescribed x 3. `sources`: #prescribed, each node's boundary point, or -1. `result`: becomes
-/// #points tuples, each the sum over the nodes that follow the point.
+/// #points tuples, each the sum over the nodes that follow the point. Throws morph::Error where
+/// `prescribed` is not finite.
 void Gather(const morph::Points& prescribed, const std::vector<morph::Index>& sources,
   vtkIdType points, vtkDoubleArray* result);
 }

@@ -3,14 +3,18 @@
 
 #include "CellShape.h"
 #include "Error.h"
+#include "vtkMorphDataCheck.h"
+#include "vtkMorphMesh.h"
 #include "vtkMorphRanks.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <exception>
 #include <string>
 
 namespace
@@ -35,10 +39,11 @@ namespace
 bool hasVolumeCells(vtkDataObject* data)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  vtkUnsignedCharArray* types = grid ? grid->GetCellTypesArray() : nullptr;
+  const vtkIdType cells = types ? std::min(types->GetNumberOfValues(), grid->GetNumberOfCells()) : 0;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
   {
-    const morph::CellShape* shape =
-      morph::cellShape(static_cast<std::uint8_t>(grid->GetCellType(cell)));
+    const morph::CellShape* shape = morph::cellShape(types->GetValue(cell));
     if (shape && shape->dimension == 3)
     {
       return true;
@@ -54,6 +59,7 @@ vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port)
 {
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
   {
+    vtkMorphDataCheck::Require(grid, port, vtkMorphDataCheck::Cells::InCore);
     return grid;
   }
   refuse(input, port, "an unstructured grid (Append Datasets makes one of any data set)");
@@ -63,6 +69,7 @@ vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
 {
   if (auto* points = vtkPointSet::SafeDownCast(input))
   {
+    vtkMorphDataCheck::Require(points, port);
     return points;
   }
   refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
@@ -97,6 +104,7 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(input))
   {
+    vtkMorphDataCheck::Require(surface, port);
     return surface;
   }
   refuse(input, port, "polygonal data (Extract Surface makes it)");
@@ -104,13 +112,30 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
 
 vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
 {
-  if (vtkUnstructuredGrid::SafeDownCast(input) || vtkPolyData::SafeDownCast(input))
+  if (vtkUnstructuredGrid::SafeDownCast(input))
   {
-    return vtkPointSet::SafeDownCast(input);
+    return RequireGrid(input, port);
+  }
+  if (vtkPolyData::SafeDownCast(input))
+  {
+    return RequirePolyData(input, port);
   }
   refuse(input, port,
     "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
     "Extract Morph Boundary,");
+}
+
+bool IsReadable(vtkDataObject* data)
+{
+  try
+  {
+    vtkMorphMesh::FromGrid(RequireGrid(data, "The input"), vtkMorphMesh::UnknownCells::Keep);
+    return true;
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
 }
 
 int RequireOneRankWithCells(vtkDataSet* grid)
@@ -140,6 +165,7 @@ void RequireVolumeCells(const morph::Mesh& mesh)
                        morph::cellShape(mesh.types.front())->name +
                        "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
   }
+  vtkMorphDataCheck::RequireExtent(vtkMorphMesh::Size(mesh), "The input's volume mesh");
 }
 
 std::string ArrayName(const char* name)

@@ -17,8 +17,8 @@ class vtkUnstructuredGrid;
 /// the filter on each block of a composite input, and tear the blocks' shared interfaces apart.
 namespace vtkMorphInput
 {
-/// Throw morph::Error for another type, composite data in particular. `port` names it in the
-/// message: "The input".
+/// Throw morph::Error for another type, composite data in particular, and for data that do not pass
+/// vtkMorphDataCheck::Require(). `port` names it in the message: "The input".
 vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port);
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port);
 vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
@@ -28,6 +28,11 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
 /// As RequirePointSet(), for the boundary of a mesh that is to be morphed; null has a message of its own.
 vtkPointSet* RequireBoundary(vtkDataObject* input);
 
+/// Whether `data` are an unstructured grid that others can read: arrays long enough, cells that
+/// name points that exist, coordinates that are finite. Cost: a copy of the grid's points and
+/// cells.
+bool IsReadable(vtkDataObject* data);
+
 /// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has others alone. Either may be null.
 void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
@@ -36,8 +41,8 @@ void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 /// many have: 0 or 1.
 int RequireOneRankWithCells(vtkDataSet* grid);
 
-/// Throws morph::Error unless there is a cell of dimension 3. All types have to be known to the
-/// core.
+/// Throws morph::Error unless there is a cell of dimension 3, and these are large enough to compute
+/// with (see vtkMorphDataCheck). All types have to be known to the core.
 void RequireVolumeCells(const morph::Mesh& mesh);
 
 /// The name of an array as a property holds it. Empty for none: a null pointer, or "None", which

@@ -8,17 +8,30 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <string>
 
 namespace
 {
-/// The STDThread backend never starts more threads than this.
+/// The backend to compute with: the user's choice, unless it has no threads.
+std::string backend()
+{
+  const std::string own = vtkSMPTools::GetBackend();
+  return own == "Sequential" ? "STDThread" : own;
+}
+
+/// The backend never starts more threads than this.
 int mostThreads()
 {
   int threads = 1;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false },
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, backend(), false },
     [&threads] { threads = vtkSMPTools::GetEstimatedNumberOfThreads(); });
   return std::max(threads, 1);
 }
+}
+
+bool vtkMorphMonitor::IsSequential()
+{
+  return std::string(vtkSMPTools::GetBackend()) == "Sequential";
 }
 
 vtkMorphMonitor::vtkMorphMonitor(vtkAlgorithm* algorithm, int threads)
@@ -56,7 +69,7 @@ bool vtkMorphMonitor::cancelled()
 
 void vtkMorphMonitor::warn(const std::string& message)
 {
-  if (std::find(this->Warnings.begin(), this->Warnings.end(), message) == this->Warnings.end())
+  if (this->Told.insert(message).second)
   {
     this->Warnings.push_back(message);
   }
@@ -66,6 +79,7 @@ std::vector<std::string> vtkMorphMonitor::TakeWarnings()
 {
   std::vector<std::string> taken;
   taken.swap(this->Warnings);
+  this->Told.clear();
   return taken;
 }
 
@@ -91,15 +105,16 @@ void vtkMorphMonitor::parallelFor(morph::Index n, morph::Index grain,
 
   std::mutex mutex;
   std::exception_ptr thrown;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->Threads, "STDThread", false },
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->Threads, backend(), false },
     [&]
     {
-      vtkSMPTools::For(0, n, length,
+      // In whole pieces: some backends halve ranges below the grain that they are given.
+      vtkSMPTools::For(0, (n + length - 1) / length, 1,
         [&](vtkIdType first, vtkIdType last)
         {
           try
           {
-            body(first, last);
+            body(first * length, std::min<morph::Index>(n, last * length));
           }
           catch (...)
           {

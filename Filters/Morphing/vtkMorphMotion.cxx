@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FaceAreas.h"
+#include "vtkMorphDataCheck.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArray.h>
@@ -10,7 +11,6 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {
@@ -93,22 +93,26 @@ Points wholeMotion(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   return transformed(from, options.Transform);
 }
 
-void requireFinite(const Points& targets, const std::vector<Index>& nodes, vtkMorphMotion::Kind how)
+void requireModerate(const Points& targets, const std::vector<Index>& nodes, const char* property)
 {
-  std::vector<Index> wrong;
+  std::vector<Index> notFinite, huge;
   for (Index i = 0; i < targets.rows(); ++i)
   {
-    if (!targets.row(i).allFinite())
+    if (!vtkMorphDataCheck::IsModerate(targets.row(i)))
     {
-      wrong.push_back(nodes[i]);
+      (targets.row(i).allFinite() ? huge : notFinite).push_back(nodes[i]);
     }
   }
-  if (!wrong.empty())
+  if (!notFinite.empty())
   {
-    const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray" };
-    throw Error(std::string(names[static_cast<int>(how)]) +
+    throw Error(std::string(property) +
                 " moves nodes to places that are not finite (NaN or infinite): point ids " +
-                morph::listIds(wrong) + " of the input.");
+                morph::listIds(notFinite) + " of the input.");
+  }
+  if (!huge.empty())
+  {
+    throw Error(std::string(property) + " moves nodes beyond 1e50: point ids " +
+                morph::listIds(huge) + " of the input. Move them less, or use another unit.");
   }
 }
 }
@@ -118,17 +122,14 @@ namespace vtkMorphMotion
 Points Targets(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   const vtkMorphChoice::Result& choice, const Options& options)
 {
-  if (!std::isfinite(options.ScaleFactor))
-  {
-    throw Error("ScaleFactor is not finite (NaN or infinite); it has to be a number.");
-  }
   Points from(static_cast<Index>(choice.Moving.size()), 3);
   for (Index i = 0; i < from.rows(); ++i)
   {
     from.row(i) = model.Points().row(choice.Moving[i]);
   }
   Points targets = wholeMotion(input, model, choice, options, from);
-  requireFinite(targets, choice.Moving, options.How);
+  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray" };
+  requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
   if (options.ScaleFactor == 0)
   {
     return from;
@@ -136,7 +137,7 @@ Points Targets(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   if (options.ScaleFactor != 1)
   {
     targets = from + options.ScaleFactor * (targets - from);
-    requireFinite(targets, choice.Moving, options.How);
+    requireModerate(targets, choice.Moving, "ScaleFactor");
   }
   return targets;
 }

@@ -32,10 +32,11 @@ struct Options
   double ScaleFactor = 1;
 };
 
-/// New positions of choice.Moving: #Moving x 3, finite; for a ScaleFactor of 0 where they are and for 1 those of the
-/// motion, bit for bit. Normals are area-weighted over the faces that move, or, at nodes without one, over all faces.
-/// Throws morph::Error for numbers that are not finite, naming nodes, for arrays that are missing, not numeric or of
-/// the wrong length or number of components, and as morph::nodeNormals() does. Cost: one pass.
+/// New positions of choice.Moving: #Moving x 3, none beyond 1e50; for a ScaleFactor of 0 where they
+/// are and for 1 those of the motion, bit for bit. Normals are area-weighted over the faces that
+/// move, or, at nodes without one, over all faces. Throws morph::Error for places that are not
+/// finite or beyond 1e50, naming nodes, for arrays that are missing, not numeric or of the wrong
+/// length or number of components, and as morph::nodeNormals() does. Cost: one pass.
 morph::Points Targets(vtkPointSet* input, const vtkMorphBoundaryModel& model,
   const vtkMorphChoice::Result& choice, const Options& options);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphOutput.h"
 
+#include "Error.h"
+#include "vtkMorphDataCheck.h"
+
 #include <vtkAlgorithm.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -13,6 +16,10 @@
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
 
 namespace
 {
@@ -57,6 +64,7 @@ namespace vtkMorphOutput
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
   int precision, vtkUnstructuredGrid* output)
 {
+  RequireWritable(rest, moved, IsFloat(input, precision), "nodes");
   output->ShallowCopy(input);
   if (IsFloat(input, precision))
   {
@@ -65,6 +73,33 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
   else
   {
     writePoints<vtkDoubleArray, double>(rest, moved, output);
+  }
+}
+
+void RequireWritable(
+  const morph::Points& rest, const morph::Points& moved, bool isFloat, const char* what)
+{
+  if (const auto wrong = vtkMorphDataCheck::Immoderate(moved); !wrong.empty())
+  {
+    throw morph::Error(std::string("The motion takes ") + what +
+                       " to places that are not finite or beyond 1e50: node ids " +
+                       morph::listIds(wrong) + ". Move the boundary less.");
+  }
+  std::vector<morph::Index> tooLarge;
+  for (morph::Index n = 0; isFloat && n < moved.rows(); ++n)
+  {
+    if (std::max(moved.row(n).array().abs().maxCoeff(),
+          (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
+      std::numeric_limits<float>::max())
+    {
+      tooLarge.push_back(n);
+    }
+  }
+  if (!tooLarge.empty())
+  {
+    throw morph::Error(std::string("Single precision does not hold the new positions of ") + what +
+                       ", which are above 3.4e38: node ids " + morph::listIds(tooLarge) +
+                       ". Set OutputPointsPrecision to double.");
   }
 }
 

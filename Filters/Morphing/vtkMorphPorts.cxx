@@ -119,14 +119,14 @@ int vtkMorphPorts::RequestData(
   };
   task.Reset();
   vtkMorphCrewMonitor monitor(this->Filter, task.NumberOfThreads);
+  vtkSmartPointer<vtkDataObject> input;
   const auto work = [&]
   {
-    vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-    if (inputVector[1]->GetInformationObject(0))
-    {
-      input = this->Time.TakeRest(
-        input, [this](int port, std::optional<double> time) { return this->Fetch(port, time); });
-    }
+    vtkSmartPointer<vtkDataObject> given = vtkDataObject::GetData(inputVector[0]);
+    input = inputVector[1]->GetInformationObject(0)
+              ? this->Time.TakeRest(given, [this](int port, std::optional<double> time)
+                  { return this->Fetch(port, time); })
+              : given;
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
     const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
@@ -142,16 +142,21 @@ int vtkMorphPorts::RequestData(
     forOutputs([](vtkDataObject* output) { output->Initialize(); });
     task.Reset();
   };
-  const int done = vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
+  const vtkMorphExecution::Outcome outcome =
+    vtkMorphExecution::Run(this->Filter, task.Name, work, clear);
   // With an error too: they may explain it.
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningWithObjectMacro(this->Filter, << warning);
   }
-  if (done)
+  if (outcome != vtkMorphExecution::Outcome::Done && task.Undone)
   {
-    vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+    task.Undone(
+      input, outcome == vtkMorphExecution::Outcome::Cancelled ? "Cancelled" : "Failed");
+  }
+  if (vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]))
+  {
     forOutputs([boundary](vtkDataObject* output) { vtkMorphTime::CopyDataTime(boundary, output); });
   }
-  return done;
+  return 1;
 }

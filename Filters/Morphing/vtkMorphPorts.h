@@ -43,14 +43,18 @@ public:
     std::function<void()> Reset;
     /// Fills the output from the mesh at rest and the boundary, which may be null.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor&)> Work;
+    /// May be empty. Called after an error or abort, with the mesh at rest (unchecked, of any type,
+    /// null where it could not be had) and "Failed" or "Cancelled"; the outputs are empty.
+    std::function<void(vtkDataObject* input, const char* status)> Undone = {};
   };
   /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
-  /// the outputs are empty; errors and warnings are the filter's.
+  /// the outputs are empty; errors and warnings are the filter's. Returns what RequestData has to.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
-  /// For the work of a task: what the input port has at another time, none for that of its own choice. A repeated execution would not do:
-  /// VTK's executive goes on for ever where the input fails in one that continues another. Throws Error where it fails.
+  /// For the work of a task: what the input port has at another time, none for that of its own
+  /// choice. A repeated execution would not do: VTK's executive goes on for ever where the input
+  /// fails in one that continues another. Throws Error where it fails.
   vtkDataObject* Fetch(int port, std::optional<double> time) const;
 
 private:

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 
+#include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -16,13 +17,56 @@
 #include <vtkSelectionNode.h>
 #include <vtkSmartPointer.h>
 
+#include <string>
+
 namespace
 {
 /// VTK's name for the array that says what is inside a selection.
 constexpr const char* InsideName = "vtkInsidedness";
+const std::string OwnExtractor = "vtkExtractSelection";
+
+/// VTK's extractor does not look at what it gets: a node without a list, with one of text for numbers,
+/// or of a kind that it does not know, ends in an assertion or in memory that is not its own.
+void requireUsable(vtkSelectionNode* node, vtkExtractSelection* extractor)
+{
+  vtkAbstractArray* list = node->GetSelectionList();
+  auto* numbers = vtkDataArray::SafeDownCast(list);
+  const int components = list ? list->GetNumberOfComponents() : 0;
+  bool isUsable = false;
+  switch (node->GetContentType())
+  {
+    case vtkSelectionNode::INDICES:
+    case vtkSelectionNode::GLOBALIDS:
+    case vtkSelectionNode::THRESHOLDS:
+      isUsable = numbers && components <= 2;
+      break;
+    case vtkSelectionNode::PEDIGREEIDS:
+    case vtkSelectionNode::VALUES:
+      isUsable = list && components <= 2;
+      break;
+    case vtkSelectionNode::LOCATIONS:
+      isUsable = numbers && components == 3;
+      break;
+    case vtkSelectionNode::FRUSTUM:
+      isUsable = numbers && numbers->GetNumberOfValues() >= 32;
+      break;
+    case vtkSelectionNode::QUERY: // what ParaView's extractor knows, and VTK's own does not
+      isUsable = node->GetQueryString() && extractor->GetClassName() != OwnExtractor;
+      break;
+    default:
+      break;
+  }
+  if (!isUsable)
+  {
+    throw morph::Error("The selection cannot be used: its kind of content (" +
+                       std::to_string(node->GetContentType()) +
+                       ") is not known here, or its list of values is missing or does not fit. "
+                       "Select points or cells again.");
+  }
+}
 
 /// vtkSelectionNode::POINT or CELL, which all of the selection's nodes have to be.
-int fieldType(vtkSelection* selection)
+int fieldType(vtkSelection* selection, vtkExtractSelection* extractor)
 {
   if (!selection || selection->GetNumberOfNodes() == 0)
   {
@@ -38,6 +82,7 @@ int fieldType(vtkSelection* selection)
       throw morph::Error("The selection is of neither points nor cells, or of both. Select either "
                          "points or cells of the input.");
     }
+    requireUsable(selection->GetNode(i), extractor);
   }
   return type;
 }
@@ -84,7 +129,7 @@ namespace vtkMorphSelection
 std::vector<std::uint8_t> Points(
   vtkDataSet* input, vtkSelection* selection, vtkExtractSelection* extractor)
 {
-  const bool byPoints = fieldType(selection) == vtkSelectionNode::POINT;
+  const bool byPoints = fieldType(selection, extractor) == vtkSelectionNode::POINT;
   const vtkIdType count = byPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
   std::vector<std::uint8_t> isInside = evaluate(input, selection, extractor, byPoints, count);
   if (byPoints)

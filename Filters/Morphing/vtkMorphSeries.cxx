@@ -7,13 +7,19 @@ void vtkMorphSeries::Clear()
 {
   this->Kept.clear();
   this->Stride = 1;
+  this->Last = 0;
 }
 
 void vtkMorphSeries::Keep(int number, Step step, double megabytes)
 {
   const double size = std::max(1., 24. * static_cast<double>(step->Moved.rows()));
+  // A pass over all that is kept would make a run of many steps quadratic in their number.
+  if (this->Last % this->Stride != 0)
+  {
+    this->Kept.erase(this->Last);
+  }
   this->Kept[number] = std::move(step);
-  this->Thin(number);
+  this->Last = number;
   // The last one is there besides, so that going back does not thin out what helps to go back.
   const auto full = [&]
   {
@@ -23,7 +29,7 @@ void vtkMorphSeries::Keep(int number, Step step, double megabytes)
   while (full() && this->Stride <= this->Kept.rbegin()->first)
   {
     this->Stride *= 2;
-    this->Thin(number);
+    this->Thin();
   }
   if (full())
   {
@@ -32,11 +38,11 @@ void vtkMorphSeries::Keep(int number, Step step, double megabytes)
   }
 }
 
-void vtkMorphSeries::Thin(int last)
+void vtkMorphSeries::Thin()
 {
   for (auto it = this->Kept.begin(); it != this->Kept.end();)
   {
-    const bool stays = it->first == last || it->first % this->Stride == 0;
+    const bool stays = it->first == this->Last || it->first % this->Stride == 0;
     it = stays ? std::next(it) : this->Kept.erase(it);
   }
 }

@@ -37,9 +37,10 @@ public:
 private:
   std::map<int, Step> Kept;
   int Stride = 1;
+  int Last = 0; ///< the step that came last: of the kept ones the only one that may be between strides
 
   /// Drops all but every Stride-th and the last one.
-  void Thin(int last);
+  void Thin();
 };
 
 #endif

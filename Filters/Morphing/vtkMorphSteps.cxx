@@ -16,48 +16,83 @@ vtkMorphSteps::vtkMorphSteps(int number, vtkInformation* boundary)
   if (own > 1 || (own == 1 && number == 0))
   {
     const double* times = boundary->Get(Pipeline::TIME_STEPS());
-    this->Times.assign(times, times + own);
+    this->Own.assign(times, times + own);
+    this->Count = own;
     this->Varies = true;
     return;
   }
-  const bool continuous =
-    own == 0 && boundary && boundary->Length(Pipeline::TIME_RANGE()) == 2 &&
-    boundary->Get(Pipeline::TIME_RANGE())[0] < boundary->Get(Pipeline::TIME_RANGE())[1];
-  for (int step = 0; number > 0 && step <= number; ++step)
+  if (number <= 0)
   {
-    const double part = static_cast<double>(step) / number;
-    const double* range = continuous ? boundary->Get(Pipeline::TIME_RANGE()) : nullptr;
-    // The end exactly.
-    this->Times.push_back(!range           ? step
-                          : step == number ? range[1]
-                                           : range[0] + part * (range[1] - range[0]));
+    return;
   }
-  this->Varies = continuous && number > 0;
+  this->Count = number + 1;
+  if (own == 0 && boundary && boundary->Length(Pipeline::TIME_RANGE()) == 2)
+  {
+    const double* range = boundary->Get(Pipeline::TIME_RANGE());
+    this->First = range[0];
+    this->Last = range[1];
+    this->Varies = range[0] < range[1];
+  }
+}
+
+double vtkMorphSteps::Time(int step) const
+{
+  if (!this->Own.empty())
+  {
+    return this->Own[step];
+  }
+  if (!this->Varies)
+  {
+    return step;
+  }
+  const int last = this->Count - 1;
+  // The end exactly.
+  return step == last
+           ? this->Last
+           : this->First + static_cast<double>(step) / last * (this->Last - this->First);
 }
 
 double vtkMorphSteps::Fraction(int step) const
 {
-  return this->Varies ? 1 : step / static_cast<double>(this->Times.size() - 1);
+  return this->Varies ? 1 : step / static_cast<double>(this->Count - 1);
 }
 
 int vtkMorphSteps::Asked(vtkInformation* output) const
 {
-  const int last = static_cast<int>(this->Times.size()) - 1;
+  const int last = this->Count - 1;
   if (!output->Has(Pipeline::UPDATE_TIME_STEP()))
   {
     return this->Varies ? 0 : last;
   }
-  const auto after = std::upper_bound(
-    this->Times.begin(), this->Times.end(), output->Get(Pipeline::UPDATE_TIME_STEP()));
-  return std::clamp(static_cast<int>(after - this->Times.begin()) - 1, std::min(0, last), last);
+  const double time = output->Get(Pipeline::UPDATE_TIME_STEP());
+  int after = 0;
+  for (int end = this->Count; after < end;)
+  {
+    const int middle = after + (end - after) / 2;
+    if (time < this->Time(middle))
+    {
+      end = middle;
+    }
+    else
+    {
+      after = middle + 1;
+    }
+  }
+  return std::clamp(after - 1, std::min(0, last), last);
 }
 
 void vtkMorphSteps::Write(vtkInformation* output) const
 {
-  if (this->Any())
+  if (!this->Any())
   {
-    const double range[2] = { this->Times.front(), this->Times.back() };
-    output->Set(Pipeline::TIME_STEPS(), this->Times.data(), static_cast<int>(this->Times.size()));
-    output->Set(Pipeline::TIME_RANGE(), range, 2);
+    return;
   }
+  std::vector<double> times(this->Count);
+  for (int step = 0; step < this->Count; ++step)
+  {
+    times[step] = this->Time(step);
+  }
+  const double range[2] = { times.front(), times.back() };
+  output->Set(Pipeline::TIME_STEPS(), times.data(), this->Count);
+  output->Set(Pipeline::TIME_RANGE(), range, 2);
 }

@@ -17,11 +17,11 @@ public:
   vtkMorphSteps(int number, vtkInformation* boundary);
 
   /// How many meshes there are: one more than NumberOfSteps asks for.
-  int Number() const { return static_cast<int>(this->Times.size()); }
-  bool Any() const { return !this->Times.empty(); }
+  int Number() const { return this->Count; }
+  bool Any() const { return this->Count > 0; }
   /// Whether the boundary is another one at each step.
   bool FromBoundary() const { return this->Varies; }
-  double Time(int step) const { return this->Times[step]; }
+  double Time(int step) const;
   /// Of the boundary's motion, at that step: 1 where the boundary itself varies.
   double Fraction(int step) const;
   /// The step that `output` is asked for: the last not after its time, or the first. Where it is asked for no time: the
@@ -31,7 +31,10 @@ public:
   void Write(vtkInformation* output) const;
 
 private:
-  std::vector<double> Times;
+  // An update of one step must not cost a pass over a million of them: equal parts are not stored.
+  int Count = 0;
+  std::vector<double> Own;    ///< the boundary's own times, where it has several
+  double First = 0, Last = 0; ///< of its range, else
   bool Varies = false;
 };
 

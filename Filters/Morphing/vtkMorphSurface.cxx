@@ -149,4 +149,13 @@ std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& me
   writePoints(grid, faces.nodes, output);
   return writePolygons(grid, mesh, faces, output);
 }
+
+void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor)
+{
+  if (faces.nodes.empty())
+  {
+    monitor.warn("The boundary is empty: every face of the input's cells belongs to two cells or "
+                 "more, as where each cell is there twice. Remove the cells that repeat others.");
+  }
+}
 }

@@ -2,6 +2,7 @@
 #ifndef vtkMorphSurface_h
 #define vtkMorphSurface_h
 
+#include "Monitor.h"
 #include "Topology.h"
 
 class vtkPolyData;
@@ -16,6 +17,9 @@ namespace vtkMorphSurface
 /// polygon the number of its face: a face of a quadratic cell becomes several polygons.
 std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, vtkPolyData* output);
+
+/// Warns where a mesh has cells but no outer face, so that its boundary is empty.
+void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor);
 }
 
 #endif

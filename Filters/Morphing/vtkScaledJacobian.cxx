@@ -7,6 +7,7 @@
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphMonitor.h"
+#include "vtkMorphOutput.h"
 #include "vtkMorphQuality.h"
 
 #include <vtkCellData.h>
@@ -98,14 +99,22 @@ int vtkScaledJacobian::RequestData(
   {
     output->Initialize();
     morph::Quality none;
-    none.minimum = none.mean = vtkMath::Nan();
+    none.minimum = -1;
+    none.mean = vtkMath::Nan();
+    none.inverted = none.degenerate = -1;
     this->Keep(none, 0, 0);
     this->Keep(morph::CertificateReport());
   };
   clear();
-  return vtkMorphExecution::Run(
+  const vtkMorphExecution::Outcome outcome = vtkMorphExecution::Run(
     this, "measure this mesh",
     [&] { this->Measure(vtkMorphInput::RequireGrid(input, "The input"), output); }, clear);
+  if (outcome != vtkMorphExecution::Outcome::Done)
+  {
+    vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
+    vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
+  }
+  return 1;
 }
 
 void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)

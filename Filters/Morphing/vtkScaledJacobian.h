@@ -9,7 +9,8 @@
  * tetrahedra and hexahedra the numbers are those of vtkMeshQuality. They differ on purpose where
  * those would mislead: a cell with a corner whose edges have no length gets 0 and is counted as
  * degenerate, inverted pyramids get their negative value, and cells that cannot be measured get
- * NaN.
+ * NaN. That is why this filter exists beside vtkMeshQuality, and for mirrored bodies and
+ * certificates (below), which a morph needs and that filter has not.
  *
  * Measured are the cells of the highest dimension in the grid: tetrahedra, hexahedra, voxels (as
  * hexahedra in VTK's order), wedges and pyramids, or triangles, quads and pixels where there is no
@@ -39,8 +40,11 @@
  * collective: it has to take place on all of them.
  *
  * Errors: composite data (use Merge Blocks first), no points, node ids or coordinates that are not
- * valid. The output is then empty, as it is, without a message, where the execution was aborted. Cost: one pass over the cells, about 0.1 microseconds each, and a copy of
- * the connectivity; with Certify 0.1 to 1.5 microseconds more.
+ * valid, arrays shorter than there are points or cells, coordinates above 1e50, and a largest
+ * extent below 1e-50. The output is then empty, and InvertedCells and MinScaledJacobian are -1, as
+ * they are, without a message, where the execution was aborted. Cost: one pass over the cells,
+ * about 0.1 microseconds each, and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds
+ * more.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.
@@ -90,8 +94,8 @@ public:
 
   ///@{
   /**
-   * Least and mean scaled Jacobian over the measured cells; NaN before the first execution, after
-   * an error and where no cell was measured.
+   * Minimum and mean scaled Jacobian over the measured cells; NaN before the first execution and
+   * where no cell was measured. After an error the minimum is -1 and the mean NaN.
    */
   vtkGetMacro(MinScaledJacobian, double);
   vtkGetMacro(MeanScaledJacobian, double);
@@ -103,7 +107,8 @@ public:
   vtkGetMacro(MeasuredCells, vtkIdType);
 
   /**
-   * Number of cells with a scaled Jacobian of 0 or less, the degenerate ones apart.
+   * Number of cells with a scaled Jacobian of 0 or less, the degenerate ones apart; -1 after an
+   * error.
    */
   vtkGetMacro(InvertedCells, vtkIdType);
 

@@ -2,12 +2,15 @@
 #include "vtkSimplexNaturalNeighborMorph.h"
 
 #include "SimplexNaturalNeighbor.h"
+#include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
 
 #include <sstream>
 
 vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
+
+vtkMorphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
 
 vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
 vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;

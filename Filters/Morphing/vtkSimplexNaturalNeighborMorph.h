@@ -61,7 +61,7 @@ public:
    * Megabytes (10^6 bytes) that the weights may take, 12 bytes each; the result does not depend on
    * it. Changing it prepares anew. Default 4000, range [0, 1e12]; 0 keeps none.
    */
-  vtkSetClampMacro(MemoryLimit, double, 0.0, 1e12);
+  virtual void SetMemoryLimit(double value);
   vtkGetMacro(MemoryLimit, double);
   ///@}
 

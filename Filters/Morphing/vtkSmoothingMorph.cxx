@@ -2,10 +2,13 @@
 #include "vtkSmoothingMorph.h"
 
 #include "Smoothing.h"
+#include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkSmoothingMorph);
+
+vtkMorphSetNumberMacro(vtkSmoothingMorph, StopMove, 1e-12, 1.0)
 
 vtkSmoothingMorph::vtkSmoothingMorph() = default;
 vtkSmoothingMorph::~vtkSmoothingMorph() = default;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <sstream>
@@ -45,7 +46,7 @@ double number(const std::string& option, const std::string& text)
   char* end = nullptr;
   errno = 0;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || errno == ERANGE)
+  if (text.empty() || *end != '\0' || errno == ERANGE || !std::isfinite(value))
   {
     throw UsageError(option + " needs a number, not '" + text + "'.");
   }

@@ -6,10 +6,10 @@
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkLogger.h>
+#include <vtkMorphAlgorithm.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPointSet.h>
 
 #include <iostream>
 
@@ -96,7 +96,7 @@ Messages::Messages(vtkAlgorithm* algorithm)
   };
   observe(vtkCommand::ErrorEvent, this->errors_);
   observe(vtkCommand::WarningEvent, this->warnings_);
-  // The executive only repeats that the algorithm failed.
+  // After an error of a reader the executive only repeats that it failed.
   vtkNew<vtkCallbackCommand> command;
   command->SetCallback(ignore);
   this->executiveTag_ = algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, command);
@@ -123,8 +123,10 @@ void Messages::update(const std::string& task)
 std::string Messages::updatePartly(const std::string& task)
 {
   this->algorithm_->Update();
-  auto* output = vtkPointSet::SafeDownCast(this->algorithm_->GetOutputDataObject(0));
-  if (!this->errors_.empty() && (!output || output->GetNumberOfPoints() == 0))
+  // After any other error the output is the undeformed mesh.
+  auto* morph = vtkMorphAlgorithm::SafeDownCast(this->algorithm_);
+  const bool isPart = morph && std::string(morph->GetMorphStatus()) == "Partial";
+  if (!this->errors_.empty() && !isPart)
   {
     throw Failure(task + ": " + this->errors_.front());
   }

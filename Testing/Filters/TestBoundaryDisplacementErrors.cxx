@@ -143,19 +143,18 @@ TEST(BoundaryDisplacementErrors, TheMotion)
       [](auto* f) { f->SetTransform(transformWith(0, 3, NAN)); } },
     { "Transform moves nodes to places that are not finite",
       [](auto* f) { f->SetTransform(transformWith(1, 1, INFINITY)); } },
-    { "Vector moves nodes",
+    { "Vector moves nodes beyond 1e50",
       [](auto* f)
       {
         f->SetMotionToVector();
-        f->SetVector(0, NAN, 0);
+        f->SetVector(0, 1e60, 0);
       } },
-    { "Distance moves nodes",
+    { "Distance moves nodes beyond 1e50",
       [](auto* f)
       {
         f->SetMotionToAlongNormals();
-        f->SetDistance(NAN);
+        f->SetDistance(1e60);
       } },
-    { "ScaleFactor is not finite", [](auto* f) { f->SetScaleFactor(NAN); } },
     { "No array is named", [](auto* f) { f->SetMotionToArray(); } },
     { "'Gone', which the input does not have",
       [](auto* f)
@@ -170,7 +169,7 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetMotionToArray();
         f->SetDisplacementArray("Two");
       } },
-    { "has 26 values for the input's 27 points",
+    { "has 26 tuples for 27 points",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Short", 3, 26, 1);

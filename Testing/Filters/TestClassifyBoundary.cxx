@@ -303,7 +303,7 @@ TEST(ClassifyBoundary, OneErrorAndNoOutput)
         }),
       "Side", "not numeric" },
     { with([&](vtkUnstructuredGrid* g) { addNumbers(g->GetCellData(), "Side", 7, 1); }), "Side",
-      "7 values for 8 cells" },
+      "7 tuples for 8 cells" },
     { with([&](vtkUnstructuredGrid* g) { addNumbers(g->GetCellData(), "Side", 8, 1.5); }), "Side",
       "whole numbers" },
     { with([&](vtkUnstructuredGrid* g) { addNumbers(g->GetPointData(), "GeometryId", 27, 1); }),
@@ -321,7 +321,7 @@ TEST(ClassifyBoundary, OneErrorAndNoOutput)
           addNumbers(g->GetPointData(), "GeometryId", 27, 1);
           addNumbers(g->GetPointData(), "GeometryDimension", 26, 2);
         }),
-      nullptr, "26 values for 27 points" },
+      nullptr, "26 tuples for 27 points" },
     { with([](vtkUnstructuredGrid* g) { g->GetPoints()->SetPoint(3, 0, NAN, 0); }), nullptr,
       "not finite" } };
   for (const Case& c : cases)

@@ -148,7 +148,7 @@ struct Listener::Tags
 {
   vtkSmartPointer<vtkAlgorithm> Filter;
   vtkNew<vtkCallbackCommand> Command;
-  vtkNew<vtkCallbackCommand> Silence;
+  vtkNew<vtkCallbackCommand> ExecutiveCommand;
 };
 
 Listener::Listener(vtkAlgorithm* filter)
@@ -163,16 +163,21 @@ Listener::Listener(vtkAlgorithm* filter)
       (event == vtkCommand::ErrorEvent ? listener->Errors : listener->Warnings)
         .emplace_back(static_cast<const char*>(text));
     });
-  this->Observers->Silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  this->Observers->ExecutiveCommand->SetClientData(this);
+  this->Observers->ExecutiveCommand->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void* text)
+    {
+      static_cast<Listener*>(self)->ExecutiveErrors.emplace_back(static_cast<const char*>(text));
+    });
   filter->AddObserver(vtkCommand::ErrorEvent, this->Observers->Command);
   filter->AddObserver(vtkCommand::WarningEvent, this->Observers->Command);
-  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Observers->Silence);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Observers->ExecutiveCommand);
 }
 
 Listener::~Listener()
 {
   this->Observers->Filter->RemoveObserver(this->Observers->Command);
-  this->Observers->Filter->GetExecutive()->RemoveObserver(this->Observers->Silence);
+  this->Observers->Filter->GetExecutive()->RemoveObserver(this->Observers->ExecutiveCommand);
   delete this->Observers;
 }
 }

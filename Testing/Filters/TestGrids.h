@@ -42,8 +42,7 @@ Row affine(const Row& x);
 /// A twist about the z axis and a bulge: not affine.
 Row twist(const Row& x);
 
-/// Counts the errors and warnings of one filter while it lives, and keeps them and the executive's
-/// off the console.
+/// Counts the errors and warnings of one filter while it lives, and keeps them off the console.
 class Listener
 {
 public:
@@ -51,6 +50,7 @@ public:
   ~Listener();
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
+  std::vector<std::string> ExecutiveErrors; ///< what VTK's executive adds after a return of 0
 
 private:
   struct Tags;

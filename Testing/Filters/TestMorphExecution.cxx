@@ -16,9 +16,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace
 {
@@ -129,6 +131,7 @@ TEST(MorphExecution, AbortGivesTheMeshAtRestAndNoError)
   EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
   EXPECT_EQ(grid->GetFieldData()->GetNumberOfArrays(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
   EXPECT_LT(last, 0.9);
 
   stop = false;
@@ -183,13 +186,14 @@ TEST(MorphExecution, WhateverIsThrownBecomesOneError)
   const auto run = [&](const std::function<void()>& work)
   { return vtkMorphExecution::Run(filter, "test this", work, [&cleared] { ++cleared; }); };
 
-  EXPECT_EQ(run([] {}), 1);
+  using Outcome = vtkMorphExecution::Outcome;
+  EXPECT_EQ(run([] {}), Outcome::Done);
   EXPECT_EQ(cleared, 0);
   EXPECT_TRUE(listener.Errors.empty());
 
-  EXPECT_EQ(run([] { throw std::bad_alloc(); }), 0);
-  EXPECT_EQ(run([] { throw std::runtime_error("of a library"); }), 0);
-  EXPECT_EQ(run([] { throw morph::Error("Of ours."); }), 0);
+  EXPECT_EQ(run([] { throw std::bad_alloc(); }), Outcome::Failed);
+  EXPECT_EQ(run([] { throw std::runtime_error("of a library"); }), Outcome::Failed);
+  EXPECT_EQ(run([] { throw morph::Error("Of ours."); }), Outcome::Failed);
   EXPECT_EQ(cleared, 3);
   ASSERT_EQ(listener.Errors.size(), 3u);
   const char* expected[] = { "There is not enough memory to test this.",
@@ -199,7 +203,8 @@ TEST(MorphExecution, WhateverIsThrownBecomesOneError)
     EXPECT_NE(listener.Errors[i].find(expected[i]), std::string::npos) << listener.Errors[i];
   }
 
-  EXPECT_EQ(run([] { throw morph::Error(morph::Error::Kind::Cancelled, "Cancelled."); }), 1);
+  EXPECT_EQ(run([] { throw morph::Error(morph::Error::Kind::Cancelled, "Cancelled."); }),
+    Outcome::Cancelled);
   EXPECT_EQ(cleared, 4);
   EXPECT_EQ(listener.Errors.size(), 3u);
 }
@@ -236,6 +241,55 @@ TYPED_TEST(MorphMonitors, RangesCoverEverythingOnceAndKeepTheGrain)
       }
     }
   }
+}
+
+TYPED_TEST(MorphMonitors, TheBackendThatTheUserChoseIsUsed)
+{
+  const std::string before = vtkSMPTools::GetBackend();
+  for (const char* backend : { "STDThread", "Sequential" })
+  {
+    ASSERT_TRUE(vtkSMPTools::SetBackend(backend));
+    TypeParam monitor(nullptr, 2);
+    std::atomic<bool> isItsOwn(true);
+    std::vector<std::atomic<int>> hits(10000);
+    monitor.parallelFor(10000, 100,
+      [&](morph::Index first, morph::Index last)
+      {
+        isItsOwn = isItsOwn && vtkSMPTools::IsParallelScope() &&
+                   std::string(vtkSMPTools::GetBackend()) == "STDThread";
+        for (morph::Index i = first; i < last; ++i)
+        {
+          ++hits[i];
+        }
+      });
+    // Of a Sequential backend's threads one class has its own, and the other STDThread's.
+    EXPECT_TRUE(std::string(backend) == "Sequential" || isItsOwn);
+    EXPECT_STREQ(vtkSMPTools::GetBackend(), backend);
+    EXPECT_TRUE(std::all_of(hits.begin(), hits.end(), [](const auto& n) { return n == 1; }));
+  }
+  vtkSMPTools::SetBackend(before.c_str());
+}
+
+TEST(MorphExecution, ResultsDoNotDependOnTheBackend)
+{
+  const std::string before = vtkSMPTools::GetBackend();
+  auto grid = grids::hexes(24); // long enough for loops to be cut
+  auto boundary = grids::boundary(grid, grids::twist);
+  morph::Points expected;
+  for (const char* backend : { "Sequential", "STDThread" })
+  {
+    ASSERT_TRUE(vtkSMPTools::SetBackend(backend));
+    vtkNew<vtkFEMWarpMorph> filter;
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(boundary);
+    filter->SetNumberOfThreads(2);
+    filter->Update();
+    const morph::Points found = grids::points(filter->GetOutput());
+    EXPECT_TRUE(expected.rows() == 0 || found == expected) << backend;
+    expected = found;
+    EXPECT_STREQ(vtkSMPTools::GetBackend(), backend);
+  }
+  vtkSMPTools::SetBackend(before.c_str());
 }
 
 TEST(MorphCrewMonitor, ThousandsOfShortLoops)

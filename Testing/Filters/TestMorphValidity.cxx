@@ -80,7 +80,7 @@ TEST_F(MorphValidity, TheCaseNeedsHelp)
   EXPECT_TRUE(listener.Errors.empty());
 }
 
-TEST_F(MorphValidity, RefuseGivesNoResult)
+TEST_F(MorphValidity, RefuseGivesTheUndeformedMesh)
 {
   auto filter = morphed<vtkFEMWarpMorph>(this->Grid, waves);
   filter->SetValidityToRefuse();
@@ -88,8 +88,10 @@ TEST_F(MorphValidity, RefuseGivesNoResult)
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("refused"), std::string::npos) << listener.Errors[0];
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_STREQ(filter->GetMorphStatus(), "None");
+  EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::points(this->Grid));
+  EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  EXPECT_EQ(status(filter), "Failed");
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
 }
 
 TEST_F(MorphValidity, SubStepsAndRepairGiveAValidMesh)
@@ -148,7 +150,8 @@ TEST_F(MorphValidity, BoundariesThatInvertCellsByThemselvesAreNamedAtOnce)
     EXPECT_NE(listener.Errors[0].find("boundary itself inverts 1 cells"), std::string::npos)
       << listener.Errors[0];
     EXPECT_NE(listener.Errors[0].find("cell ids 0."), std::string::npos) << listener.Errors[0];
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::points(this->Grid));
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
     EXPECT_EQ(filter->GetPrepareCount(), 0);
   }
   // With Report the others are morphed.

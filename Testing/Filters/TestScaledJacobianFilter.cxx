@@ -437,8 +437,12 @@ TEST(ScaledJacobianFilter, CompositeInputIsRefused)
   filter->SetInputDataObject(blocks);
   filter->Update();
   EXPECT_EQ(errors.Count, 2);
+  EXPECT_EQ(pipeline.Count, 0) << pipeline.Text;
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
-  EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
+  EXPECT_EQ(filter->GetMinScaledJacobian(), -1);
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
+  vtkFieldData* field = filter->GetOutput()->GetFieldData();
+  EXPECT_EQ(field->GetArray("InvertedCells")->GetComponent(0, 0), -1);
 }
 
 TEST(ScaledJacobianFilter, BadGridsGiveOneError)

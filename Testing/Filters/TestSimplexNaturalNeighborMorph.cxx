@@ -42,7 +42,7 @@ TEST(SimplexNaturalNeighborMorph, CoordinatesDiffer)
   EXPECT_LT(difference, 0.5);
 }
 
-TEST(SimplexNaturalNeighborMorph, ParametersAreClamped)
+TEST(SimplexNaturalNeighborMorph, IntegersAreClamped)
 {
   vtkNew<vtkSimplexNaturalNeighborMorph> filter;
   EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::SIBSON);
@@ -51,8 +51,4 @@ TEST(SimplexNaturalNeighborMorph, ParametersAreClamped)
   filter->SetCoordinatesToSibson();
   EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::SIBSON);
   EXPECT_EQ(filter->GetMemoryLimit(), 4000);
-  filter->SetMemoryLimit(-1);
-  EXPECT_EQ(filter->GetMemoryLimit(), 0);
-  filter->SetMemoryLimit(1e300);
-  EXPECT_EQ(filter->GetMemoryLimit(), 1e12);
 }

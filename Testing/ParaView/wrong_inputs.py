@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user may connect by mistake: each time one message that says what to do, an empty result, and then a right input works.
+"""What a user may connect by mistake: each time one message that says what to do, the undeformed mesh or an empty
+result, and then a right input works.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython wrong_inputs.py
 """
@@ -7,7 +8,7 @@ import os
 import re
 import unittest
 
-from paraview import simple
+from paraview import servermanager, simple
 from paraview.simple import (AppendDatasets, Clip, Cone, ExtractSurface, GroupDatasets, LoadPlugin, Plane, Sphere, Transform,
                              Wavelet)
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
@@ -20,7 +21,7 @@ def hexes(cells):
 
 
 def messages_of(action):
-    """The messages of `action`, without what VTK's executive adds to each."""
+    """The messages of `action`: VTK's executive adds none."""
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(window)
     try:
@@ -28,7 +29,7 @@ def messages_of(action):
     finally:
         vtkOutputWindow.SetInstance(before)
     found = re.split(r"^(?:ERROR|Warning): ", window.GetOutput(), flags=re.MULTILINE)[1:]
-    return [text for text in found if not text.startswith("In vtkExecutive.cxx")]
+    return found
 
 
 class WrongInputs(unittest.TestCase):
@@ -38,19 +39,25 @@ class WrongInputs(unittest.TestCase):
         cls.boundary = ExtractMorphBoundary(Input=cls.grid)
         cls.flat = AppendDatasets(Input=[Plane()])
 
-    def assertMessage(self, proxy, *parts):
+    def assertMessage(self, proxy, *parts, undeformed=0):
+        """`undeformed`: the number of points of the mesh that a morph filter gives back."""
         texts = messages_of(proxy.UpdatePipeline)
         self.assertEqual(len(texts), 1, texts)
         for part in parts:
             self.assertIn(part, texts[0])
         for port in range(proxy.SMProxy.GetNumberOfOutputPorts()):
             information = proxy.GetDataInformation(port)
-            self.assertEqual((information.GetNumberOfPoints(), information.GetNumberOfCells()), (0, 0))
+            self.assertEqual(information.GetNumberOfPoints(), undeformed if port == 0 else 0)
 
     def assertRefused(self, parts, **inputs):
         """By a morph filter, which works as soon as its inputs are right."""
         morph = MorphFEMWARP(**inputs)
-        self.assertMessage(morph, *parts)
+        mesh = servermanager.Fetch(inputs["Input"])
+        isGrid = mesh.IsA("vtkUnstructuredGrid")
+        self.assertMessage(morph, *parts, undeformed=mesh.GetNumberOfPoints() if isGrid else 0)
+        status = servermanager.Fetch(morph).GetFieldData().GetAbstractArray("MorphStatus")
+        self.assertEqual(status.GetValue(0), "Failed")
+        self.assertEqual((morph.InvertedCells, morph.MinScaledJacobian), (-1, -1))
         morph.Input, morph.Boundary = self.grid, self.boundary
         for array in ("DisplacementArray", "BoundaryIdArray"):
             setattr(morph, array, "None")

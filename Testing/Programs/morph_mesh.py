@@ -165,7 +165,8 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "Tolerance is a number", *files, "--set", "Tolerance=high")
         self.fails(2, "one of Error, Relax", *files, "--method=LBWARP", "--set", "OutsideHull=Maybe")
         self.fails(2, "--validity is one of", *files, "--validity", "Pray")
-        self.fails(2, "--scale-factor needs a number", *files, "--scale-factor", "1x")
+        for wrong in ("1x", "nan", "inf"):
+            self.fails(2, "--scale-factor needs a number", *files, "--scale-factor", wrong)
         self.fails(2, "--threads needs a whole number", *files, "--threads", "-1")
         self.assertFalse((self.folder / "out.vtu").exists())
 
