@@ -242,10 +242,37 @@ Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructured
   return {};
 }
 
+/// After an error: a message, no counts, and the undeformed mesh or nothing.
+Finding checkFailed(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+{
+  auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
+  if (run.errors.empty() && filter->GetMorphStatus() == std::string("Failed"))
+  {
+    return { "silence", "a failure without a message" };
+  }
+  if (filter->GetInvertedCells() != -1 || filter->GetMinScaledJacobian() != -1 ||
+      fieldValue(output, "InvertedCells") != -1 || fieldValue(output, "MinScaledJacobian") != -1)
+  {
+    return { "status", "counts after a failure" };
+  }
+  auto* input = vtkPointSet::SafeDownCast(made.inputs.front());
+  if (output->GetNumberOfPoints() > 0 &&
+      !(input && input->GetNumberOfPoints() == output->GetNumberOfPoints() &&
+        pointsOf(input) == pointsOf(output)))
+  {
+    return { "status", "a failure that moves nodes" };
+  }
+  return {};
+}
+
 Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
   const std::string status = filter->GetMorphStatus();
+  if (status == "Failed" || status == "Cancelled")
+  {
+    return checkFailed(made, filter, run);
+  }
   if (output->GetNumberOfPoints() == 0)
   {
     return status == "None" ? Finding{} : Finding{ "status", status + " without an output" };
