@@ -250,7 +250,7 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
   return algorithm;
 }
 
-Run execute(vtkAlgorithm* filter)
+Run execute(vtkAlgorithm* filter, double abortAt)
 {
   Run run;
   Window* heard = window();
@@ -261,7 +261,14 @@ Run execute(vtkAlgorithm* filter)
     const Observer pipeline(
       filter->GetExecutive(), vtkCommand::ErrorEvent, into(run.fromExecutive));
     const Observer progress(filter, vtkCommand::ProgressEvent,
-      [&](const char*) { run.progress.push_back(filter->GetProgress()); });
+      [&](const char*)
+      {
+        run.progress.push_back(filter->GetProgress());
+        if (filter->GetProgress() >= abortAt)
+        {
+          filter->SetAbortExecute(1);
+        }
+      });
     filter->Update();
     for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
     {

@@ -43,6 +43,6 @@ struct Run
   std::vector<vtkSmartPointer<vtkDataObject>> outputs;
 };
 
-/// Executes the filter; outputs are copies.
-Run execute(vtkAlgorithm* filter);
+/// Executes the filter; outputs are copies. `abortAt`: progress at which it is told to stop.
+Run execute(vtkAlgorithm* filter, double abortAt = 2);
 }

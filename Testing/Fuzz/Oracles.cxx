@@ -71,6 +71,70 @@ bool hasFreeNodes(const Case& made, vtkAlgorithm* filter)
   return inside > (morph ? const_cast<vtkMorphAlgorithm*>(morph)->GetPrescribedPoints()
                          : static_cast<morph::Index>(made.grid.outer.size()));
 }
+
+/// Outputs and errors of two executions are the same.
+Finding compare(const Case& made, const Run& first, const Run& second, const char* oracle)
+{
+  // The ranking of the comparison depends on times.
+  const std::size_t ports = made.filter.name == "CompareMorphMethods" ? 2 : first.outputs.size();
+  for (std::size_t port = 0; port < ports; ++port)
+  {
+    const std::string found = difference(first.outputs[port], second.outputs[port], Timings);
+    if (!found.empty())
+    {
+      return { oracle, "output " + std::to_string(port) + ": " + found };
+    }
+  }
+  const auto text = [](const Run& run) { return run.errors.empty() ? "none" : run.errors.front(); };
+  return first.errors == second.errors
+           ? Finding{}
+           : Finding{ oracle, "errors: " + text(first) + " | " + text(second) };
+}
+
+/// An execution that is told to stop gives the mesh at rest, or nothing, and no error.
+Finding checkAborted(const Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
+  if (!morph || std::string(morph->GetMorphStatus()) != "Cancelled")
+  {
+    return {};
+  }
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  const bool isAtRest = !made.grid.isAsMesh || output->GetNumberOfPoints() == 0 ||
+                        pointsOf(output) == made.grid.mesh.points ||
+                        morph->GetOutputPointsPrecision() == 0;
+  return run.errors.empty() && isAtRest
+           ? Finding{}
+           : Finding{ "abort", isAtRest ? run.errors.front() : "the mesh is not at rest" };
+}
+
+/// The same call again, by the same filter or another one, gives the same bits; after an abort too.
+Finding checkAgain(Case& made, vtkSmartPointer<vtkAlgorithm> filter, const Run& first)
+{
+  const int again =
+    made.choices.pick("again", { "same filter", "new filter", "three threads" }, { 2, 2, 0.3 });
+  if (again == 0)
+  {
+    filter->Modified();
+  }
+  else
+  {
+    filter = made.makeFilter(again == 2 ? 3 : 0);
+  }
+  const double abortAt = made.choices.number(
+    "abortAt", 2, [](Random& random) { return random.happens(0.06) ? random.unit() : 2; });
+  if (abortAt <= 1)
+  {
+    const Run aborted = execute(filter, abortAt);
+    if (const Finding found = checkAborted(made, filter, aborted))
+    {
+      return found;
+    }
+    filter->SetAbortExecute(0);
+    filter->Modified();
+  }
+  return compare(made, first, execute(filter), abortAt <= 1 ? "after an abort" : "repeat");
+}
 }
 
 Finding checkMessages(const Case& made, const Run& run)
@@ -147,38 +211,10 @@ Verdict judge(
     }
   }
 
-  const int again =
-    choices.pick("again", { "same filter", "new filter", "three threads" }, { 2, 2, 0.3 });
-  if (again == 0)
+  verdict.finding = checkAgain(made, algorithm, run);
+  if (!verdict.finding)
   {
-    algorithm->Modified();
-  }
-  else
-  {
-    algorithm = made.makeFilter(again == 2 ? 3 : 0);
-  }
-  const Run second = execute(algorithm);
-  verdict.finding = inputsChanged();
-  if (verdict.finding)
-  {
-    return verdict;
-  }
-  // The ranking of the comparison depends on times.
-  const std::size_t compared = filter.name == "CompareMorphMethods" ? 2 : run.outputs.size();
-  for (std::size_t port = 0; port < compared; ++port)
-  {
-    const std::string found = difference(run.outputs[port], second.outputs[port], Timings);
-    if (!found.empty())
-    {
-      verdict.finding = { "repeat", "output " + std::to_string(port) + ": " + found };
-      return verdict;
-    }
-  }
-  if (run.errors != second.errors)
-  {
-    verdict.finding = { "repeat", "errors: " + (run.errors.empty() ? "none" : run.errors.front()) +
-                                    " | " +
-                                    (second.errors.empty() ? "none" : second.errors.front()) };
+    verdict.finding = inputsChanged();
   }
   return verdict;
 }

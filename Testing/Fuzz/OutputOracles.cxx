@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Oracles.h"
 
+#include "BoundaryOracles.h"
 #include "RandomMesh.h"
 #include "Recount.h"
 #include "vtkInversionFreeMorph.h"
@@ -356,21 +357,6 @@ Finding checkAdjoint(const Case& made, const Run& run)
            ? Finding{}
            : Finding{ "adjoint", "sums to " + text(sum) + ", not " + text(wanted) };
 }
-
-/// The boundary's nodes are the outer ones, in ascending order.
-Finding checkExtracted(const Case& made, vtkPointSet* output)
-{
-  vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
-  std::vector<Index> nodes;
-  for (vtkIdType p = 0; ids && p < ids->GetNumberOfTuples(); ++p)
-  {
-    nodes.push_back(static_cast<Index>(ids->GetComponent(p, 0)));
-  }
-  return nodes == made.grid.outer
-           ? Finding{}
-           : Finding{ "boundary nodes", std::to_string(nodes.size()) + " found, " +
-                                          std::to_string(made.grid.outer.size()) + " counted" };
-}
 }
 
 Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
@@ -410,6 +396,18 @@ Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
   if (made.filter.name == "ExtractMorphBoundary")
   {
     return checkExtracted(made, output);
+  }
+  if (made.filter.name == "ClassifyBoundary")
+  {
+    return checkClassified(made, output);
+  }
+  if (made.filter.name == "MorphBoundary")
+  {
+    return checkMovedBoundary(made, filter, run);
+  }
+  if (made.filter.name == "BoundaryDisplacement")
+  {
+    return checkDisplaced(made, output);
   }
   return {};
 }

@@ -113,18 +113,25 @@ Map motion(Choices& choices, const RandomGrid& grid, bool hostile, RandomBoundar
 std::vector<Index> chooseNodes(Choices& choices, const RandomGrid& grid, RandomBoundary& boundary)
 {
   const int which = choices.pick("boundary.nodes",
-    { "outer", "part of the outer", "outer and some inside", "all", "few", "one" },
-    { 12, 3, 1.5, 0.4, 0.6, 0.3 });
+    { "outer", "part of the outer", "outer and some inside", "all", "few", "one", "one end" },
+    { 12, 3, 1.5, 0.4, 0.6, 0.3, 1 });
   Random random = choices.stream("boundary.nodes");
   const std::vector<Index> all = volumeNodes(grid.mesh);
   const std::set<Index> outer(grid.outer.begin(), grid.outer.end());
   const double part = random.unit();
+  double last = -Infinity;
+  for (const Index n : all)
+  {
+    last = std::max(last, grid.mesh.points(n, 0));
+  }
+  const double end = last - 0.2 * part * grid.size;
   std::vector<Index> nodes;
   for (const Index n : all)
   {
     const bool isOuter = outer.count(n) > 0;
     const bool takes[] = { isOuter, isOuter && random.happens(part),
-      isOuter || random.happens(0.3 * part), true, random.happens(0.1), nodes.empty() };
+      isOuter || random.happens(0.3 * part), true, random.happens(0.1), nodes.empty(),
+      isOuter && grid.mesh.points(n, 0) >= end };
     if (takes[which])
     {
       nodes.push_back(n);
@@ -371,6 +378,12 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
     {
       addRest(data, nodes, grid.mesh.points, "RestPosition");
     }
+  }
+  // As many points as the mesh has nodes are matched by their numbers before their names are looked at.
+  const bool isLikeMesh = data->GetNumberOfPoints() == grid.mesh.numberOfNodes();
+  if (isLikeMesh && (ids == 3 || ids == 4 || ids == 6))
+  {
+    boundary.isRight = false;
   }
   // Several nodes may lie where one is; and the float nearest to a rest position is not that position.
   boundary.isExact = boundary.isExact && ids != 6;

@@ -75,6 +75,29 @@ Mesh pyramids(int nx, int ny, int nz)
   return mesh;
 }
 
+/// hexes() with a fin: a row of cells that only the last of hangs together with the others.
+Mesh finned(int nx, int ny, int nz)
+{
+  Mesh mesh = meshes::hexes(nx, ny, nz);
+  const Index corner = nx; // of the first layer
+  Index root[4] = { corner, corner + (nx + 1), corner + (nx + 1) * (ny + 1) + (nx + 1),
+    corner + (nx + 1) * (ny + 1) };
+  for (int length = 1; length <= 3; ++length)
+  {
+    const Index before = mesh.numberOfNodes();
+    mesh.points.conservativeResize(before + 4, 3);
+    std::vector<Index> nodes(root, root + 4);
+    for (int k = 0; k < 4; ++k)
+    {
+      mesh.points.row(before + k) = mesh.points.row(root[k]) + Row(1, 0, 0);
+      root[k] = before + k;
+      nodes.push_back(root[k]);
+    }
+    meshes::add(mesh, morph::Hexahedron, nodes);
+  }
+  return mesh;
+}
+
 /// Cells of any type between random points.
 Mesh soup(Random random)
 {
@@ -107,10 +130,10 @@ Mesh lattice(Choices& choices)
 {
   const int kind = choices.pick("mesh.cells",
     { "hexahedra", "tetrahedra", "wedges", "hexahedra and pyramids", "hexahedra and wedges",
-      "voxels", "pyramids", "soup" },
-    { 6, 6, 3, 2, 2, 1, 1, 0.6 });
+      "voxels", "pyramids", "block with a fin", "soup" },
+    { 6, 6, 3, 2, 2, 1, 1, 0.7, 0.6 });
   const int order =
-    kind == 5 || kind == 7
+    kind == 5 || kind == 8
       ? 0
       : choices.pick("mesh.order", { "linear", "quadratic", "fully quadratic", "quadratic-linear" },
           { 7, 1, 1, 0.5 });
@@ -124,8 +147,8 @@ Mesh lattice(Choices& choices)
   const int nz = choices.whole("mesh.nz", 2, length);
   using Maker = Mesh (*)(int, int, int);
   constexpr Maker makers[] = { meshes::hexes, meshes::tets, meshes::wedges,
-    meshes::hexesAndPyramids, meshes::hexesAndWedges, voxels, pyramids };
-  Mesh mesh = kind == 7 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
+    meshes::hexesAndPyramids, meshes::hexesAndWedges, voxels, pyramids, finned };
+  Mesh mesh = kind == 8 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
   // In part: mid-side nodes that the neighbor does not have.
   const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
   return order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));

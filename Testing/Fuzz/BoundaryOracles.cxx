@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryOracles.h"
+
+#include "RandomMesh.h"
+#include "Recount.h"
+#include "vtkBoundaryDisplacement.h"
+#include "vtkMorphBoundary.h"
+
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace fuzz
+{
+namespace
+{
+using morph::Index;
+using Row = Eigen::RowVector3d;
+
+std::string nodeText(Index node)
+{
+  return "node " + std::to_string(node);
+}
+
+/// The point array, or null where it is not as long as the output.
+vtkDataArray* arrayOf(vtkPointSet* output, const char* name)
+{
+  vtkDataArray* array = output->GetPointData()->GetArray(name);
+  return array && array->GetNumberOfTuples() == output->GetNumberOfPoints() ? array : nullptr;
+}
+
+double roundingOf(vtkPointSet* output, const Row& x)
+{
+  const bool isFloat = output->GetPoints()->GetDataType() == VTK_FLOAT;
+  return (isFloat ? 1e-6 : 1e-13) * x.cwiseAbs().maxCoeff();
+}
+}
+
+Finding checkExtracted(const Case& made, vtkPointSet* output)
+{
+  vtkDataArray* ids = arrayOf(output, "MorphPointId");
+  std::vector<Index> nodes;
+  for (vtkIdType p = 0; ids && p < ids->GetNumberOfTuples(); ++p)
+  {
+    nodes.push_back(static_cast<Index>(ids->GetComponent(p, 0)));
+  }
+  return nodes == made.grid.outer
+           ? Finding{}
+           : Finding{ "boundary nodes", std::to_string(nodes.size()) + " found, " +
+                                          std::to_string(made.grid.outer.size()) + " counted" };
+}
+
+Finding checkClassified(const Case& made, vtkPointSet* output)
+{
+  vtkDataArray* dimensions = arrayOf(output, "GeometryDimension");
+  if (!dimensions)
+  {
+    return { "geometry", "no GeometryDimension" };
+  }
+  const std::set<Index> outer(made.grid.outer.begin(), made.grid.outer.end());
+  const std::vector<Index> all = volumeNodes(made.grid.mesh);
+  const std::set<Index> inVolume(all.begin(), all.end());
+  for (Index n = 0; n < output->GetNumberOfPoints(); ++n)
+  {
+    const double dimension = dimensions->GetComponent(n, 0);
+    const bool isRight =
+      outer.count(n) ? dimension >= 0 && dimension <= 2 : dimension == (inVolume.count(n) ? 3 : -1);
+    if (!isRight)
+    {
+      return { "geometry", nodeText(n) + " has the dimension " + std::to_string(dimension) };
+    }
+  }
+  return {};
+}
+
+Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run& run)
+{
+  auto* filter = vtkMorphBoundary::SafeDownCast(algorithm);
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  vtkDataArray* ids = arrayOf(output, "MorphPointId");
+  vtkDataArray* dimensions = arrayOf(output, "GeometryDimension");
+  if (!ids || !dimensions)
+  {
+    return { "moved boundary", "no ids or no GeometryDimension" };
+  }
+  if (!made.boundary.isRight || !made.isRegular || filter->GetMatchTolerance() > 1e-3)
+  {
+    return {};
+  }
+  const std::map<Index, Row> targets(made.boundary.targets.begin(), made.boundary.targets.end());
+  const double scale = filter->GetScaleFactor();
+  // A motion that flattens or reflects a surface draws a warning.
+  const bool isAffine = made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
+                        filter->GetUnattachedMotion() == vtkMorphBoundary::FOLLOW_AFFINELY &&
+                        made.choices.value("hostile.mesh") == 0 &&
+                        isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    const double dimension = dimensions->GetComponent(p, 0);
+    const auto target = targets.find(node);
+    const Row rest = made.grid.mesh.points.row(node);
+    Row x;
+    output->GetPoint(p, x.data());
+    const bool isGiven = target != targets.end() && dimension <= filter->GetPrescribedDimension();
+    const Row wanted = isGiven ? Row(rest + scale * (target->second - rest)) : rest;
+    const bool isKnown = isGiven || dimension == 0;
+    if (isKnown && !((x - wanted).cwiseAbs().maxCoeff() <=
+                     10 * roundingOf(output, wanted) + 1e-12 * made.grid.size))
+    {
+      return { "given node", nodeText(node) };
+    }
+    const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
+    const Row image = rest + scale * (mapped - rest);
+    const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) +
+                           100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
+    if (isAffine && !((x - image).norm() <= allowed))
+    {
+      return { "affine map of the boundary",
+        nodeText(node) + " of dimension " + std::to_string(static_cast<int>(dimension)) };
+    }
+  }
+  return {};
+}
+
+Finding checkDisplaced(const Case& made, vtkPointSet* output)
+{
+  vtkDataArray* roles = arrayOf(output, "Role");
+  vtkDataArray* ids = arrayOf(output, "MorphPointId");
+  if (!roles || !ids)
+  {
+    return { "displaced boundary", "no Role or no ids" };
+  }
+  const bool isGrid = made.inputs[0] == made.grid.data;
+  for (vtkIdType p = 0; isGrid && p < output->GetNumberOfPoints(); ++p)
+  {
+    const double role = roles->GetComponent(p, 0);
+    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    const Row rest = made.grid.mesh.points.row(node);
+    Row x;
+    output->GetPoint(p, x.data());
+    if (!(role >= 0 && role <= 3))
+    {
+      return { "displaced boundary", "a Role of " + std::to_string(role) };
+    }
+    if ((role == 0 || role == 2) && (x - rest).cwiseAbs().maxCoeff() > roundingOf(output, rest))
+    {
+      return { "displaced boundary", nodeText(node) + " is to stay, and moves" };
+    }
+  }
+  return {};
+}
+}
