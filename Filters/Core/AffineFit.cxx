@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+
 namespace morph
 {
 namespace
@@ -26,6 +28,11 @@ Eigen::RowVector3d sumOfRows(const Points& points)
   }
   return sum;
 }
+
+Eigen::RowVector3d meanOfRows(const Points& points)
+{
+  return sumOfRows(points) / static_cast<double>(std::max<Index>(points.rows(), 1));
+}
 }
 
 AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement)
@@ -35,7 +42,7 @@ AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Po
 
 AffineLeastSquares::AffineLeastSquares(const Points& rest)
 {
-  this->centre_ = sumOfRows(rest) / static_cast<double>(rest.rows());
+  this->centre_ = meanOfRows(rest);
   this->arms_ = rest.rowwise() - this->centre_;
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < rest.rows(); ++i)
@@ -60,7 +67,7 @@ AffineFit AffineLeastSquares::fit(const Points& displacement) const
 {
   AffineFit fit;
   fit.centre_ = this->centre_;
-  fit.mean_ = sumOfRows(displacement) / static_cast<double>(displacement.rows());
+  fit.mean_ = meanOfRows(displacement);
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < displacement.rows(); ++i)
   {

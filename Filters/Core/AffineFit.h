@@ -38,7 +38,7 @@ class AffineLeastSquares
 {
 public:
   AffineLeastSquares() = default;
-  /// `rest`: #points x 3, at least one; copied. Directions in which the points extend less than 1e-5 of their
+  /// `rest`: #points x 3, copied; without points every fit is zero. Directions in which the points extend less than 1e-5 of their
   /// largest extent (root mean square) count as flat: the fit's gradient vanishes along them.
   explicit AffineLeastSquares(const Points& rest);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -55,9 +56,15 @@ double dot(const Points& a, const Points& b, Monitor& monitor)
 }
 }
 
-void BlockMatrix::open(const void* owner, BlockPattern pattern)
+PatternId::PatternId()
 {
-  this->owner_ = owner;
+  static std::atomic<std::uint64_t> last{ 0 };
+  this->number_ = ++last;
+}
+
+void BlockMatrix::open(const PatternId& id, BlockPattern pattern)
+{
+  this->id_ = id.number();
   this->pattern_ = std::move(pattern);
   this->values_.assign(9 * this->pattern_.columns.size() + Padding, 0.f);
 }

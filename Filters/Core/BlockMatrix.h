@@ -9,6 +9,29 @@
 
 namespace morph
 {
+/// Tells the patterns of different owners apart: every object has a number of its own, copies included.
+class PatternId
+{
+public:
+  PatternId();
+  PatternId(const PatternId&)
+    : PatternId()
+  {
+  }
+  PatternId& operator=(const PatternId&)
+  {
+    *this = PatternId();
+    return *this;
+  }
+  PatternId(PatternId&&) = default;
+  PatternId& operator=(PatternId&&) = default;
+
+  std::uint64_t number() const { return this->number_; }
+
+private:
+  std::uint64_t number_;
+};
+
 struct BlockPattern
 {
   std::vector<Index> offsets{ 0 };   ///< #rows + 1, into `columns`
@@ -23,9 +46,9 @@ struct BlockPattern
 class BlockMatrix
 {
 public:
-  /// `owner`: whose pattern this is.
-  void open(const void* owner, BlockPattern pattern);
-  bool isOpenFor(const void* owner) const { return this->owner_ == owner; }
+  /// `id`: the owner's, by which it later recognises its pattern.
+  void open(const PatternId& id, BlockPattern pattern);
+  bool isOpenFor(const PatternId& id) const { return this->id_ == id.number(); }
 
   Index rows() const { return static_cast<Index>(this->pattern_.offsets.size()) - 1; }
   const std::int32_t* columns(Index row) const
@@ -56,7 +79,7 @@ public:
   std::size_t memory() const;
 
 private:
-  const void* owner_ = nullptr;
+  std::uint64_t id_ = 0; ///< 0: of no pattern
   BlockPattern pattern_;
   std::vector<float> scratch_;
   std::vector<float> values_; ///< and Padding more, for reads of four numbers where three are meant

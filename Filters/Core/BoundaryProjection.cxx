@@ -224,6 +224,7 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
   std::vector<Index> turned;
   do
   {
+    monitor.check();
     turned.clear();
     const Points now = motion.moved();
     for (const GeometryCurve& curve : geometry.curves)

@@ -5,7 +5,8 @@
 #include "ElementStiffness.h"
 #include "Error.h"
 #include "RowOrder.h"
-#include "RowSystem.h"
+#include "RowPlaces.h"
+#include "ScaledJacobian.h"
 #include "SimplicialDecomposition.h"
 #include "Topology.h"
 
@@ -18,6 +19,7 @@ namespace
 {
 constexpr Index Grain = 4096;
 constexpr int MaxIterations = 2000;
+constexpr std::size_t MostIds = 100; // in a warning
 
 /// Stiffness matrices of all volume cells, upper triangles one after another.
 struct CellMatrices
@@ -26,37 +28,73 @@ struct CellMatrices
   Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
 };
 
-/// Warns of cells whose Jacobian is not that of a valid cell. `sign`: #cells, from elementStiffness.
+/// Whether two corners of a cell are in one place, as in a hexahedron that is used as a wedge.
+bool isCollapsed(const Mesh& mesh, Index cell)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  for (int a = 0; a < shape.numberOfCorners; ++a)
+  {
+    for (int b = 0; b < a; ++b)
+    {
+      if (mesh.points.row(mesh.cell(cell)[a]) == mesh.points.row(mesh.cell(cell)[b]))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Warns of cells that are inverted by their scaled Jacobian or that have no usable volume.
+/// `sign`: #cells, from elementStiffness().
 void reportBadCells(
   const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign, Monitor& monitor)
 {
-  if (std::all_of(sign.begin(), sign.end(), [](std::int8_t s) { return s == 1; }))
+  const std::vector<std::int8_t> expected = orientation(mesh, bodies);
+  const Quality quality = measureQuality(mesh, mesh.points, expected, {}, monitor);
+  std::vector<Index> inverted, flat;
+  Index absolute = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (numberOfCorners(cellShape(mesh.types[c])->shape) == 0)
+    {
+      continue;
+    }
+    const double jacobian = quality.scaledJacobian[c];
+    const bool unusable = sign[c] != expected[c];
+    absolute += unusable;
+    if (jacobian < 0 || (jacobian == 0 && !unusable && !isCollapsed(mesh, c)))
+    {
+      inverted.push_back(c);
+    }
+    else if (unusable)
+    {
+      flat.push_back(c);
+    }
+  }
+  if (inverted.empty() && flat.empty())
   {
     return;
   }
-  const std::vector<std::int8_t> expected = orientation(mesh, bodies);
-  std::vector<Index> inverted, degenerate;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  std::string text = "The reference mesh has";
+  if (!inverted.empty())
   {
-    if (numberOfCorners(cellShape(mesh.types[c])->shape) > 0 && sign[c] != expected[c])
-    {
-      (sign[c] == 0 ? degenerate : inverted).push_back(c);
-    }
+    text +=
+      " " + std::to_string(inverted.size()) + " inverted cells: ids " + listIds(inverted, MostIds);
   }
-  if (!inverted.empty() || !degenerate.empty())
+  if (!flat.empty())
   {
-    std::string text = "The rest mesh has cells without a positive Jacobian throughout;";
-    if (!inverted.empty())
-    {
-      text += " inverted: cell ids " + listIds(inverted) + ";";
-    }
-    if (!degenerate.empty())
-    {
-      text += " partly inverted or of zero volume: cell ids " + listIds(degenerate) + ";";
-    }
-    monitor.warn(text + " they enter with absolute volumes, so near them affine motions are "
-                        "reproduced approximately. Repair the rest mesh if you can.");
+    text += std::string(inverted.empty() ? " " : ", and ") + std::to_string(flat.size()) +
+            " cells of zero volume or nearly so: ids " + listIds(flat, MostIds);
   }
+  text += ".";
+  if (absolute > 0)
+  {
+    text += " " + std::to_string(absolute) +
+            " of them enter with absolute volumes, so near them affine motions are reproduced "
+            "approximately.";
+  }
+  monitor.warn(text + " Repair the reference mesh if you can.");
 }
 
 CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monitor)
@@ -72,6 +110,7 @@ CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monit
   result.K.resize(result.start.back());
 
   std::vector<std::int8_t> sign(cells, 1);
+  std::vector<std::uint8_t> isBad(cells, 0);
   monitor.parallelFor(cells, Grain,
     [&](Index first, Index last)
     {
@@ -91,9 +130,13 @@ CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monit
         }
         sign[c] = static_cast<std::int8_t>(
           elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
+        isBad[c] = sign[c] != 1 || !(scaledJacobian(mesh.types[c], corners) > 0);
       }
     });
-  reportBadCells(mesh, bodies, sign, monitor);
+  if (std::find(isBad.begin(), isBad.end(), 1) != isBad.end())
+  {
+    reportBadCells(mesh, bodies, sign, monitor);
+  }
   return result;
 }
 
@@ -175,16 +218,17 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   monitor.parallelFor(rows, Grain,
     [&](Index first, Index last)
     {
-      std::vector<int> seen(rows + columns, -1);
+      RowPlaces places;
       for (Index row = first; row < last; ++row)
       {
         int inside = 0, outside = 0;
+        places.clear();
         visit(row,
           [&](int at, double)
           {
-            if (seen[at] != row)
+            const int known = places.size();
+            if (places.find(at) == known)
             {
-              seen[at] = static_cast<int>(row);
               ++(at < rows ? inside : outside);
             }
           });
@@ -202,22 +246,21 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   monitor.parallelFor(rows, Grain,
     [&](Index first, Index last)
     {
-      std::vector<int> place(
-        rows + columns, -1); // of a column in `entries`, where that names the column
+      RowPlaces places; // of the columns in `entries`
       std::vector<std::pair<int, double>> entries;
       for (Index row = first; row < last; ++row)
       {
         entries.clear();
+        places.clear();
         visit(row,
           [&](int at, double value)
           {
-            const std::size_t k = static_cast<std::size_t>(place[at]);
-            if (k < entries.size() && entries[k].first == at)
+            const std::size_t place = static_cast<std::size_t>(places.find(at));
+            if (place < entries.size())
             {
-              entries[k].second += value;
+              entries[place].second += value;
               return;
             }
-            place[at] = static_cast<int>(entries.size());
             entries.emplace_back(at, value);
           });
         std::sort(entries.begin(), entries.end(),
@@ -276,13 +319,14 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
       "Every cell around node ids " + listIds(nodes) +
         " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
   }
+  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   Points rhs, x;
-  startSystem(this->restPoints(), this->rows_, this->partition(), this->coupling_, prescribed, rhs,
-    x, monitor);
+  startSystem(
+    this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
   fromRows(x, this->rows_, this->partition(), free, monitor);
@@ -305,8 +349,9 @@ EvaluateReport FemWarp::displaceTranspose(
 std::size_t FemWarp::memory() const
 {
   const NodePartition& partition = this->partition();
-  return this->solver_.memory() + 12 * static_cast<std::size_t>(this->coupling_.nonZeros()) +
-         4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
+  return this->solver_.memory() + this->guess_.memory() +
+         12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
+         24 * this->restPoints().rows() +
          8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
 }
 }

@@ -113,6 +113,10 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
     this->setDensity(epsilon);
     const double start = this->evaluate(points, monitor).energy;
     state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
+    if (!std::isfinite(start) || !std::isfinite(state.energy))
+    {
+      break; // no step is taken from here, whatever the regularisation
+    }
     if (epsilon <= Valid)
     {
       if (std::abs(settled - state.energy) < Settled * state.energy ||

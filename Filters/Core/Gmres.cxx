@@ -71,6 +71,7 @@ Gmres::Gmres(const SparseMatrix& matrix)
 int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
   const ThreeColumns& goal2, ThreeColumnRows& solution, Monitor& monitor)
 {
+  monitor.check();
   const Index n = this->matrix_->rows();
   const ThreeColumns zero = ThreeColumns::Zero();
   std::array<Projected, 3> columns;

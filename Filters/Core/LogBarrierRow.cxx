@@ -32,7 +32,6 @@ LogBarrierRow::LogBarrierRow(
   : mesh_(&mesh)
   , around_(&around)
   , numbers_(&columns)
-  , mark_(columns.nodes.size(), 0)
 {
 }
 
@@ -46,9 +45,9 @@ void LogBarrierRow::gather(Index node)
     for (int k = 0; k < n; ++k)
     {
       const int column = this->numbers_->ofNode[nodes[k]];
-      if (this->mark_[column] != this->gathering_)
+      const int known = this->met_.size();
+      if (this->met_.find(column) == known)
       {
-        this->mark_[column] = this->gathering_;
         this->columns_.push_back(column);
       }
     }
@@ -56,10 +55,9 @@ void LogBarrierRow::gather(Index node)
 }
 
 /// Adds the neighbors' neighbors.
-void LogBarrierRow::widen(Index node)
+void LogBarrierRow::widen()
 {
   const std::vector<int> ring = this->columns_;
-  this->mark_[this->numbers_->ofNode[node]] = this->gathering_;
   for (int column : ring)
   {
     this->gather(this->numbers_->nodes[column]);
@@ -165,9 +163,9 @@ LogBarrierRow::Kind LogBarrierRow::compute(Index node, bool relax)
 {
   const auto oneRing = [&]
   {
-    ++this->gathering_;
     this->columns_.clear();
-    this->mark_[this->numbers_->ofNode[node]] = this->gathering_;
+    this->met_.clear();
+    this->met_.find(this->numbers_->ofNode[node]);
     this->gather(node);
     std::sort(this->columns_.begin(), this->columns_.end());
     this->takeOffsets(node);
@@ -182,7 +180,7 @@ LogBarrierRow::Kind LogBarrierRow::compute(Index node, bool relax)
   {
     return Kind::None;
   }
-  this->widen(node);
+  this->widen();
   this->takeOffsets(node);
   if (this->logBarrier())
   {

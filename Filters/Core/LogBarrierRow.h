@@ -3,6 +3,7 @@
 
 #include "LogBarrierWeights.h"
 #include "Mesh.h"
+#include "RowPlaces.h"
 #include "Topology.h"
 
 #include <array>
@@ -49,7 +50,7 @@ public:
 
 private:
   void gather(Index node);
-  void widen(Index node);
+  void widen();
   void takeOffsets(Index node);
   bool logBarrier();
   bool leastNormAffine();
@@ -64,7 +65,6 @@ private:
   std::vector<double> weights_;
   std::vector<std::array<double, 3>> offsets_;
   int iterations_ = 0;
-  std::vector<int> mark_; ///< per column, the last gathering that met it
-  int gathering_ = 0;
+  RowPlaces met_; ///< the columns of this gathering, and the node's own
 };
 }

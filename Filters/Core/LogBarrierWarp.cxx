@@ -4,7 +4,6 @@
 #include "Error.h"
 #include "LogBarrierSystem.h"
 #include "RowOrder.h"
-#include "RowSystem.h"
 #include "Topology.h"
 
 #include <sstream>
@@ -72,6 +71,7 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const Points coordinates = rowPositions(rest.points, this->rows_);
   this->coupling_.swap(system.coupling);
   this->solver_.prepare(system.interior, coordinates, monitor);
+  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport LogBarrierWarp::report(
@@ -91,8 +91,8 @@ EvaluateReport LogBarrierWarp::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   Points rhs, x;
-  startSystem(this->restPoints(), this->rows_, this->partition(), this->coupling_, prescribed, rhs,
-    x, monitor);
+  startSystem(
+    this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
   const NonsymmetricSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   fromRows(x, this->rows_, this->partition(), free, monitor);
@@ -114,8 +114,9 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
 std::size_t LogBarrierWarp::memory() const
 {
   const NodePartition& partition = this->partition();
-  return this->solver_.memory() + 12 * static_cast<std::size_t>(this->coupling_.nonZeros()) +
-         4 * this->coupling_.rows() + 24 * this->restPoints().rows() +
+  return this->solver_.memory() + this->guess_.memory() +
+         12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
+         24 * this->restPoints().rows() +
          8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
 }
 }

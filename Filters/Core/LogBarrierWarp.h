@@ -3,6 +3,7 @@
 
 #include "Morpher.h"
 #include "NonsymmetricSolver.h"
+#include "RowSystem.h"
 
 #include <vector>
 
@@ -70,6 +71,7 @@ private:
   std::vector<Index> rows_;
   NonsymmetricSolver solver_;
   SparseMatrix coupling_;
+  AffineGuess guess_;
   double meanWeightIterations_ = 0;
   int mostWeightIterations_ = 0;
   std::vector<Count> outsideCounts_;

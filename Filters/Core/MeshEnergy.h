@@ -45,6 +45,7 @@ private:
   void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
     BlockMatrix& result, Monitor& monitor) const;
 
+  PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;
   CellGroups groups_;
   mutable Points parts_; ///< of the gradient, kept from call to call

@@ -203,12 +203,12 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix) const
     pattern.offsets.push_back(static_cast<Index>(pattern.columns.size()));
     pattern.placeOffsets.push_back(static_cast<Index>(pattern.places.size()));
   }
-  matrix.open(this, std::move(pattern));
+  matrix.open(this->pattern_, std::move(pattern));
 }
 
 void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const
 {
-  if (!result.isOpenFor(this))
+  if (!result.isOpenFor(this->pattern_))
   {
     this->openMatrix(result);
   }

@@ -31,15 +31,21 @@ void add(double factor, const Points& from, Points& to, Monitor& monitor)
     { to.middleRows(first, last - first) += factor * from.middleRows(first, last - first); });
 }
 
-/// Walks down along `direction`, a full step first. Returns false, leaving everything, where no step of sufficient decrease was found.
+/// Walks down along `direction`, a full step first. Returns false, leaving everything, where the slope
+/// does not descend or no step of sufficient decrease was found.
 bool lineSearch(const Objective& objective, const Points& direction, double slope, Points& points,
   Objective::Value& value, MinimizerEffort& effort, Monitor& monitor)
 {
   const std::vector<Index>& free = objective.free();
   Points trial = points;
   double length = 1;
+  if (!(slope < 0)) // not a number, too
+  {
+    return false;
+  }
   for (int halving = 0; halving < MostHalvings; ++halving, length /= 2)
   {
+    monitor.check();
     monitor.parallelFor(direction.rows(), Grain,
       [&](Index first, Index last)
       {
@@ -50,7 +56,8 @@ bool lineSearch(const Objective& objective, const Points& direction, double slop
       });
     ++effort.evaluations;
     const Objective::Value next = objective.value(trial, monitor);
-    if (next.allowed && next.energy <= value.energy + SufficientDecrease * length * slope)
+    if (next.allowed && std::isfinite(next.energy) &&
+        next.energy <= value.energy + SufficientDecrease * length * slope)
     {
       points.swap(trial);
       value = next;
@@ -175,7 +182,7 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
     monitor.check();
     objective.gradient(points, gradient, monitor);
     const double norm = std::sqrt(dot(gradient, gradient, monitor));
-    if (!(norm > 0))
+    if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
@@ -184,7 +191,7 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
       matrix.solve(-gradient, direction, LinearTolerance, MostLinearIterations, monitor);
     const double slope = dot(gradient, direction, monitor);
     const double before = value.energy;
-    if (!(slope < 0) || !lineSearch(objective, direction, slope, points, value, effort, monitor))
+    if (!lineSearch(objective, direction, slope, points, value, effort, monitor))
     {
       break;
     }
@@ -210,7 +217,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
   {
     monitor.check();
     const double norm = std::sqrt(dot(gradient, gradient, monitor));
-    if (!(norm > 0))
+    if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
@@ -218,8 +225,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     double slope = dot(gradient, direction, monitor);
     const Points start = rowsOf(points, objective.free());
     const double before = value.energy;
-    bool found =
-      slope < 0 && lineSearch(objective, direction, slope, points, value, effort, monitor);
+    bool found = lineSearch(objective, direction, slope, points, value, effort, monitor);
     if (!found && !inverse.empty())
     {
       inverse.forget();

@@ -3,6 +3,7 @@
 
 #include "BlockSum.h"
 #include "Error.h"
+#include "IndexLimits.h"
 
 namespace morph
 {
@@ -57,6 +58,7 @@ Morpher::~Morpher() = default;
 void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
 {
   validate(rest);
+  requireIndexable(rest);
   if (partition.prescribed.empty())
   {
     throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "

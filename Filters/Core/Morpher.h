@@ -31,6 +31,10 @@ struct EvaluateReport
 /// nodes are prescribed; evaluate() moves the mesh for one set of prescribed positions and may be called
 /// any number of times, in any order: a result depends on the rest mesh, the partition, the options and
 /// the prescribed positions alone, never on the thread count or on earlier calls.
+///
+/// Several threads may call evaluate(), and applyTranspose(), of one prepared object at once, each with
+/// its own Monitor and its own result: they get the same bits as one after another. prepare() and the
+/// setters need the object for themselves.
 class Morpher
 {
 public:
@@ -38,7 +42,7 @@ public:
 
   /// Keeps a copy of the rest points and of the partition (24 bytes per node and 8 per id) and lets the method make
   /// its weights, matrices or tessellation. Throws Error for a mesh or partition it cannot work with: no free
-  /// node, a body without a prescribed node, cells it does not know.
+  /// node, a body without a prescribed node, cells it does not know, more than 32 bits can number.
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
 
   /// `prescribed`: #prescribed x 3 new positions, in the order of NodePartition::prescribed.

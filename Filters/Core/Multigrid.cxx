@@ -3,6 +3,7 @@
 
 #include "BlockSum.h"
 #include "Error.h"
+#include "RowPlaces.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -20,7 +21,8 @@ constexpr int SmootherDegree = 2;
 constexpr float SmootherRange = 4; // smooths eigenvalues in [largest / range, largest]
 constexpr double NearShare = 0.1;  // near: within sqrt(10) times the nearest neighbor's distance
 constexpr Index Grain = 4096;
-constexpr int LanczosSteps = 5;
+constexpr int LanczosSteps = 10;
+constexpr float LanczosMargin = 1.1f; // what its result may be below the largest eigenvalue
 
 /// (A x)_i for a row of four single-precision lanes.
 template <typename M>
@@ -122,12 +124,11 @@ void Multigrid::prepare(const SparseMatrix& matrix, Symmetry symmetry, double un
       break; // nothing left to group: the smoother is all there is
     }
     level.eigenvalue = largestEigenvalue(level, monitor);
-    level.P = prolongation(level, near, group, groups, monitor);
+    level.P = prolongation(level, near, group, monitor);
     level.R = transpose(level.P, groups);
     near = {};
 
-    ExactMatrix coarse =
-      product(level.R, product(exact, level.P, groups, monitor), groups, monitor);
+    ExactMatrix coarse = product(level.R, product(exact, level.P, monitor), monitor);
     if (!this->addLevel(coarse, unit, monitor))
     {
       break; // lost to rounding next to cells that are nearly flat
@@ -238,8 +239,8 @@ bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
 
 float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
 {
-  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A: in a few steps within some percent of the top, where the
-  // power method is still far below.
+  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A: in ten steps within some percent of
+  // the top, where the power method is still far below.
   const Matrix& A = level.A;
   std::vector<float> root(A.rows), before(A.rows, 0.f), now(A.rows), next(A.rows), scaled(A.rows);
   std::uint32_t state = 1; // a random start, always the same
@@ -305,7 +306,7 @@ float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
     }
     rowSum = std::max(rowSum, sum * level.inverseDiagonal[i]);
   }
-  return bound > 0 && std::isfinite(bound) ? std::min(1.05f * bound, rowSum) : rowSum;
+  return bound > 0 && std::isfinite(bound) ? std::min(LanczosMargin * bound, rowSum) : rowSum;
 }
 
 std::vector<std::uint8_t> Multigrid::nearNeighbors(
@@ -412,7 +413,7 @@ namespace
 /// Rows made by chunks of a fixed size, then put together: the result does not depend on the threads. makeRow(i, add) calls
 /// add(column, value) in any order, and again for the same column; columns stay in the order of their first call.
 template <typename M, typename MakeRow>
-M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
+M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
 {
   using Scalar = typename M::Values::Scalar;
   struct Chunk
@@ -425,9 +426,7 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
   monitor.parallelFor(chunks, 1,
     [&](Index firstChunk, Index lastChunk)
     {
-      // Where a column's entry stands, counted over all chunks of this call; too small a number is an earlier row's.
-      std::vector<Index> place(columns, -1);
-      Index before = 0;
+      RowPlaces places;
       Chunk scratch; // keeps its capacity from chunk to chunk
       for (Index c = firstChunk; c < lastChunk; ++c)
       {
@@ -437,23 +436,22 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
         const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
         for (int i = static_cast<int>(c * Grain); i < last; ++i)
         {
-          const Index start = before + static_cast<Index>(scratch.column.size());
+          const std::size_t start = scratch.column.size();
+          places.clear();
           makeRow(i,
             [&](int column, Scalar value)
             {
-              if (place[column] >= start)
+              const std::size_t at = start + static_cast<std::size_t>(places.find(column));
+              if (at < scratch.value.size())
               {
-                scratch.value[place[column] - before] += value;
+                scratch.value[at] += value;
                 return;
               }
-              place[column] = before + static_cast<Index>(scratch.column.size());
               scratch.column.push_back(column);
               scratch.value.push_back(value);
             });
-          scratch.size.push_back(
-            static_cast<int>(before + static_cast<Index>(scratch.column.size()) - start));
+          scratch.size.push_back(places.size());
         }
-        before += static_cast<Index>(scratch.column.size());
         parts[c] = scratch;
       }
     });
@@ -466,6 +464,7 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
   for (Index c = 0; c < chunks; ++c)
   {
     at[c + 1] = at[c] + parts[c].value.size();
+    requireEntries(static_cast<Index>(at[c + 1]));
     for (int size : parts[c].size)
     {
       result.ownStart.push_back(result.ownStart.back() + size);
@@ -489,13 +488,13 @@ M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
 }
 
 Multigrid::Matrix Multigrid::prolongation(const Level& level, const std::vector<std::uint8_t>& near,
-  const std::vector<int>& group, int groups, Monitor& monitor)
+  const std::vector<int>& group, Monitor& monitor)
 {
   // P = (I - omega D^-1 A_F) T, T constant on the groups. A_F keeps the near neighbors and adds the entries of
   // the others to its diagonal.
   const Matrix& A = level.A;
   const float omega = 4.f / 3.f / level.eigenvalue;
-  return assembleRows<Matrix>(A.rows, groups, monitor,
+  return assembleRows<Matrix>(A.rows, monitor,
     [&](int i, const auto& add)
     {
       float diagonal = 0;
@@ -548,9 +547,9 @@ Multigrid::Matrix Multigrid::transpose(const Matrix& A, int columns)
 
 template <typename ScalarA, typename ScalarB>
 Multigrid::ExactMatrix Multigrid::product(
-  const Rows<ScalarA>& A, const Rows<ScalarB>& B, int columns, Monitor& monitor)
+  const Rows<ScalarA>& A, const Rows<ScalarB>& B, Monitor& monitor)
 {
-  return assembleRows<ExactMatrix>(A.rows, columns, monitor,
+  return assembleRows<ExactMatrix>(A.rows, monitor,
     [&](int i, const auto& add)
     {
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)

@@ -99,9 +99,13 @@ private:
     Matrix A;
     Matrix P, R; ///< prolongation to this level from the next, and its transpose
     std::vector<float> inverseDiagonal;
-    float eigenvalue = 0; ///< upper bound of the spectrum of D^-1 A
+    float eigenvalue = 0; ///< largest of D^-1 A, see largestEigenvalue()
   };
 
+  /// The largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1, and no more than the largest row
+  /// sum, which bounds every eigenvalue. Lanczos comes from below, so this is an estimate: the smoother
+  /// damps all eigenvalues up to 1.25 times what it is given. For Symmetry::General the recurrence is
+  /// that of a symmetric matrix all the same, and the row sums alone are a bound.
   static float largestEigenvalue(const Level& level, Monitor& monitor);
   /// For each matrix entry, whether its column is a near neighbor of its row.
   static std::vector<std::uint8_t> nearNeighbors(
@@ -110,11 +114,10 @@ private:
   static int aggregate(const Matrix& A, const Points& coordinates,
     const std::vector<std::uint8_t>& near, std::vector<int>& group);
   static Matrix prolongation(const Level& level, const std::vector<std::uint8_t>& near,
-    const std::vector<int>& group, int groups, Monitor& monitor);
+    const std::vector<int>& group, Monitor& monitor);
   static Matrix transpose(const Matrix& A, int columns);
   template <typename ScalarA, typename ScalarB>
-  static ExactMatrix product(
-    const Rows<ScalarA>& A, const Rows<ScalarB>& B, int columns, Monitor& monitor);
+  static ExactMatrix product(const Rows<ScalarA>& A, const Rows<ScalarB>& B, Monitor& monitor);
   /// Appends the level of `exact`, divided by `unit`, and takes its structure over. False, and no level, where the diagonal
   /// is not positive and finite.
   bool addLevel(ExactMatrix& exact, double unit, Monitor& monitor);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <mutex>
 #include <sstream>
+#include <string>
 
 namespace morph
 {
@@ -66,6 +67,7 @@ Eigen::Array4i above(const Row& norm2, const Row& goal2)
 struct NonsymmetricSolver::System
 {
   SparseMatrix A;
+  RowComponents components;
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
 
@@ -102,7 +104,7 @@ struct NonsymmetricSolver::System
   std::size_t memory() const
   {
     return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
-           this->preconditioner.memory() +
+           4 * this->components.ofRow.size() + this->preconditioner.memory() +
            this->A.rows() * (6 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f));
   }
 
@@ -110,9 +112,9 @@ struct NonsymmetricSolver::System
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
   void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
     Monitor& monitor) const;
-  /// One run of BiCGSTAB from the solution at hand. True if it went on to the goal, false where it stagnated or
-  /// broke down.
-  bool bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
+  /// One run of BiCGSTAB from the solution at hand, up to the goal, or to where it stagnates or breaks
+  /// down. `norm2` becomes that of the residual it carries along: the true one is the caller's to find.
+  void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
@@ -144,7 +146,7 @@ void NonsymmetricSolver::System::precondition(
   this->preconditioner.apply(work.scaled, step, work.multigrid, monitor);
 }
 
-bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
+void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
   int maxIterations, Report& report, Monitor& monitor,
   const std::function<void(double)>& progress) const
 {
@@ -182,19 +184,19 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     const Eigen::Array4i running = above(norm2, goal2);
     if (!running.any())
     {
-      return true;
+      return;
     }
     for (int c = 0; c < 3; ++c)
     {
       if (running[c] &&
-          !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c] * shadowNorm2[c])))
+          !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c]) * std::sqrt(shadowNorm2[c])))
       {
-        return false;
+        return;
       }
     }
     if (report.iterations >= maxIterations)
     {
-      return false;
+      return;
     }
     monitor.check();
 
@@ -211,7 +213,7 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     const Row alpha = ratio(rho, along, running);
     if (!alpha.allFinite())
     {
-      return false;
+      return;
     }
     norm2 = blockSum(n, monitor, zero,
       [&](Index i)
@@ -224,7 +226,7 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     const Eigen::Array4i still = running * above(norm2, goal2);
     if (!still.any())
     {
-      return norm2.allFinite();
+      return;
     }
 
     rescale();
@@ -241,7 +243,7 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     const Row omega = ratio(products.col(0), products.col(1), still);
     if (!omega.allFinite())
     {
-      return false;
+      return;
     }
     const Two sums = blockSum(n, monitor, Two(Two::Zero()),
       [&](Index i)
@@ -258,12 +260,12 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     rho = sums.col(1);
     if (!sums.allFinite())
     {
-      return false;
+      return;
     }
     const Row beta = ratio(rho, rhoBefore, still).cwiseProduct(ratio(alpha, omega, still));
     if (!beta.allFinite())
     {
-      return false;
+      return;
     }
     monitor.parallelFor(n, Grain,
       [&](Index first, Index last)
@@ -281,7 +283,7 @@ bool NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     {
       if (left > StagnationFactor * windowStart)
       {
-        return left <= 1;
+        return;
       }
       windowStart = left;
       windowEnd = report.iterations + StagnationWindow;
@@ -294,16 +296,17 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
+  const Row bNorm2 = blockSum(
+    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
   const auto start = [&]
   {
     for (Index i = 0; i < n; ++i)
     {
       work->solution[i] = lift(x.row(i));
     }
-    return this->trueResidual(b, *work, monitor);
+    return keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, *work, monitor),
+      work->solution, work->residual, monitor);
   };
-  const Row bNorm2 = blockSum(
-    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
   Row norm2 = start();
   if (!bNorm2.allFinite() || !norm2.allFinite())
   {
@@ -327,6 +330,12 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
     return Row(Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
   };
 
+  const auto reached = [&]
+  {
+    const Row limit2 = goal2.cwiseMax(reachable2());
+    return limit2.allFinite() && (norm2.array() <= limit2.array()).all();
+  };
+
   Report report;
   int runs = 0;
   // The residual that the iteration carries along drifts from b - A x: after each run x is checked, and taken further.
@@ -339,36 +348,43 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
     stuck = !norm2.allFinite() || largestRatio(norm2, goal2) > 0.5 * before;
     ++runs;
   }
-  if (above(norm2, goal2).any() && !(norm2.array() <= goal2.cwiseMax(reachable2()).array()).all())
+  if (above(norm2, goal2).any() && !reached())
   {
     if (!norm2.allFinite() || largestRatio(norm2, goal2) >= atStart)
     {
       norm2 = start();
     }
+    const auto fail = [&](const std::string& reached)
+    {
+      throw Error(Error::Kind::NoConvergence,
+        "The linear solver did not converge: " + reached +
+          " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+    };
     Gmres gmres(this->A);
     // Each run of GMRES ends with the true residual.
     for (double before = HUGE_VAL; above(norm2, goal2).any();)
     {
       const double now = largestRatio(norm2, goal2);
-      if (now > 0.5 * before && (norm2.array() <= goal2.cwiseMax(reachable2()).array()).all())
+      if (now > 0.5 * before && reached())
       {
         break;
       }
       if (report.fallBackIterations >= maxIterations)
       {
         std::ostringstream text;
-        text << "The linear solver did not converge: after " << report.iterations
-             << " iterations the relative residual is " << largestRatio(norm2, bNorm2) << " where "
-             << tolerance
-             << " is asked for. Look for inverted or nearly flat cells in the rest mesh, "
-             << "or raise the tolerance.";
-        throw Error(Error::Kind::NoConvergence, text.str());
+        text << "after " << report.iterations << " iterations the relative residual is "
+             << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
+        fail(text.str());
       }
       before = now;
       const int made = gmres.run(work->residual, norm2, goal2, work->solution, monitor);
       report.iterations += made;
       report.fallBackIterations += made;
       norm2 = this->trueResidual(b, *work, monitor);
+      if (!norm2.allFinite())
+      {
+        fail("its numbers overflowed after " + std::to_string(report.iterations) + " iterations.");
+      }
       progress(largestRatio(norm2, goal2));
     }
     std::ostringstream text;
@@ -409,6 +425,7 @@ struct NonsymmetricSolver::Implementation
     {
       auto fresh = std::make_unique<System>();
       fresh->A = this->forward.A.transpose();
+      fresh->components = this->forward.components;
       fresh->findNorm();
       fresh->preconditioner.prepareTransposed(this->forward.preconditioner);
       this->transposed = std::move(fresh);
@@ -442,6 +459,7 @@ void NonsymmetricSolver::prepare(
     throw SingularRows(notPositive);
   }
   system.findNorm();
+  system.components = rowComponents(system.A);
   system.preconditioner.prepare(
     system.A, Multigrid::Symmetry::General, diagonal.maxCoeff(), coordinates, monitor);
   this->implementation_ = std::move(fresh);
@@ -462,6 +480,11 @@ NonsymmetricSolver::Report NonsymmetricSolver::solveTransposed(
 const SparseMatrix& NonsymmetricSolver::matrix() const
 {
   return this->implementation_->forward.A;
+}
+
+const RowComponents& NonsymmetricSolver::components() const
+{
+  return this->implementation_->forward.components;
 }
 
 std::size_t NonsymmetricSolver::memory() const

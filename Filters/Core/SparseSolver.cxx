@@ -10,6 +10,7 @@
 #include <cmath>
 #include <mutex>
 #include <sstream>
+#include <string>
 
 namespace morph
 {
@@ -38,11 +39,29 @@ struct Workspace
   Multigrid::Vector residual32, step32;
   Multigrid::Workspace multigrid;
 };
+
+/// `reached`: what came of the iteration.
+[[noreturn]] void throwNoConvergence(const std::string& reached)
+{
+  throw Error(Error::Kind::NoConvergence,
+    "The conjugate gradients did not converge: " + reached +
+      " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+}
+
+void requireFinite(const Row& norm2, int iterations)
+{
+  if (!norm2.allFinite())
+  {
+    throwNoConvergence(
+      "their numbers overflowed after " + std::to_string(iterations) + " iterations.");
+  }
+}
 }
 
 struct SparseSolver::Implementation
 {
   SparseMatrix A;
+  RowComponents components;
   Multigrid preconditioner;
 
   // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they hold never matters.
@@ -99,6 +118,7 @@ void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates,
   {
     throw SingularRows(notPositive);
   }
+  fresh->components = rowComponents(fresh->A);
   fresh->preconditioner.prepare(
     fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
   this->implementation_ = std::move(fresh);
@@ -126,7 +146,8 @@ SolveReport SparseSolver::Implementation::iterate(
 
   const Row bNorm2 =
     blockSum(n, monitor, zero, [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
-  Row norm2 = this->trueResidual(b, work, monitor);
+  Row norm2 = keepBetterGuess(
+    this->components, b, bNorm2, this->trueResidual(b, work, monitor), solution, residual, monitor);
   if (!bNorm2.allFinite() || !norm2.allFinite())
   {
     throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
@@ -179,21 +200,13 @@ SolveReport SparseSolver::Implementation::iterate(
       {
         break;
       }
-      if (report.iterations == maxIterations || !norm2.allFinite())
+      requireFinite(norm2, report.iterations);
+      if (report.iterations == maxIterations)
       {
         std::ostringstream text;
-        text << "The conjugate gradients did not converge: ";
-        if (norm2.allFinite())
-        {
-          text << "after " << report.iterations << " iterations the relative residual is "
-               << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
-        }
-        else
-        {
-          text << "their numbers overflowed after " << report.iterations << " iterations.";
-        }
-        text << " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.";
-        throw Error(Error::Kind::NoConvergence, text.str());
+        text << "after " << report.iterations << " iterations the relative residual is "
+             << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
+        throwNoConvergence(text.str());
       }
       monitor.check();
 
@@ -236,6 +249,7 @@ SolveReport SparseSolver::Implementation::iterate(
       }
     }
     norm2 = this->trueResidual(b, work, monitor);
+    requireFinite(norm2, report.iterations);
   }
 
   for (int c = 0; c < 3; ++c)
@@ -275,10 +289,16 @@ const SparseMatrix& SparseSolver::matrix() const
   return this->implementation_->A;
 }
 
+const RowComponents& SparseSolver::components() const
+{
+  return this->implementation_->components;
+}
+
 std::size_t SparseSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
-         my.preconditioner.memory() + my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+         4 * my.components.ofRow.size() + my.preconditioner.memory() +
+         my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
 }
 }

@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "FemWarp.h"
 #include "Motions.h"
+#include "ScaledJacobian.h"
 #include "SimplicialDecomposition.h"
 #include "Topology.h"
 
@@ -277,6 +278,58 @@ TEST(FemWarp, BadCellsWarnAndTheRestStillWorks)
     EXPECT_TRUE(result.allFinite());
     EXPECT_LT(meshes::size(result), 2 * meshes::size(good.points));
   }
+}
+
+TEST(FemWarp, CellsInvertedAtACornerAloneAreNamedToo)
+{
+  // A node pushed along a diagonal: the cell there is inverted at that corner, and nowhere that the
+  // quadrature looks.
+  Mesh mesh = meshes::hexes(9, 9, 9);
+  const NodePartition partition = outerPartition(mesh);
+  std::vector<Index> bad;
+  for (int k : { 2, 4, 6 })
+  {
+    for (int j : { 2, 4, 6 })
+    {
+      mesh.points.row(4 + 10 * (j + 10 * Index(k))).array() += .4;
+      bad.push_back(4 + 9 * (j + 9 * Index(k)));
+    }
+  }
+  double corners[8][3], K[36];
+  for (int a = 0; a < 8; ++a)
+  {
+    const auto p = mesh.points.row(mesh.cell(bad[0])[a]);
+    std::copy(p.data(), p.data() + 3, corners[a]);
+  }
+  ASSERT_EQ(elementStiffness(Shape::Hex, corners, K), 1);
+  ASSERT_LT(scaledJacobian(Hexahedron, corners), 0);
+
+  meshes::ThreadedMonitor monitor;
+  FemWarp method;
+  method.prepare(mesh, partition, monitor);
+  ASSERT_EQ(monitor.warnings.size(), 1u);
+  const Quality quality = measureQuality(mesh, mesh.points, {}, {}, monitor);
+  ASSERT_EQ(invertedCells(quality), bad);
+  EXPECT_NE(monitor.warnings[0].find("9 inverted cells: ids " + listIds(bad)), std::string::npos)
+    << monitor.warnings[0];
+  EXPECT_EQ(monitor.warnings[0].find("approximately"), std::string::npos) << monitor.warnings[0];
+  Points result;
+  method.evaluate(targets(mesh, partition, affine), result, monitor);
+  EXPECT_LT(motions::difference(result, motions::mapped(mesh.points, affine)), 1e-10);
+}
+
+TEST(FemWarp, CollapsedHexahedraAreNotNamed)
+{
+  Mesh mesh = meshes::hexes(4, 4, 4);
+  const NodePartition partition = outerPartition(mesh);
+  std::vector<Index> nodes(mesh.cell(21), mesh.cell(21) + 8);
+  nodes[2] = nodes[3];
+  nodes[6] = nodes[7];
+  std::copy(nodes.begin(), nodes.end(), mesh.connectivity.begin() + mesh.offsets[21]);
+  meshes::ThreadedMonitor monitor;
+  FemWarp method;
+  method.prepare(mesh, partition, monitor);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings[0];
 }
 
 TEST(FemWarp, ABodyWithoutPrescribedNodesIsNamed)

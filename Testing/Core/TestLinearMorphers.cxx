@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 
 using namespace morph;
 using motions::affine;
@@ -202,6 +204,49 @@ TEST_P(LinearMorphers, ThreadsAndHistoryDoNotShow)
     other->applyTranspose(mesh.points, adjoint, monitor);
     EXPECT_TRUE(identical(adjoint, oneAdjoint)) << threads;
   }
+}
+
+TEST_P(LinearMorphers, SeveralThreadsMayEvaluateAtOnce)
+{
+  Mesh mesh = meshes::hexes(9, 8, 8);
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  const auto method = GetParam().make();
+  method->prepare(mesh, partition, monitor);
+  constexpr int Threads = 4, Rounds = 3;
+  Points expected[Threads], expectedAdjoint[Threads], target[Threads], gradient[Threads];
+  for (int t = 0; t < Threads; ++t)
+  {
+    target[t] = targets(mesh, partition, twistOf(8, .3 * (t + 1)));
+    gradient[t] = (t + 1) * mesh.points;
+    method->evaluate(target[t], expected[t], monitor);
+    method->applyTranspose(gradient[t], expectedAdjoint[t], monitor);
+  }
+  // As prepared before: what the first calls leave behind is not there yet.
+  method->prepare(mesh, partition, monitor);
+  std::vector<std::thread> threads;
+  std::atomic<int> different{ 0 };
+  for (int t = 0; t < Threads; ++t)
+  {
+    threads.emplace_back(
+      [&, t]
+      {
+        meshes::ThreadedMonitor own(2);
+        for (int round = 0; round < Rounds; ++round)
+        {
+          Points moved, adjoint;
+          method->evaluate(target[t], moved, own);
+          method->applyTranspose(gradient[t], adjoint, own);
+          different += !identical(moved, expected[t]) + !identical(adjoint, expectedAdjoint[t]);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(different, 0);
 }
 
 TEST_P(LinearMorphers, AnObjectCanBePreparedAgain)

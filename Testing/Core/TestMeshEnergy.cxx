@@ -4,10 +4,14 @@
 #include "Meshes.h"
 #include "Minimizers.h"
 #include "Motions.h"
+#include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace
 {
@@ -123,6 +127,32 @@ TEST(MeshEnergy, HessianIsExactAtTheTarget)
   }
 }
 
+TEST(MeshEnergy, AMatrixTellsEnergiesOfOneAddressApart)
+{
+  // Two energies after each other in the same place, with one matrix for both.
+  const Mesh first = meshes::hexes(3, 3, 3), second = meshes::tets(4, 3, 3);
+  std::optional<Setting> setting;
+  morph::BlockMatrix shared, fresh;
+  setting.emplace(first, morph::Target::Initial, 1e-10);
+  setting->energy.hessian(first.points, shared, setting->monitor);
+  const morph::Index rows = shared.rows();
+  setting.emplace(second, morph::Target::Initial, 1e-10);
+  setting->energy.hessian(second.points, shared, setting->monitor);
+  setting->energy.hessian(second.points, fresh, setting->monitor);
+  ASSERT_NE(fresh.rows(), rows);
+  ASSERT_EQ(shared.rows(), fresh.rows());
+  for (Index row = 0; row < fresh.rows(); ++row)
+  {
+    ASSERT_EQ(
+      shared.columns(row + 1) - shared.columns(row), fresh.columns(row + 1) - fresh.columns(row));
+    EXPECT_TRUE(std::equal(fresh.blocks(row), fresh.blocks(row + 1), shared.blocks(row))) << row;
+  }
+
+  const morph::PatternId id;
+  const morph::PatternId copy = id; // NOLINT(performance-unnecessary-copy-initialization)
+  EXPECT_NE(id.number(), copy.number());
+}
+
 TEST(MeshEnergy, AffineImagesOfTheTargetAreStationary)
 {
   for (const auto& [name, mesh] : small())
@@ -202,4 +232,92 @@ TEST(Minimizers, CancelAndLimits)
     morph::newton(setting.energy, x, limits, matrix, effort, setting.monitor), morph::Error);
   EXPECT_THROW(
     morph::limitedMemoryBfgs(setting.energy, x, limits, effort, setting.monitor), morph::Error);
+}
+
+namespace
+{
+/// An energy that never falls, and derivatives that need not be numbers, whatever the points.
+struct NeverFalls : morph::SecondOrderObjective
+{
+  explicit NeverFalls(double energy)
+    : energy(energy)
+  {
+  }
+  const std::vector<Index>& free() const override { return this->ids; }
+  Value value(const Points&, morph::Monitor& monitor) const override
+  {
+    monitor.parallelFor(1, 1, [](Index, Index) {});
+    return { this->energy + ++this->calls, true };
+  }
+  void gradient(const Points&, Points& result, morph::Monitor&) const override
+  {
+    result = Points::Constant(4, 3, this->slope);
+  }
+  void hessian(const Points&, morph::BlockMatrix& matrix, morph::Monitor&) const override
+  {
+    morph::BlockPattern pattern;
+    for (Index row = 0; row < 4; ++row)
+    {
+      pattern.columns.push_back(static_cast<std::int32_t>(row));
+      pattern.offsets.push_back(row + 1);
+      pattern.placeOffsets.push_back(0);
+    }
+    matrix.open(this->id, pattern);
+    for (Index row = 0; row < 4; ++row)
+    {
+      std::fill(matrix.blocks(row), matrix.blocks(row + 1), static_cast<float>(this->curvature));
+    }
+  }
+
+  double energy, slope = 1, curvature = 1;
+  mutable int calls = 0;
+  morph::PatternId id;
+  std::vector<Index> ids = { 0, 1, 2, 3 };
+};
+}
+
+TEST(Minimizers, EndAndLeaveThePointsWhereNumbersAreNone)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (double energy : { 1., nan, infinite })
+  {
+    for (double slope : { 1., nan, infinite })
+    {
+      for (double curvature : { 1., nan, infinite })
+      {
+        NeverFalls objective(energy);
+        objective.slope = slope;
+        objective.curvature = curvature;
+        const Points start = Points::Random(4, 3);
+        meshes::WatchingMonitor monitor;
+        monitor.mostLoops = 300; // a system of 100 iterations, between two questions
+        morph::BlockMatrix matrix;
+        morph::MinimizerEffort effort;
+        Points points = start;
+        morph::newton(objective, points, {}, matrix, effort, monitor);
+        morph::limitedMemoryBfgs(objective, points, {}, effort, monitor);
+        EXPECT_EQ(points, start) << energy << " " << slope << " " << curvature;
+        EXPECT_GT(monitor.questions, 0);
+      }
+    }
+  }
+}
+
+TEST(Minimizers, ALineSearchAsksWhetherToStop)
+{
+  NeverFalls objective(1); // all halvings are tried
+  meshes::WatchingMonitor monitor;
+  morph::MinimizerEffort effort;
+  Points points = Points::Zero(4, 3);
+  points(0, 0) = 1; // a size for the first step
+  morph::limitedMemoryBfgs(objective, points, {}, effort, monitor);
+  EXPECT_GT(monitor.questions, 40);
+  monitor.questions = 0;
+  monitor.cancelAfter = 5;
+  std::string message;
+  EXPECT_EQ(motions::kindOf(
+              [&] { morph::limitedMemoryBfgs(objective, points, {}, effort, monitor); }, message),
+    morph::Error::Kind::Cancelled);
+  EXPECT_LT(monitor.questions, 8);
 }

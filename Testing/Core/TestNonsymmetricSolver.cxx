@@ -5,12 +5,14 @@
 #include "Gmres.h"
 #include "Meshes.h"
 #include "Motions.h"
+#include "WatchingMonitor.h"
 
 #include <Eigen/SparseLU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -190,6 +192,43 @@ TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
   EXPECT_EQ(x.squaredNorm(), 0); // untouched
 }
 
+TEST(NonsymmetricSolver, HugeRightHandSidesTakeNoFallBack)
+{
+  Problem problem = lattice(9, .3);
+  meshes::WatchingMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  Points x = Points::Zero(problem.b.rows(), 3);
+  problem.b *= 1e100;
+  const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  EXPECT_EQ(report.fallBackIterations, 0);
+  EXPECT_LE(report.relativeResidual, 1e-10);
+}
+
+TEST(NonsymmetricSolver, EndsWhereItsNumbersOverflow)
+{
+  // x_0 is about 1e200: its residual is rounding of that size, whose square is infinite.
+  SparseMatrix A(3, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    A.insert(i, i) = 1;
+  }
+  A.insert(0, 1) = -1e200;
+  A.insert(1, 2) = -.7;
+  A.makeCompressed();
+  const Points places = Points::Identity(3, 3), b = Points::Constant(3, 3, 1. / 3);
+  Points x = Points::Zero(3, 3);
+  meshes::WatchingMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(A, places, monitor);
+  std::string message;
+  EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-10, 2000, monitor); }, message),
+    Error::Kind::NoConvergence);
+  EXPECT_NE(message.find("overflowed"), std::string::npos) << message;
+  EXPECT_GT(monitor.questions, 0);
+  EXPECT_EQ(x.squaredNorm(), 0); // untouched
+}
+
 TEST(NonsymmetricSolver, RowsWithoutAPositiveDiagonalAreNamed)
 {
   Problem problem = lattice(4, 0);
@@ -251,4 +290,20 @@ TEST(Gmres, ConvergesByItself)
     left += (residual[i] - rowTimes(problem.A, i, solution)).squaredNorm();
   }
   EXPECT_LT(std::sqrt(left / norm2.sum()), 1.1e-10);
+}
+
+TEST(Gmres, AsksWhetherToStopWithoutAColumnToSolveFor)
+{
+  Problem problem = lattice(4, 0);
+  Gmres gmres(problem.A);
+  const ThreeColumnRows residual(problem.b.rows(), ThreeColumns::Zero());
+  ThreeColumnRows solution = residual;
+  const ThreeColumns infinite = ThreeColumns::Constant(std::numeric_limits<double>::infinity());
+  meshes::WatchingMonitor monitor;
+  monitor.cancelAfter = 0;
+  std::string message;
+  EXPECT_EQ(
+    motions::kindOf(
+      [&] { gmres.run(residual, infinite, ThreeColumns::Zero(), solution, monitor); }, message),
+    Error::Kind::Cancelled);
 }
