@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several threads with one prepared object; for the linear methods see TestLinearMorphers.cxx.
+#include "InversionFree.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Smoothing.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+using namespace morph;
+
+namespace
+{
+void expectSameBits(Morpher& method)
+{
+  Mesh mesh = meshes::hexes(6, 5, 5);
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  const NodePartition partition = motions::outerPartition(mesh);
+  constexpr int Threads = 3;
+  Monitor monitor;
+  method.prepare(mesh, partition, monitor);
+  Points target[Threads], expected[Threads];
+  for (int t = 0; t < Threads; ++t)
+  {
+    target[t] = motions::targets(mesh, partition,
+      [&](const motions::Row& x) { return motions::twist(x, 6, 5, .7 * (t + 1)); });
+    method.evaluate(target[t], expected[t], monitor);
+  }
+  method.prepare(mesh, partition, monitor);
+  std::atomic<int> different{ 0 };
+  std::vector<std::thread> threads;
+  for (int t = 0; t < Threads; ++t)
+  {
+    threads.emplace_back(
+      [&, t]
+      {
+        Monitor own;
+        Points moved;
+        method.evaluate(target[t], moved, own);
+        different += !motions::identical(moved, expected[t]);
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(different, 0);
+}
+}
+
+TEST(Concurrency, InversionFreeGivesTheSameBits)
+{
+  InversionFree method;
+  expectSameBits(method);
+}
+
+TEST(Concurrency, SmoothingGivesTheSameBits)
+{
+  Smoothing method;
+  expectSameBits(method);
+}
