@@ -3,7 +3,9 @@
 
 #include "Error.h"
 #include "vtkMorphAlgorithm.h"
+#include "vtkMorphDataCheck.h"
 #include "vtkMorphInput.h"
+#include "vtkMorphMesh.h"
 #include "vtkMorphPorts.h"
 
 #include <vtkAlgorithmOutput.h>
@@ -197,10 +199,18 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
   }
   vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
   // The mesh was looked at before.
-  vtkPointSet* holder = carrier == rest
-                          ? rest
-                          : vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
+  vtkPointSet* holder =
+    carrier == rest ? rest : vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
   vtkDataArray* gradient = requireGradient(holder, vtkMorphInput::ArrayName(this->GradientArray));
+  // With a DisplacementArray the method does not look at them, and the output has them.
+  if (const auto wrong =
+        vtkMorphDataCheck::Immoderate(vtkMorphMesh::FromPoints(points->GetPoints()));
+      !wrong.empty())
+  {
+    throw morph::Error("The boundary has coordinates that are not finite (NaN or infinite), at its "
+                       "points " +
+                       morph::listIds(wrong) + ". Correct them.");
+  }
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");
   morph->Transpose(rest, points, gradient, result, monitor);

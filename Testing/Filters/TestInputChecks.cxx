@@ -344,6 +344,29 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
   expectFinite(boundary->GetOutput());
 }
 
+TEST(SinglePrecision, CellsThatRoundingInvertsAreSaid)
+{
+  auto grid = grids::hexes(3);
+  const auto far = [](const Row& x) { return Row(x[0] + 1e9, x[1], x[2]); };
+  vtkNew<vtkFEMWarpMorph> morph;
+  morph->SetInputData(grid);
+  morph->SetBoundaryData(grids::boundary(grid, far));
+  for (const int precision : { vtkAlgorithm::DOUBLE_PRECISION, vtkAlgorithm::SINGLE_PRECISION })
+  {
+    const bool isSingle = precision == vtkAlgorithm::SINGLE_PRECISION;
+    grids::Listener listener(morph);
+    morph->SetOutputPointsPrecision(precision);
+    morph->Update();
+    EXPECT_TRUE(listener.Errors.empty());
+    EXPECT_EQ(morph->GetInvertedCells() + morph->GetDegenerateCells(), isSingle ? 27 : 0);
+    EXPECT_STREQ(morph->GetMorphStatus(), isSingle ? "Inverted" : "Valid");
+    EXPECT_EQ(std::isnan(morph->GetLargestValidStep()), isSingle);
+    ASSERT_EQ(listener.Warnings.size(), isSingle ? 1u : 0u);
+    EXPECT_TRUE(!isSingle || listener.Warnings[0].find("Rounding to single precision inverts 27") !=
+                               std::string::npos);
+  }
+}
+
 TEST(BoundaryDisplacementInputs, HugeMotions)
 {
   auto grid = grids::hexes(3);

@@ -6,6 +6,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAdjoint.h"
+#include "vtkSimplexLinearMorph.h"
 #include "vtkSmoothingMorph.h"
 
 #include <vtkDoubleArray.h>
@@ -196,6 +197,26 @@ TEST_F(AdjointInputs, OutputIsTheBoundaryWithTheGradient)
   EXPECT_STREQ(output->GetPointData()->GetVectors()->GetName(), "MorphGradient");
   EXPECT_FALSE(this->Boundary->GetPointData()->GetArray("MorphGradient"))
     << "the input is never touched";
+}
+
+TEST_F(AdjointInputs, CoordinatesThatAreNotFiniteAreRefusedWhereNothingElseLooksAtThem)
+{
+  grids::addVectors(this->Boundary, "Move", morph::Points::Zero(56, 3));
+  this->Boundary->GetPoints()->SetPoint(5, NAN, 0, 0);
+  this->Morph->SetDisplacementArray("Move");
+  auto adjoint = adjointOf(this->Morph, this->Grid, this->Boundary, nullptr);
+  EXPECT_NE(this->ErrorOf(adjoint).find("not finite (NaN or infinite), at its points 5"),
+    std::string::npos);
+}
+
+TEST_F(AdjointInputs, GradientsThatOverflow)
+{
+  this->Grid->GetPointData()->GetArray("Gradient")->Fill(1e308);
+  vtkNew<vtkSimplexLinearMorph> morph; // without a solver, which would overflow before
+  morph->SetScaleFactor(1e3);
+  auto adjoint = adjointOf(morph, this->Grid, this->Boundary, nullptr);
+  EXPECT_NE(this->ErrorOf(adjoint).find("with respect to the boundary is not finite"),
+    std::string::npos);
 }
 
 TEST_F(AdjointInputs, APointThatStandsForSeveralNodesGetsTheirSum)
