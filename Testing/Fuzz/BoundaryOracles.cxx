@@ -36,7 +36,7 @@ vtkDataArray* arrayOf(vtkPointSet* output, const char* name)
 double roundingOf(vtkPointSet* output, const Row& x)
 {
   const bool isFloat = output->GetPoints()->GetDataType() == VTK_FLOAT;
-  return (isFloat ? 1e-6 : 1e-13) * x.cwiseAbs().maxCoeff();
+  return (isFloat ? 1e-6 : 1e-13) * x.cwiseAbs().maxCoeff() + (isFloat ? 1e-37 : 0);
 }
 }
 
@@ -93,8 +93,9 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   }
   const std::map<Index, Row> targets(made.boundary.targets.begin(), made.boundary.targets.end());
   const double scale = filter->GetScaleFactor();
-  // A motion that flattens or reflects a surface draws a warning.
+  // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning.
   const bool isAffine = made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
+                        made.choices.value("property.FeatureAngle") < 60 &&
                         filter->GetUnattachedMotion() == vtkMorphBoundary::FOLLOW_AFFINELY &&
                         made.choices.value("hostile.mesh") == 0 &&
                         isValid(made.grid.mesh, made.grid.mesh.points, 0.02);

@@ -216,7 +216,9 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
       algorithm->SetInputDataObject(static_cast<int>(port), this->inputs[port]);
     }
   }
-  this->isRegular = setProperties(this->choices, this->filter, algorithm) && this->isRegular;
+  const PropertiesSet properties = setProperties(this->choices, this->filter, algorithm);
+  this->isRegular = properties.areRegular && this->isRegular;
+  this->acceptedProperty = properties.accepted;
   vtkSmartPointer<vtkAlgorithm> named = algorithm;
   if (auto* adjoint = vtkMorphAdjoint::SafeDownCast(algorithm))
   {

@@ -28,6 +28,8 @@ public:
   bool isRegular =
     true; ///< properties are in range, and inputs other than grid and boundary are right
 
+  std::string acceptedProperty; ///< see PropertiesSet
+
 private:
   void setNames(vtkAlgorithm* algorithm);
 };

@@ -163,8 +163,12 @@ Finding checkMessages(const Case& made, const Run& run)
   {
     return { "silence", "an empty output without a message" };
   }
-  (void)made;
-  return {};
+  if (!made.acceptedProperty.empty())
+  {
+    return { "property", made.acceptedProperty + " took a number that is not finite" };
+  }
+  const bool isRefused = !run.errors.empty() && !run.fromExecutive.empty();
+  return isRefused ? Finding{ "message of the executive", run.fromExecutive.front() } : Finding{};
 }
 
 Verdict judge(

@@ -16,6 +16,9 @@
 #include "vtkSmoothingMorph.h"
 #include "vtkWeightedResidualMorph.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -251,11 +254,17 @@ const Filter& filterOf(std::uint64_t seed)
   return *found;
 }
 
-bool setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm)
+PropertiesSet setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm)
 {
   const bool hostile = choices.chance("hostile.properties", 0.09);
   const bool isMorph = filter.isMorph;
-  bool regular = true;
+  PropertiesSet result;
+  bool isRefused = false;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&isRefused);
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* heard, void*) { *static_cast<bool*>(heard) = true; });
+  const unsigned long tag = algorithm->AddObserver(vtkCommand::ErrorEvent, command);
   for (const Property& property : filter.properties)
   {
     const auto draw = [&](Random& random)
@@ -279,10 +288,16 @@ bool setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorit
     };
     const double value = choices.number("property." + property.name, property.plain, draw);
     // What is plain here need not be the filter's default.
+    isRefused = false;
     property.set(algorithm, value);
-    regular =
-      regular && (value == property.plain || (value >= property.low && value <= property.high));
+    if (!std::isfinite(value) && !isRefused && result.accepted.empty())
+    {
+      result.accepted = property.name;
+    }
+    const bool isUsual = value >= property.low && value <= property.high;
+    result.areRegular = result.areRegular && (value == property.plain || isUsual);
   }
-  return regular;
+  algorithm->RemoveObserver(tag);
+  return result;
 }
 }

@@ -37,6 +37,14 @@ const std::vector<Filter>& filters();
 /// The filter of a seed: each gets its share of any run of seeds.
 const Filter& filterOf(std::uint64_t seed);
 
-/// Sets some of the filter's properties, in range or not. Returns whether all that were set are finite and in range.
-bool setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm);
+/// What became of the properties that were set.
+struct PropertiesSet
+{
+  bool areRegular = true; ///< all values are usual ones
+  std::string
+    accepted; ///< the first property that took a number that is not finite without an error
+};
+
+/// Sets some of the filter's properties, in range or not.
+PropertiesSet setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm);
 }

@@ -114,7 +114,7 @@ std::vector<Index> chooseNodes(Choices& choices, const RandomGrid& grid, RandomB
 {
   const int which = choices.pick("boundary.nodes",
     { "outer", "part of the outer", "outer and some inside", "all", "few", "one", "one end" },
-    { 12, 3, 1.5, 0.4, 0.6, 0.3, 1 });
+    { 12, 3, 1.5, 0.4, 0.6, 0.3, 2 });
   Random random = choices.stream("boundary.nodes");
   const std::vector<Index> all = volumeNodes(grid.mesh);
   const std::set<Index> outer(grid.outer.begin(), grid.outer.end());

@@ -131,7 +131,7 @@ Mesh lattice(Choices& choices)
   const int kind = choices.pick("mesh.cells",
     { "hexahedra", "tetrahedra", "wedges", "hexahedra and pyramids", "hexahedra and wedges",
       "voxels", "pyramids", "block with a fin", "soup" },
-    { 6, 6, 3, 2, 2, 1, 1, 0.7, 0.6 });
+    { 6, 6, 3, 2, 2, 1, 1, 1, 0.6 });
   const int order =
     kind == 5 || kind == 8
       ? 0

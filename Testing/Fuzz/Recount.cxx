@@ -66,7 +66,8 @@ struct Determinants
 {
   double least = std::numeric_limits<double>::infinity(); ///< of edges of length 1
   double most = -std::numeric_limits<double>::infinity();
-  double volume = 0; ///< the sum of those of the edges themselves
+  double volume = 0;        ///< the sum of those of the edges themselves
+  bool isCollapsed = false; ///< two corners are in one place
 };
 
 bool isVolume(const Mesh& mesh, Index c)
@@ -94,6 +95,13 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
     const Vector a = corner(at[1]) - x, b = corner(at[2]) - x, d = corner(at[3]) - x;
     take(a, b, d);
     result.volume += a.dot(b.cross(d));
+  }
+  for (int k = 1; k < shape.numberOfCorners; ++k)
+  {
+    for (int other = 0; other < k; ++other)
+    {
+      result.isCollapsed = result.isCollapsed || corner(k) == corner(other);
+    }
   }
   if (shape.shape == morph::Shape::Hex)
   {
@@ -203,7 +211,8 @@ Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
     }
     else
     {
-      result.bad[c] = found.least < -Rounding ? 1 : found.least <= Rounding || isQuadratic ? -1 : 0;
+      const bool isUnclear = found.least <= Rounding || isQuadratic || found.isCollapsed;
+      result.bad[c] = found.least < -Rounding ? 1 : isUnclear ? -1 : 0;
     }
     result.lowest += result.bad[c] == 1;
     result.highest += result.bad[c] != 0;
