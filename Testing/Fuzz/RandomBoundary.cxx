@@ -207,7 +207,7 @@ void spoilIds(Random random, vtkDataArray* ids, vtkPointSet* data, Index nodes)
 
 void spoilPoints(Random random, vtkPoints* points)
 {
-  if (points->GetNumberOfPoints() == 0)
+  if (!points || points->GetNumberOfPoints() == 0)
   {
     return;
   }

@@ -81,7 +81,7 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
 {
   const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
   const auto corner = [&](int k) -> Vector
-  { return points.row(mesh.cell(c)[shape.cornerNode[k]]).transpose() / unit; };
+  { return points.row(mesh.cell(c)[shape.cornerNode[k]]).transpose(); };
   Determinants result;
   const auto take = [&result](const Vector& a, const Vector& b, const Vector& d)
   {
@@ -92,7 +92,8 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
   for (const auto& at : cornersOf(shape.shape))
   {
     const Vector x = corner(at[0]);
-    const Vector a = corner(at[1]) - x, b = corner(at[2]) - x, d = corner(at[3]) - x;
+    const Vector a = (corner(at[1]) - x) / unit, b = (corner(at[2]) - x) / unit,
+                 d = (corner(at[3]) - x) / unit;
     take(a, b, d);
     result.volume += a.dot(b.cross(d));
   }
@@ -110,7 +111,7 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
       Vector sum = Vector::Zero();
       for (int k = 0; k < 4; ++k)
       {
-        sum += corner(to[k]) - corner(from[k]);
+        sum += (corner(to[k]) - corner(from[k])) / unit;
       }
       return sum;
     };
@@ -279,7 +280,8 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
       for (int a = 0; a < nodes; ++a)
       {
         const int node = isVoxel ? shape.cornerNode[a] : a;
-        const Vector x = points.row(mesh.cell(c)[node]).transpose() / unit;
+        const Vector x =
+          (points.row(mesh.cell(c)[node]) - points.row(mesh.cell(c)[0])).transpose() / unit;
         for (int j = 0; j < 3; ++j)
         {
           jacobian.col(j) += x * slopes[j * nodes + a];
