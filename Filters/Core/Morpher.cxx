@@ -30,6 +30,20 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   return some;
 }
 
+/// Those of `ids` whose row of `some` is not finite.
+std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
+{
+  std::vector<Index> where;
+  for (Index i = 0; i < some.rows(); ++i)
+  {
+    if (!some.row(i).allFinite())
+    {
+      where.push_back(ids[i]);
+    }
+  }
+  return where;
+}
+
 /// The nodes that the partition does not name.
 std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
@@ -100,24 +114,16 @@ Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) 
 {
   const std::vector<Index>& ids = this->partition_.prescribed;
   Points displacement(static_cast<Index>(ids.size()), 3);
-  const Index notFinite = blockSum(displacement.rows(), monitor, Index(0),
+  const Index bad = blockSum(displacement.rows(), monitor, Index(0),
     [&](Index i)
     {
       displacement.row(i) = prescribed.row(i) - this->rest_.row(ids[i]);
       return Index(!displacement.row(i).allFinite());
     });
-  if (notFinite > 0)
+  if (bad > 0)
   {
-    std::vector<Index> where;
-    for (Index i = 0; i < displacement.rows(); ++i)
-    {
-      if (!displacement.row(i).allFinite())
-      {
-        where.push_back(ids[i]);
-      }
-    }
     throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
-                listIds(where) + ".");
+                listIds(notFinite(displacement, ids)) + ".");
   }
   return displacement;
 }
@@ -144,6 +150,13 @@ EvaluateReport Morpher::evaluate(
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
   EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
+  if (blockSum(freeDisplacement.rows(), monitor, Index(0),
+        [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
+  {
+    throw Error("The positions found are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(freeDisplacement, this->partition_.free)) +
+                ". The motion, or the mesh, is too large to compute with: scale it down.");
+  }
 
   // A new array only where the caller's does not fit: making its pages takes longer than filling them.
   const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&

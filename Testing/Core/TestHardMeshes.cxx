@@ -4,6 +4,8 @@
 
 #include "Error.h"
 #include "FemWarp.h"
+#include "Motions.h"
+#include "Smoothing.h"
 #include "Topology.h"
 
 #include <Eigen/Geometry>
@@ -249,6 +251,24 @@ TEST(HardMeshes, ManyCellsRoundOneNode)
   }
   Monitor monitor;
   EXPECT_EQ(boundaryFaces(mesh, monitor).cells.size(), 3u * Around);
+}
+
+TEST(Misuse, PositionsThatOverflowAreAnError)
+{
+  Mesh mesh = meshes::hexes(5, 5, 5);
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  mesh.points *= 1e160;
+  const NodePartition partition = motions::outerPartition(mesh);
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  target(0, 0) += 1e159;
+  meshes::ThreadedMonitor monitor;
+  Smoothing method;
+  method.prepare(mesh, partition, monitor);
+  Points moved = Points::Constant(1, 3, 5);
+  std::string message;
+  motions::kindOf([&] { method.evaluate(target, moved, monitor); }, message);
+  EXPECT_NE(message.find("not finite"), std::string::npos) << message;
+  EXPECT_EQ(moved, Points::Constant(1, 3, 5)); // untouched
 }
 
 TEST(Misuse, EvaluateNeedsASuccessfulPrepare)
