@@ -5,6 +5,7 @@
 #include "BlockSum.h"
 #include "CellShape.h"
 #include "OrientationPredicate.h"
+#include "QuadraticJacobian.h"
 #include "SimplicialDecomposition.h"
 
 #include <Eigen/Geometry>
@@ -93,6 +94,13 @@ Certificate certifyShape(Shape shape, Vector* x)
                                  : Certificate::Certified;
 }
 
+/// `x`: all nodes of a quadratic cell; of others the corners.
+Certificate certifyNodes(std::uint8_t type, const CellShape& shape, Vector* x)
+{
+  return isQuadraticVolume(shape) && !isStraightSided(type, x) ? proveQuadratic(type, x).certificate
+                                                               : certifyShape(shape.shape, x);
+}
+
 struct Counts
 {
   Index certified = 0, inverted = 0, undecided = 0;
@@ -107,15 +115,19 @@ struct Counts
 };
 }
 
-Certificate certifyCell(std::uint8_t type, const double (*corners)[3])
+Certificate certifyCell(std::uint8_t type, const double (*nodes)[3])
 {
   const CellShape* shape = cellShape(type);
-  Vector x[8];
-  for (int k = 0; shape && k < numberOfCorners(shape->shape); ++k)
+  if (!shape || numberOfCorners(shape->shape) == 0)
   {
-    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
+    return Certificate::Undecided;
   }
-  return shape ? certifyShape(shape->shape, x) : Certificate::Undecided;
+  Vector x[MostNodesOfVolume];
+  for (int k = 0; k < shape->numberOfNodes; ++k)
+  {
+    x[k] = Vector(nodes[k][0], nodes[k][1], nodes[k][2]);
+  }
+  return certifyNodes(type, *shape, x);
 }
 
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
@@ -135,14 +147,15 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
     }
     if (shape)
     {
-      Vector x[8];
-      for (int k = 0; k < shape->numberOfCorners; ++k)
+      Vector x[MostNodesOfVolume];
+      for (int k = 0; k < shape->numberOfNodes; ++k)
       {
-        x[k] = points.row(mesh.cell(c)[shape->cornerNode[k]]).transpose();
+        const int place = k < shape->numberOfCorners ? shape->cornerNode[k] : k;
+        x[k] = points.row(mesh.cell(c)[place]).transpose();
         // A cell written in the mirrored order is examined as its mirror image.
         x[k].z() *= orientation.empty() ? 1 : orientation[c];
       }
-      report.cells[c] = certifyShape(shape->shape, x);
+      report.cells[c] = certifyNodes(mesh.types[c], *shape, x);
     }
     const Certificate found = report.cells[c];
     return { found == Certificate::Certified, found == Certificate::Inverted,

@@ -2,6 +2,7 @@
 #include "ScaledJacobian.h"
 
 #include "CellShape.h"
+#include "QuadraticJacobian.h"
 
 #include <Eigen/Geometry>
 
@@ -175,27 +176,26 @@ double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
   }
   return collapsed ? 0 : value;
 }
-}
 
-double scaledJacobian(std::uint8_t type, const double (*corners)[3])
+/// The scaled Jacobian inside a cell whose corners have `ofCorners`.
+double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh,
+  const ConstPoints& points, Index cell, double sign, double ofCorners)
 {
-  const CellShape* shape = cellShape(type);
-  if (!shape || shape->shape == Shape::Other)
+  Vector x[MostNodesOfVolume];
+  for (int k = 0; k < shape.numberOfNodes; ++k)
   {
-    return NotMeasured;
+    x[k] = points.row(mesh.cell(cell)[k]).transpose();
+    x[k].z() *= sign;
   }
-  Vector x[8];
-  for (int k = 0; k < shape->numberOfCorners; ++k)
-  {
-    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
-  }
-  bool collapsed = false;
-  return measure(shape->shape, x, shape->numberOfCorners, collapsed);
+  // The corners of straight-sided tetrahedra and pyramids tell all of their inside.
+  const bool hasInside = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
+  return hasInside || !isStraightSided(type, x) ? quadraticScaledJacobian(type, x, ofCorners)
+                                                : ofCorners;
 }
 
-Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
+Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
-  Monitor& monitor)
+  bool cornersOnly, Monitor& monitor)
 {
   monitor.check();
   const Index cells = mesh.numberOfCells();
@@ -229,7 +229,12 @@ Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
           x[k].z() *= sign;
         }
         bool collapsed = false;
-        quality.scaledJacobian[c] = measure(shape->shape, x, shape->numberOfCorners, collapsed);
+        double value = measure(shape->shape, x, shape->numberOfCorners, collapsed);
+        if (!cornersOnly && isQuadraticVolume(*shape) && !collapsed)
+        {
+          value = measureInside(mesh.types[c], *shape, mesh, points, c, sign, value);
+        }
+        quality.scaledJacobian[c] = value;
         isCollapsed[c] = collapsed;
       }
     });
@@ -269,6 +274,37 @@ Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
     quality.mean = sum / static_cast<double>(quality.measured);
   }
   return quality;
+}
+}
+
+double scaledJacobian(std::uint8_t type, const double (*corners)[3])
+{
+  const CellShape* shape = cellShape(type);
+  if (!shape || shape->shape == Shape::Other)
+  {
+    return NotMeasured;
+  }
+  Vector x[8];
+  for (int k = 0; k < shape->numberOfCorners; ++k)
+  {
+    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
+  }
+  bool collapsed = false;
+  return measure(shape->shape, x, shape->numberOfCorners, collapsed);
+}
+
+Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
+  Monitor& monitor)
+{
+  return measureCells(mesh, points, orientation, skip, false, monitor);
+}
+
+Quality measureCorners(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
+  Monitor& monitor)
+{
+  return measureCells(mesh, points, orientation, skip, true, monitor);
 }
 
 std::vector<Index> invertedCells(const Quality& quality)

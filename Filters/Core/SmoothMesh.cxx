@@ -252,7 +252,7 @@ private:
   std::vector<Index> badCells(const Points& points) const
   {
     const Quality quality =
-      measureQuality(this->mesh_, points, this->orientation_, {}, this->monitor_);
+      measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
     std::vector<Index> bad;
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
@@ -312,15 +312,17 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   SmoothingReport report = smoother.run(result);
   monitor.check();
   result /= scale;
-  report.wasKept = options.neverWorse && isWorse(rest, orientation, result, points, monitor);
+  Points smoothed = points;
+  // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left alone.
+  for (Index node : partition.free)
+  {
+    smoothed.row(node) = result.row(node);
+  }
+  carryFollowers(rest, partition, smoothed);
+  report.wasKept = options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor);
   if (!report.wasKept)
   {
-    // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left alone.
-    for (Index node : partition.free)
-    {
-      points.row(node) = result.row(node);
-    }
-    carryFollowers(rest, partition, points);
+    points.swap(smoothed);
   }
   return report;
 }

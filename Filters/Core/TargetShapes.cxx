@@ -176,7 +176,7 @@ bool isVolume(const Mesh& mesh, Index cell)
 std::vector<char> validCells(
   const Mesh& rest, const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
-  const Quality quality = measureQuality(rest, rest.points, orientation, {}, monitor);
+  const Quality quality = measureCorners(rest, rest.points, orientation, {}, monitor);
   std::vector<char> valid(rest.numberOfCells());
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {

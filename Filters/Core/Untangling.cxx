@@ -3,7 +3,7 @@
 
 #include "CellPatch.h"
 #include "FoldedFaces.h"
-#include "SubSteps.h"
+#include "ScaledJacobian.h"
 
 #include <algorithm>
 #include <tuple>
@@ -54,7 +54,9 @@ Untangling::Tangle Untangling::tangle(
   const std::vector<Index>& behind, const Points& points, Monitor& monitor) const
 {
   Tangle result;
-  for (Index c : invertedCells(this->mesh_, points, this->orientation_, monitor))
+  // By corners: nodes between them follow only in the end.
+  for (Index c :
+    invertedCells(measureCorners(this->mesh_, points, this->orientation_, {}, monitor)))
   {
     if (std::binary_search(behind.begin(), behind.end(), c))
     {

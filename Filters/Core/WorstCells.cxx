@@ -57,7 +57,7 @@ double gainFrom(double least)
 int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, Monitor& monitor)
 {
-  Quality quality = measureQuality(mesh, points, orientation, {}, monitor);
+  Quality quality = measureCorners(mesh, points, orientation, {}, monitor);
   if (!(quality.minimum > 0))
   {
     return 0;
@@ -84,7 +84,7 @@ int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientatio
     limits.steps = Steps;
     MinimizerEffort effort;
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
-    quality = measureQuality(mesh, trial, orientation, {}, monitor);
+    quality = measureCorners(mesh, trial, orientation, {}, monitor);
     // The sum can fall while its greatest part grows; the next round, from there, mostly makes up for it.
     if (quality.minimum > least + gainFrom(least))
     {

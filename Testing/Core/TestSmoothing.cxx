@@ -28,10 +28,11 @@ std::vector<std::int8_t> orientationOf(const Mesh& mesh)
   return orientation(mesh, bodies(mesh));
 }
 
+/// By the corners, which are what is smoothed.
 Quality qualityOf(const Mesh& mesh, const Points& points)
 {
   Monitor monitor;
-  return measureQuality(mesh, points, orientationOf(mesh), {}, monitor);
+  return measureCorners(mesh, points, orientationOf(mesh), {}, monitor);
 }
 
 SmoothingReport smooth(

@@ -3,6 +3,8 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
+#include "ScaledJacobian.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -49,7 +51,10 @@ TEST_P(MorphFilters, AffineMotionIsExact)
     const morph::Points expected = grids::mapped(mesh.points, grids::affine);
     EXPECT_LT((grids::points(filter->GetOutput()) - expected).cwiseAbs().maxCoeff(),
       1e-10 * meshes::size(expected));
-    EXPECT_EQ(filter->GetInvertedCells(), 0);
+    // Where middle nodes were moved, curved cells may be inverted before: then they stay it.
+    morph::Monitor monitor;
+    EXPECT_EQ(filter->GetInvertedCells(),
+      morph::measureQuality(mesh, mesh.points, {}, {}, monitor).inverted);
   }
 }
 

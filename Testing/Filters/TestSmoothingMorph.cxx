@@ -68,7 +68,8 @@ TEST(SmoothingMorph, PrescribedNodesArriveExactlyAndCellsStayValid)
   for (auto& [name, mesh] : meshes::all(4, 4, 4))
   {
     SCOPED_TRACE(name);
-    meshes::jitterInterior(mesh, .1, meshes::seed());
+    // Middle nodes far from the middle would invert curved cells before they move.
+    meshes::jitterInterior(mesh, .04, meshes::seed());
     auto grid = grids::make(mesh);
     auto boundary = grids::boundary(grid, grids::twist);
     auto filter = make<vtkSmoothingMorph>(grid, boundary);

@@ -127,6 +127,26 @@ double extent(const Points& points)
   return most > 0 && std::isfinite(most) ? most : 1;
 }
 
+/// VTK's quadratic pyramid has derivatives of other functions than its own. Central differences of
+/// these are exact, as they are of degree two in each coordinate.
+void pyramidSlopes(vtkGenericCell* cell, const double (&at)[3], std::vector<double>& slopes)
+{
+  constexpr int Nodes = 13;
+  for (int j = 0; j < 3; ++j)
+  {
+    double low[3] = { at[0], at[1], at[2] }, high[3] = { at[0], at[1], at[2] };
+    low[j] -= 0.5;
+    high[j] += 0.5;
+    double below[Nodes], above[Nodes];
+    cell->InterpolateFunctions(low, below);
+    cell->InterpolateFunctions(high, above);
+    for (int a = 0; a < Nodes; ++a)
+    {
+      slopes[j * Nodes + a] = above[a] - below[a];
+    }
+  }
+}
+
 /// For each cell +1, -1, or 0 where nobody can tell: one for the cells of one shape in one body.
 std::vector<int> senses(const Mesh& mesh, const Points& reference)
 {
@@ -205,14 +225,19 @@ Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
     }
     const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
     const bool isQuadratic = shape.numberOfNodes > shape.numberOfCorners;
-    if (sense[c] == 0)
+    if (isQuadratic)
+    {
+      // Between its corners it is another cell: valid where they are not, and the other way round.
+      result.bad[c] = -1;
+    }
+    else if (sense[c] == 0)
     {
       // Inverted whatever the sense is: both signs occur.
       result.bad[c] = found.least < -Rounding && found.most > Rounding ? 1 : -1;
     }
     else
     {
-      const bool isUnclear = found.least <= Rounding || isQuadratic || found.isCollapsed;
+      const bool isUnclear = found.least <= Rounding || found.isCollapsed;
       result.bad[c] = found.least < -Rounding ? 1 : isUnclear ? -1 : 0;
     }
     result.lowest += result.bad[c] == 1;
@@ -275,7 +300,14 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
       {
         at[2] *= 0.9; // no determinant at the apex
       }
-      cell->InterpolateDerivs(at, slopes.data());
+      if (mesh.types[c] == morph::QuadraticPyramid)
+      {
+        pyramidSlopes(cell, at, slopes);
+      }
+      else
+      {
+        cell->InterpolateDerivs(at, slopes.data());
+      }
       Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
       for (int a = 0; a < nodes; ++a)
       {
