@@ -9,6 +9,7 @@
 #include "vtkMorphMonitor.h"
 #include "vtkMorphOutput.h"
 #include "vtkMorphQuality.h"
+#include "vtkMorphRanks.h"
 
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
@@ -106,6 +107,9 @@ int vtkScaledJacobian::RequestData(
     this->Keep(morph::CertificateReport());
   };
   clear();
+  // On every process, before anything can fail there: one of several may well have no cells.
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  const bool isEmpty = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0) == 0;
   const vtkMorphExecution::Outcome outcome = vtkMorphExecution::Run(
     this, "measure this mesh",
     [&] { this->Measure(vtkMorphInput::RequireGrid(input, "The input"), output); }, clear);
@@ -113,6 +117,10 @@ int vtkScaledJacobian::RequestData(
   {
     vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
     vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
+  }
+  else if (isEmpty)
+  {
+    vtkWarningMacro("The input has no cells, so nothing is measured.");
   }
   return 1;
 }

@@ -43,12 +43,13 @@
  * rank's are those of the whole mesh (the cell array is right on all of them), and an execution is
  * collective: it has to take place on all of them.
  *
- * Errors: composite data (use Merge Blocks first), no points, node ids or coordinates that are not
- * valid, arrays shorter than there are points or cells, coordinates above 1e50, and a largest
- * extent below 1e-50. The output is then empty, and InvertedCells and MinScaledJacobian are -1, as
- * they are, without a message, where the execution was aborted. Cost: one pass over the cells,
- * about 0.1 microseconds each (5 for a quadratic volume cell), and a copy of the connectivity; with
- * Certify 0.1 to 1.5 microseconds more, 5 for a curved quadratic cell.
+ * A grid without cells gives a warning. Errors: composite data (use Merge Blocks first), cells but
+ * no points, node ids or coordinates that are not valid, arrays shorter than there are points or
+ * cells, coordinates above 1e50, and a largest extent below 1e-50. The output is then empty, and
+ * InvertedCells and MinScaledJacobian are -1, as they are, without a message, where the execution
+ * was aborted. Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic volume
+ * cell), and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a curved
+ * quadratic cell.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.

@@ -470,10 +470,12 @@ TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkScaledJacobian> filter;
-  Messages errors(filter, vtkCommand::ErrorEvent);
+  Messages errors(filter, vtkCommand::ErrorEvent), warnings(filter, vtkCommand::WarningEvent);
   filter->SetInputData(grid);
   filter->Update();
   EXPECT_EQ(errors.Count, 0) << errors.Text;
+  EXPECT_EQ(warnings.Count, 1);
+  EXPECT_NE(warnings.Text.find("no cells"), std::string::npos) << warnings.Text;
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);
   EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
