@@ -180,9 +180,10 @@ vtkSmartPointer<vtkDataObject> readGuarded(
   }
   catch (const std::bad_alloc&)
   {
-    throw Failure("Cannot read " + path +
-                  ": it asks for more memory than there is, or than a file of its size can need. "
-                  "The file is damaged, or not what its extension says.");
+    throw Failure(
+      "Cannot read " + path +
+      ": VTK's reader did not get the memory that it asked for. The file is damaged, or "
+      "not what its extension says.");
   }
 }
 
