@@ -2,6 +2,7 @@
 #include "Files.h"
 
 #include "Messages.h"
+#include "ReadApart.h"
 #include "ReadingGuard.h"
 #include "ReplaceFile.h"
 
@@ -195,6 +196,19 @@ vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
     throw Failure("Cannot read " + path + ": there is no such file.");
   }
   std::vector<std::string> warnings;
+  // What these readers do to memory, a crash need not show. VTK hands no more than 2 GB over.
+  constexpr std::uintmax_t most = std::uintmax_t(1) << 29;
+  const bool apart = isOneOf(extension(path), { ".ply", ".stl", ".obj" });
+  if (apart && std::filesystem::file_size(path) <= most)
+  {
+    return readApart(path,
+      [&]() -> vtkSmartPointer<vtkPolyData>
+      {
+        const vtkSmartPointer<vtkDataObject> surface = readGuarded(path, warnings);
+        printWarnings(path, warnings);
+        return vtkPolyData::SafeDownCast(surface);
+      });
+  }
   vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
   printWarnings(path, warnings);
   return data;

@@ -128,6 +128,10 @@ int main(int argc, char* argv[])
     std::cerr << "morph-mesh: " << error.what() << "\nTry morph-mesh --help.\n";
     return 2;
   }
+  catch (const Reported&)
+  {
+    return 1;
+  }
   catch (const std::exception& error)
   {
     std::cerr << "morph-mesh: " << error.what() << "\n";

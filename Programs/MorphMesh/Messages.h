@@ -15,6 +15,11 @@ struct Failure : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/// As Failure, after the message: nothing is left to be said.
+struct Reported : std::exception
+{
+};
+
 /// From now on what VTK's objects say that nobody listens to (a parser inside a reader) goes to
 /// standard error, in this program's form, or to the living ConsoleMessages.
 void installConsole();
