@@ -175,6 +175,7 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
 {
   const morph::Points points = pointsOf(output);
   const double scale = filter->GetScaleFactor();
+  const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
   for (const auto& [node, target] : made.boundary.targets)
   {
     const Row rest = made.grid.mesh.points.row(node);
@@ -190,7 +191,7 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
       const double rounding =
         (scale == 1 && made.boundary.isExact) || scale == 0
           ? 0
-          : (isFloat(output) ? 1e-6 : 1e-14) *
+          : (isRounded ? 1e-6 : 1e-14) *
               (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j])));
       isThere = isThere && std::abs(x[j] - value) <= rounding;
     }

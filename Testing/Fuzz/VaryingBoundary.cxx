@@ -31,7 +31,7 @@ int VaryingBoundary::RequestDataObject(
   return 1;
 }
 
-int VaryingBoundary::RequestInformation(
+int VaryingBoundary::ExecuteInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   std::vector<double> times(this->Steps + 1);
