@@ -125,4 +125,19 @@ std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved
   std::sort(folded.begin(), folded.end());
   return folded;
 }
+
+std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const Classification& geometry, const std::vector<char>& isFixed)
+{
+  std::vector<Index> folded = foldedFaces(rest, moved, faces, geometry);
+  const Index* nodes = faces.connectivity.data();
+  const auto end = std::remove_if(folded.begin(), folded.end(),
+    [&](Index f)
+    {
+      return !std::all_of(nodes + faces.offsets[f], nodes + faces.offsets[f + 1],
+        [&](Index node) { return isFixed[node] != 0; });
+    });
+  folded.erase(end, folded.end());
+  return folded;
+}
 }

@@ -15,4 +15,8 @@ namespace morph
 /// faceQuality() means nothing. `rest`, `moved`: #nodes x 3. Cost: faceQuality()'s, and a pass over the edges.
 std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const Classification& geometry);
+
+/// Those of them all nodes of which are fixed. `isFixed`: #nodes, not 0 where a node is.
+std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const Classification& geometry, const std::vector<char>& isFixed);
 }

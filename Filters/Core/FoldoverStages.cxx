@@ -15,6 +15,8 @@ constexpr int RegularisedSteps =
   4;                            // more are wasted on a mesh that the next regularisation changes
 constexpr int StepsOfBfgs = 20; // that are worth one of Newton's
 constexpr double Settled = 1e-5;
+constexpr int Patience = 10;       // stages without progress before untangling gives up
+constexpr double Gain = 0.05;      // of the least determinant, that is progress
 constexpr double LeastRatio = 0.3; // of one stage's regularisation to that before
 
 double chi(double D, double epsilon)
@@ -40,7 +42,7 @@ public:
     {
       return Valid;
     }
-    this->idle_ = least > this->best_ + 0.05 * std::abs(this->best_) ? 0 : this->idle_ + 1;
+    this->idle_ = least > this->best_ + Gain * std::abs(this->best_) ? 0 : this->idle_ + 1;
     this->best_ = std::max(this->best_, least);
     this->careful_ = this->careful_ || this->idle_ >= 3;
     if (!this->careful_)
@@ -60,6 +62,33 @@ private:
   double best_ = 0;
   int idle_ = 0;
   bool careful_ = false;
+};
+
+/// Whether the stages still lead somewhere.
+class Stagnation
+{
+public:
+  explicit Stagnation(const MeshEnergy::State& start)
+    : inverted_(start.inverted)
+    , least_(start.leastDeterminant)
+  {
+  }
+
+  /// After a stage.
+  bool gaveUp(const MeshEnergy::State& state)
+  {
+    const bool isProgress = state.leastDeterminant > 0 || state.inverted < this->inverted_ ||
+                            state.leastDeterminant > this->least_ + Gain * std::abs(this->least_);
+    this->idle_ = isProgress ? 0 : this->idle_ + 1;
+    this->inverted_ = std::min(this->inverted_, state.inverted);
+    this->least_ = std::max(this->least_, state.leastDeterminant);
+    return this->idle_ >= Patience;
+  }
+
+private:
+  Index inverted_;
+  double least_;
+  int idle_ = 0;
 };
 }
 
@@ -107,9 +136,10 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
   Regularisation regularisation;
   double epsilon = regularisation.first(state.leastDeterminant);
   double settled = std::numeric_limits<double>::infinity();
+  Stagnation stagnation(state);
   for (int stage = 0; stage < stages; ++stage)
   {
-    monitor.progress(0.7 - 0.6 * std::pow(0.8, stage));
+    monitor.progress(1 - std::pow(0.8, stage));
     this->setDensity(epsilon);
     const double start = this->evaluate(points, monitor).energy;
     state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
@@ -125,6 +155,10 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
         break;
       }
       settled = state.energy;
+    }
+    if (stagnation.gaveUp(state))
+    {
+      break;
     }
     epsilon = regularisation.next(state.leastDeterminant, 1 - state.energy / start, epsilon);
   }

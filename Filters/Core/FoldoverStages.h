@@ -23,8 +23,11 @@ public:
   {
   }
 
-  /// Lowers the regularisation stage by stage, of which there are at most `stages`, until no tetrahedron is inverted and the energy has settled.
-  /// Returns whether all tetrahedra are positive.
+  /// Lowers the regularisation stage by stage, of which there are at most `stages`, until no
+  /// tetrahedron is inverted and the energy has settled. Gives up once ten stages in a row have
+  /// neither left fewer tetrahedra inverted nor raised the least determinant by 5 % of itself:
+  /// where the boundary admits no valid mesh that ends it soon. Returns whether all tetrahedra are
+  /// positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
   /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays valid.
   void improve(Points& points, int steps, Monitor& monitor);

@@ -60,10 +60,13 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
 
-  this->boundary_ = boundaryFaces(this->referenceMesh_, monitor);
-  this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, monitor);
-  SubMonitor first(monitor, 0, 0.4), second(monitor, 0.4, 0.7), third(monitor, 0.7, 0.9);
-  this->femWarp_.prepare(rest, this->partition(), first);
+  SubMonitor first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
+    last(monitor, 0.5, 0.9);
+  this->boundary_ = boundaryFaces(this->referenceMesh_, first);
+  monitor.check();
+  this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
+  monitor.check();
+  this->femWarp_.prepare(rest, this->partition(), second);
   try
   {
     this->hasSimplexLinear_ = false;
@@ -79,8 +82,9 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   }
   if (this->method_)
   {
-    this->method_->prepare(rest, this->partition(), second);
+    this->method_->prepare(rest, this->partition(), last);
   }
+  monitor.check();
   const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   energy.setTargets(
@@ -92,8 +96,7 @@ Points InversionFree::moved(
   const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const
 {
   Points result;
-  SubMonitor part(monitor, 0, 0.05);
-  report.iterations += method.evaluate(boundary, result, part).iterations;
+  report.iterations += method.evaluate(boundary, result, monitor).iterations;
   return result * this->scale_;
 }
 
@@ -155,13 +158,16 @@ double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor
 InversionFree::Outcome InversionFree::improve(
   Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
 {
+  monitor.check();
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverStages stages(energy, this->minimizer_);
   const TargetShapes targets =
     targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
+  monitor.check();
+  SubMonitor untangle(monitor, 0.1, 0.7);
   const Untangling::Result untangling = Untangling(
     this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                                          .run(targets, energy, stages, points, monitor);
+                                          .run(targets, energy, stages, points, untangle);
   Outcome outcome;
   outcome.untangled = untangling.valid;
   outcome.onFolds = untangling.onFolds;
@@ -173,7 +179,7 @@ InversionFree::Outcome InversionFree::improve(
 
   const double known = this->leastScaledJacobian(alternative, monitor);
   const double least = this->leastScaledJacobian(points, monitor);
-  if (known > 0 && !(least + gainFrom(least) >= known))
+  if (known > 0 && !(least >= known))
   {
     points = alternative;
     outcome.kept = outcome.untangled = true;
@@ -234,18 +240,18 @@ EvaluateReport InversionFree::displace(
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
-  const Points warped = this->moved(this->femWarp_, boundary, guesses, monitor);
+  SubMonitor first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   if (this->start_ == Start::Method && this->method_)
   {
-    points = this->moved(*this->method_, boundary, guesses, monitor);
+    points = this->moved(*this->method_, boundary, guesses, second);
   }
   else if (this->start_ == Start::FemWarp && this->validAtRest_)
   {
     points = warped;
   }
-  monitor.progress(0.1);
-  const Outcome outcome =
-    this->improve(points, warped, this->betterGuess(warped, boundary, monitor), monitor);
+  const Points alternative = this->betterGuess(warped, boundary, third);
+  const Outcome outcome = this->improve(points, warped, alternative, monitor);
   if (outcome.kept && this->stiffening_ && this->target_ != Target::Initial)
   {
     this->raiseWorst(points, monitor);
@@ -260,17 +266,23 @@ EvaluateReport InversionFree::displace(
   return report;
 }
 
-EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
+EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
 {
   this->requirePrepared();
   const NodePartition& partition = this->partition();
+  SubMonitor monitor(whole, 0, 1);
+  if (partition.free.empty())
+  {
+    return this->report({}, {}, monitor);
+  }
   Points boundary(static_cast<Index>(partition.prescribed.size()), 3);
   for (Index i = 0; i < boundary.rows(); ++i)
   {
     boundary.row(i) = moved.row(partition.prescribed[i]);
   }
   EvaluateReport guesses;
-  const Points warped = this->moved(this->femWarp_, boundary, guesses, monitor);
+  SubMonitor first(monitor, 0, 0.1);
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   const Points before = moved * this->scale_;
   Points points = before;
   const Outcome outcome = this->improve(points, warped, before, monitor);
@@ -292,6 +304,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
+  monitor.progress(1);
   return this->report(outcome, determined, monitor);
 }
 }

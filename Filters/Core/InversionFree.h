@@ -13,13 +13,16 @@
 
 namespace morph
 {
-/// The inversion-free morph: from a first guess, FEMWARP's mesh or any other, a minimisation drives inverted cells out and then
-/// improves the worst ones. The energy is that of Garanzha et al. (ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) on the averaged
-/// simplicial decompositions of all cells, so its minimum being positive implies the scaled Jacobian's corner test.
-/// Hexahedra, wedges and pyramids aim for their shape at rest, stretched to FEMWARP's edge lengths; tetrahedra for their shape at
-/// rest. Newton's method with the projected Hessian; once valid, stiffening (ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112) lowers the worst
-/// distortion. Where FEMWARP's mesh is valid and its least scaled Jacobian higher by a gainFrom(), that is the result; with
-/// stretched targets the simplex-linear mesh likewise: never worse than either.
+/// The inversion-free morph: from a first guess, FEMWARP's mesh or any other, a minimisation drives
+/// inverted cells out and then improves the worst ones. The energy is that of Garanzha et al. (ACM
+/// Trans. Graph. 40(4) (2021), arXiv 2102.03069) on the averaged simplicial decompositions of all
+/// cells, so its minimum being positive implies the scaled Jacobian's corner test. Hexahedra,
+/// wedges and pyramids aim for their shape at rest, stretched to FEMWARP's edge lengths; tetrahedra
+/// for their shape at rest. Newton's method with the projected Hessian; once valid, stiffening (ACM
+/// Trans. Graph. 43(1) (2024), arXiv 2201.12112) lowers the worst distortion. Where FEMWARP's mesh
+/// is valid and its minimum scaled Jacobian higher, that is the result; with stretched targets the
+/// simplex-linear mesh likewise. So the minimum is never below those two, but for rounding of the
+/// coordinates.
 ///
 /// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a warning names them, and
 /// the rest of the mesh is morphed. Where cells stay inverted that are not of these the count `Untangled` is 0; a warning names
@@ -60,7 +63,7 @@ public:
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
   /// Instead of evaluate(): repairs `moved` (#nodes x 3, the prescribed nodes where they have to be), which another method has made.
-  /// Never worse: a valid mesh whose least scaled Jacobian is higher than the repaired one's stays.
+  /// A valid mesh whose minimum scaled Jacobian is higher than the repaired one's stays.
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:
@@ -83,6 +86,7 @@ private:
   /// Of a valid mesh.
   void raiseQuality(
     MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+  /// The method's mesh, in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(

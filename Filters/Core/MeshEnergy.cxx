@@ -20,12 +20,13 @@ struct Sum
 {
   double energy = 0;
   double least = std::numeric_limits<double>::infinity();
-  double most = 0;
+  double most = 0, inverted = 0;
   Sum& operator+=(const Sum& other)
   {
     this->energy += other.energy;
     this->least = std::min(this->least, other.least);
     this->most = std::max(this->most, other.most);
+    this->inverted += other.inverted;
     return *this;
   }
 };
@@ -40,7 +41,9 @@ struct GroupEnergy
     const SimplicialDecomposition parts = simplicialDecomposition(groups.shape(group));
     const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
     const Lanes zero = {};
-    Lanes energy = {}, most = {}, least = zero + std::numeric_limits<double>::infinity();
+    const Lanes one = zero + 1.;
+    Lanes energy = {}, most = {}, inverted = {},
+          least = zero + std::numeric_limits<double>::infinity();
     for (int t = 0; t < parts.count; ++t, ++tetrahedra)
     {
       LaneMatrix inverse, J;
@@ -58,11 +61,12 @@ struct GroupEnergy
       const Lanes weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
       energy += weight * value;
       least = ((weight > 0.) & (determinant < least)) ? determinant : least;
+      inverted += ((weight > 0.) & (determinant <= 0.)) ? one : zero;
       most = ((stiffened > 0.) & (phi > most)) ? phi : most;
     }
     for (int lane = 0; lane < LaneCount; ++lane)
     {
-      sum += { energy[lane], least[lane], most[lane] };
+      sum += { energy[lane], least[lane], most[lane], inverted[lane] };
     }
   }
 };
@@ -124,7 +128,7 @@ MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
   const auto sum = sumOverGroups<GroupEnergy, Sum>(this->groups_, monitor, this->density_, points);
-  return { sum.energy, sum.least, sum.most };
+  return { sum.energy, sum.least, static_cast<Index>(sum.inverted), sum.most };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const

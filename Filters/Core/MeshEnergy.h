@@ -31,6 +31,7 @@ public:
   {
     double energy = 0;
     double leastDeterminant = 0; ///< relative to the targets; positive: no tetrahedron is inverted
+    Index inverted = 0;          ///< tetrahedra whose determinant is not positive
     double mostDistortion = 0; ///< largest phi where the stiffness counts: not in tetrahedral cells
   };
   State evaluate(const Points& points, Monitor& monitor) const;
@@ -41,7 +42,7 @@ public:
   void hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const override;
 
 private:
-  void openMatrix(BlockMatrix& matrix) const;
+  void openMatrix(BlockMatrix& matrix, Monitor& monitor) const;
   void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
     BlockMatrix& result, Monitor& monitor) const;
 

@@ -13,8 +13,9 @@ namespace
 {
 using namespace foldover;
 
-constexpr Index Grain = 64;      // groups
-constexpr Index RowGrain = 256;  // rows
+constexpr Index Grain = 64;                                // groups
+constexpr Index RowGrain = 256;                            // rows
+constexpr Index GroupsToCheck = 4096, RowsToCheck = 16384; // whether it is cancelled
 constexpr double Largest = 1e20; // of an entry: its square still is a float
 
 /// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
@@ -172,12 +173,16 @@ private:
 };
 }
 
-void MeshEnergy::openMatrix(BlockMatrix& matrix) const
+void MeshEnergy::openMatrix(BlockMatrix& matrix, Monitor& monitor) const
 {
   BlockPattern pattern;
   std::vector<std::int32_t> row, found;
   for (Index i = 0; i < static_cast<Index>(this->free_.size()); ++i)
   {
+    if (i % RowsToCheck == 0)
+    {
+      monitor.check();
+    }
     found.clear();
     for (const Index* use = this->groups_.uses().begin(i); use != this->groups_.uses().end(i);
          ++use)
@@ -210,7 +215,7 @@ void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& mon
 {
   if (!result.isOpenFor(this->pattern_))
   {
-    this->openMatrix(result);
+    this->openMatrix(result, monitor);
   }
   // The blocks of each group; then each row gathers its own, cell by cell.
   std::vector<Index> start(this->groups_.size() + 1, 0);
@@ -220,10 +225,18 @@ void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& mon
   }
   std::vector<float>& blocks = result.scratch();
   blocks.resize(start.back());
-  monitor.parallelFor(this->groups_.size(), Grain,
-    [&](Index first, Index last) {
-      vectorLoop<GroupHessian>(first, last, this->groups_, this->density_, points, start, blocks);
-    });
+  // In pieces that end within tenths of a second, and between them a look at whether it is
+  // cancelled.
+  for (Index begin = 0; begin < this->groups_.size(); begin += GroupsToCheck)
+  {
+    monitor.check();
+    monitor.parallelFor(std::min(GroupsToCheck, this->groups_.size() - begin), Grain,
+      [&](Index first, Index last)
+      {
+        vectorLoop<GroupHessian>(
+          begin + first, begin + last, this->groups_, this->density_, points, start, blocks);
+      });
+  }
   monitor.check();
   this->gatherBlocks(blocks, start, result, monitor);
 }

@@ -4,6 +4,7 @@
 #include "BlockSum.h"
 #include "Error.h"
 #include "IndexLimits.h"
+#include "SubMonitor.h"
 
 namespace morph
 {
@@ -78,20 +79,17 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
     throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
                                        "goes. Prescribe the boundary's nodes.");
   }
-  if (partition.free.empty())
-  {
-    throw Error("No node is free: every node of every volume cell is prescribed, so there is "
-                "nothing to morph. Merge coincident points (Clean to Grid) if cells do not share "
-                "theirs, refine "
-                "the mesh, or prescribe fewer nodes.");
-  }
   this->prepared_ = false; // until everything below belongs together
   this->rest_ = rest.points;
   this->partition_ = partition;
   this->outside_ = outside(partition, rest.points.rows());
   this->followers_.prepare(rest, partition);
   monitor.check();
-  this->doPrepare(rest, monitor);
+  if (!partition.free.empty())
+  {
+    SubMonitor whole(monitor, 0, 1);
+    this->doPrepare(rest, whole);
+  }
   this->prepared_ = true;
   monitor.progress(1);
 }
@@ -149,7 +147,12 @@ EvaluateReport Morpher::evaluate(
 
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
-  EvaluateReport report = this->displace(displacement, freeDisplacement, monitor);
+  EvaluateReport report;
+  SubMonitor whole(monitor, 0, 1);
+  if (freeDisplacement.rows() > 0)
+  {
+    report = this->displace(displacement, freeDisplacement, whole);
+  }
   if (blockSum(freeDisplacement.rows(), monitor, Index(0),
         [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
   {
@@ -222,9 +225,14 @@ EvaluateReport LinearMorpher::applyTranspose(
   // Prescribed nodes go through no weights: what followers hand to them is theirs as well.
   this->followers_.applyTranspose(all);
   Points result = rowsOf(all, this->partition().prescribed);
-  EvaluateReport report =
-    this->displaceTranspose(rowsOf(all, this->partition().free), result, monitor);
+  EvaluateReport report;
+  if (!this->partition().free.empty())
+  {
+    SubMonitor whole(monitor, 0, 1);
+    report = this->displaceTranspose(rowsOf(all, this->partition().free), result, whole);
+  }
   prescribed.swap(result);
+  monitor.progress(1);
   return report;
 }
 }

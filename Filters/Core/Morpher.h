@@ -24,7 +24,7 @@ struct EvaluateReport
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
   double relativeResidual = 0; ///< largest over the three coordinates, 0 for direct formulas
   double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
-  std::vector<Count> counts;   ///< always the same names for a method
+  std::vector<Count> counts;   ///< always the same names for a method; none where no node is free
 };
 
 /// A morphing method, one subclass per method. prepare() does all that depends on the rest mesh and on which
@@ -40,9 +40,12 @@ class Morpher
 public:
   virtual ~Morpher();
 
-  /// Keeps a copy of the rest points and of the partition (24 bytes per node and 8 per id) and lets the method make
-  /// its weights, matrices or tessellation. Throws Error for a mesh or partition it cannot work with: no free
-  /// node, a body without a prescribed node, cells it does not know, more than 32 bits can number.
+  /// Keeps a copy of the rest points and of the partition (24 bytes per node and 8 per id) and lets
+  /// the method make its weights, matrices or tessellation. Throws Error for a mesh or partition it
+  /// cannot work with: no prescribed node, a body without one, cells it does not know, more
+  /// than 32 bits can number. Without a
+  /// free node every place is known: the method prepares nothing then, and evaluate() only moves
+  /// the prescribed nodes and their followers.
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
 
   /// `prescribed`: #prescribed x 3 new positions, in the order of NodePartition::prescribed.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Smoothing.h"
 
+#include "BodyMotion.h"
 #include "BoundaryDetermined.h"
 #include "Error.h"
+#include "KeepMinimum.h"
 #include "MeshEnergy.h"
 #include "SmoothingTargets.h"
 #include "Topology.h"
@@ -29,12 +31,40 @@ bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
   return energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
 }
 
+Quality Smoothing::measure(Points& points, Monitor& monitor) const
+{
+  if (!this->followers_.empty())
+  {
+    Points displacement = points - this->mesh_.points;
+    this->followers_.apply(displacement);
+    for (Index node : this->partition().followers)
+    {
+      points.row(node) = this->mesh_.points.row(node) + displacement.row(node);
+    }
+  }
+  return measureQuality(this->mesh_, points, this->orientation_, {}, monitor);
+}
+
+bool Smoothing::start(const Points& prescribed, Points& points, Monitor& monitor) const
+{
+  Points followed = points;
+  const bool isAffine = followAffinely(this->mesh_, this->partition(), prescribed, followed);
+  const auto bad = [](const Quality& quality) { return quality.inverted + quality.degenerate; };
+  const Index inverted = bad(this->measure(followed, monitor));
+  if (inverted == 0 || inverted <= bad(this->measure(points, monitor)))
+  {
+    points.swap(followed);
+    return isAffine;
+  }
+  return false;
+}
+
 EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
   free.setZero();
   SmoothingReport smoothing;
-  Index determined = 0;
+  Index determined = 0, takenBack = 0;
   if (!this->isIdentity(prescribed, monitor))
   {
     Points points = this->mesh_.points;
@@ -52,12 +82,19 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
                    ". No method can repair them; move the boundary less, or leave some of their "
                    "nodes free.");
     }
+    const bool isAffine = this->start(prescribed, points, monitor);
+    const Points start = points;
     smoothing =
       smoothMesh(this->mesh_, this->orientation_, partition, this->options_, points, monitor);
     if (!smoothing.isValid)
     {
       monitor.warn("Smoothing could not untangle the mesh. Move the boundary in smaller steps, or "
                    "use a method that carries the motion inside.");
+    }
+    if (isAffine)
+    {
+      takenBack = keepMinimum(this->mesh_, partition.free, start, points,
+        [&](Points& measured) { return this->measure(measured, monitor); });
     }
     for (Index i = 0; i < free.rows(); ++i)
     {
@@ -70,7 +107,7 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   report.counts = { { "UntangleSteps", smoothing.untangleSteps },
     { "NewtonSteps", smoothing.newtonSteps }, { "LinearIterations", smoothing.linearIterations },
     { "EnergyEvaluations", smoothing.evaluations }, { "SmoothingPatches", smoothing.patches },
-    { "BoundaryDeterminedCells", determined } };
+    { "NodesTakenBack", takenBack }, { "BoundaryDeterminedCells", determined } };
   return report;
 }
 }

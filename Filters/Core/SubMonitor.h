@@ -3,9 +3,12 @@
 
 #include "Monitor.h"
 
+#include <algorithm>
+
 namespace morph
 {
 /// A part of a longer computation: its progress from 0 to 1 is the whole's from `first` to `last`.
+/// It never runs backwards: what is less than was told before is not told.
 class SubMonitor : public Monitor
 {
 public:
@@ -18,7 +21,11 @@ public:
 
   void progress(double fraction) override
   {
-    this->whole_.progress(this->first_ + fraction * (this->last_ - this->first_));
+    if (fraction > this->told_)
+    {
+      this->told_ = std::min(fraction, 1.);
+      this->whole_.progress(this->first_ + this->told_ * (this->last_ - this->first_));
+    }
   }
   bool cancelled() override { return this->whole_.cancelled(); }
   void warn(const std::string& message) override { this->whole_.warn(message); }
@@ -30,6 +37,6 @@ public:
 
 private:
   Monitor& whole_;
-  double first_, last_;
+  double first_, last_, told_ = 0;
 };
 }

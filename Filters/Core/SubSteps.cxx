@@ -29,43 +29,69 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
 }
 
+namespace
+{
+/// The last time, as far as halving down to `least` finds it, at which the boundary forbids
+/// nothing.
+double lastAllowed(const SubStepLimits& limits)
+{
+  double allowed = 0;
+  for (double step = 0.5; step >= limits.least; step /= 2)
+  {
+    allowed += limits.forbidden(allowed + step).empty() ? step : 0;
+  }
+  return allowed;
+}
+}
+
 SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
-  const SubStepLimits& limits, Monitor& monitor)
+  const SubStepLimits& limits, Monitor& whole)
 {
+  SubMonitor monitor(whole, 0, 1);
   const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
   if (!atRest.empty())
   {
-    throw Error(
-      "The mesh at rest has inverted or degenerate cells, so there is no valid mesh to step from: "
-      "cell ids " +
-      listIds(atRest) +
-      ". Repair them first, for instance by the inversion-free morph of the mesh at rest.");
+    throw Error("The undeformed mesh has inverted or degenerate cells, so there is no valid mesh "
+                "to step from: cell ids " +
+                listIds(atRest) + ".");
   }
   SubStepResult result;
   result.moved = rest.points;
   Mesh valid = rest;
-  double step = std::min(1., limits.first);
+  double goal = 1, step = std::min(1., limits.first);
+  if (limits.forbidden && !limits.forbidden(1).empty())
+  {
+    // All of a shorter way may well do at once.
+    goal = step = lastAllowed(limits);
+    result.isForbidden = true;
+  }
   int inARow = 0;
-  while (result.reached < 1 && result.attempts < limits.attempts &&
-         (step >= limits.least || result.reached + step >= 1))
+  while (result.reached < goal && result.attempts < limits.attempts &&
+         result.failures < limits.failures &&
+         (step >= limits.least || result.reached + step >= goal))
   {
     monitor.check();
-    SubMonitor part(monitor, result.reached, std::min(1., result.reached + step));
-    const double time = result.reached + step >= 1 - limits.least / 2 ? 1 : result.reached + step;
+    const double end = std::min(1., result.reached + step);
+    const double middle = (result.reached + end) / 2;
+    SubMonitor first(monitor, result.reached, middle), second(monitor, middle, end);
+    const double time =
+      result.reached + step >= goal - limits.least / 2 ? goal : result.reached + step;
     std::unique_ptr<Morpher> morpher = make();
     morpher->setReference(reference);
-    morpher->prepare(valid, partition, part);
+    morpher->prepare(valid, partition, first);
     Points moved;
     const int before = result.report.iterations;
-    result.report = morpher->evaluate(path(time), moved, part);
+    result.report = morpher->evaluate(path(time), moved, second);
     result.report.iterations += before;
     ++result.attempts;
 
-    result.inverted = invertedCells(rest, moved, orientation, part);
-    if (!result.inverted.empty())
+    std::vector<Index> inverted = invertedCells(rest, moved, orientation, monitor);
+    if (!inverted.empty())
     {
+      ++result.failures;
+      result.inverted.swap(inverted);
       step /= 2;
       inARow = 0;
       continue;
@@ -74,7 +100,12 @@ SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
     result.moved.swap(moved);
     result.reached = time;
     step *= ++inARow > 1 ? 2 : 1;
-    step = std::min(step, 1 - result.reached);
+    step = std::min(step, goal - result.reached);
+  }
+  result.isForbidden = result.isForbidden && result.reached == goal;
+  if (result.isForbidden)
+  {
+    result.inverted = limits.forbidden(std::min(1., goal + limits.least));
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include "CellPatch.h"
 #include "FoldedFaces.h"
 #include "ScaledJacobian.h"
+#include "SubMonitor.h"
 
 #include <algorithm>
 #include <tuple>
@@ -70,21 +71,6 @@ Untangling::Tangle Untangling::tangle(
   return result;
 }
 
-std::vector<Index> Untangling::foldedBoundary(const Points& points) const
-{
-  std::vector<Index> folded =
-    foldedFaces(this->mesh_.points, points, this->faces_, this->geometry_);
-  const Index* nodes = this->faces_.connectivity.data();
-  const auto end = std::remove_if(folded.begin(), folded.end(),
-    [&](Index f)
-    {
-      return !std::all_of(nodes + this->faces_.offsets[f], nodes + this->faces_.offsets[f + 1],
-        [&](Index node) { return this->isFixed_[node] != 0; });
-    });
-  folded.erase(end, folded.end());
-  return folded;
-}
-
 bool Untangling::runNear(const std::vector<Index>& cells, const TargetShapes& targets,
   FoldoverStages& stages, int most, Points& points, Monitor& monitor) const
 {
@@ -102,15 +88,18 @@ bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverS
 {
   for (int round = 0; round <= Rounds; ++round)
   {
+    const double part = 1. / (Rounds + 1);
+    SubMonitor own(monitor, part * round, part * (round + 0.5));
+    SubMonitor whole(monitor, part * (round + 0.5), part * (round + 1));
     const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
     if (round > 0 && dropFolded(this->mesh_, this->isFixed_, points, targets) == 0)
     {
       return false;
     }
-    if (this->runNear(tangled, targets, stages, StagesNear, points, monitor))
+    if (this->runNear(tangled, targets, stages, StagesNear, points, own))
     {
       energy.setTargets(targets);
-      return stages.untangle(points, monitor);
+      return stages.untangle(points, whole);
     }
   }
   return false;
@@ -119,18 +108,22 @@ bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverS
 Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& energy,
   FoldoverStages& stages, Points& points, Monitor& monitor) const
 {
-  const std::vector<Index> folded = this->foldedBoundary(points), behind = this->behind(folded);
+  const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
+                             this->geometry_, this->isFixed_),
+                           behind = this->behind(folded);
   Points besides;
+  SubMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
+    last(monitor, 0.9, 1);
   if (folded.empty())
   {
     energy.setTargets(targets);
-    if (stages.untangle(points, monitor))
+    if (stages.untangle(points, first))
     {
       return { true, {} };
     }
     besides = points;
     TargetShapes others = targets;
-    this->runBesides(others, energy, stages, besides, monitor);
+    this->runBesides(others, energy, stages, besides, second);
   }
   else
   {
@@ -138,15 +131,15 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
     TargetShapes others = targets;
     dropBehind(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
-    if (!stages.untangle(besides, monitor, StagesOfAll))
+    if (!stages.untangle(besides, first, StagesOfAll))
     {
-      this->runBesides(others, energy, stages, besides, monitor);
+      this->runBesides(others, energy, stages, besides, second);
     }
     points = besides;
-    if (this->runNear(behind, targets, stages, StagesWithFolds, points, monitor))
+    if (this->runNear(behind, targets, stages, StagesWithFolds, points, third))
     {
       energy.setTargets(targets);
-      if (stages.untangle(points, monitor))
+      if (stages.untangle(points, last))
       {
         return { true, {} };
       }

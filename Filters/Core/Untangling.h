@@ -45,8 +45,6 @@ private:
   Tangle tangle(const std::vector<Index>& behind, const Points& points, Monitor& monitor) const;
   /// Ids of the cells behind faces, ascending.
   std::vector<Index> behind(const std::vector<Index>& folded) const;
-  /// Folded faces all nodes of which are prescribed.
-  std::vector<Index> foldedBoundary(const Points& points) const;
   /// Leaves out of `targets` what cannot be made positive at two or more prescribed nodes, for a few rounds. Returns whether the rest is positive.
   bool runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
     Monitor& monitor) const;

@@ -6,10 +6,10 @@
  * From a first guess, a minimisation of the foldover-free energy of all cells drives inverted cells
  * out, and then improves the worst ones. Cells other than tetrahedra aim for their shape at rest,
  * stretched to the sizes that the moved boundary asks for; tetrahedra for their shape at rest. The
- * result is never worse than FEMWARP's or, with the target Stretched, simplex-linear's: where one of their
- * meshes is valid and its least scaled Jacobian is higher by 0.1 % or 1 % of the way to 1, that is the result. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their
- * quadratic forms, whose corners move as the linear cell. Not linear in the boundary's motion: there
- * is no adjoint.
+ * minimum scaled Jacobian is never below that of FEMWARP's mesh or, with the target Stretched, of
+ * simplex-linear's, if that is valid: where it is higher there, that mesh is the result.
+ * Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners
+ * move as the linear cell. Not linear in the boundary's motion: there is no adjoint.
  *
  * Validity is VALIDITY_SUB_STEP here unless it is set otherwise: a boundary that inverts cells by
  * itself is refused, naming them; where no valid mesh is found for the whole motion there is an

@@ -3,6 +3,7 @@
 
 #include "BoundaryDetermined.h"
 #include "Error.h"
+#include "InversionFree.h"
 #include "Morpher.h"
 #include "SmoothMesh.h"
 #include "Topology.h"
@@ -73,10 +74,12 @@ struct vtkMorphAlgorithm::vtkInternals
   morph::BoundaryFaces Outer;              ///< of Mesh's cells
   double Size = 0;                         ///< of Mesh; see vtkMorphMesh::Size
   std::vector<std::int8_t> Orientation;    ///< of Mesh
+  morph::Index Mirrored = 0;               ///< bodies of Mesh; see GetMirroredBodies()
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
   std::string Options;
-  std::vector<morph::Count> Counts; ///< as of the last execution
-  std::string Status;               ///< as of the last execution
+  std::vector<morph::Count> Counts;  ///< as of the last execution
+  std::string Status;                ///< as of the last execution
+  morph::Index BoundaryInverted = 0; ///< cells for which the last execution has no result
   vtkMorphPorts Ports;
 
   vtkMorphSteps Steps;
@@ -109,13 +112,15 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
   }
   morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
   vtkMorphInput::RequireVolumeCells(mesh);
-  std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+  const morph::Bodies bodies = morph::bodies(mesh);
+  std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
   if (!sameCells)
   {
     this->Outer = morph::boundaryFaces(mesh, monitor);
   }
   this->Morpher.reset();
   this->Series.Clear();
+  this->Mirrored = vtkMorphQuality::MirroredBodies(bodies, orientation);
   this->Orientation = std::move(orientation);
   this->Size = vtkMorphMesh::Size(mesh);
   this->Mesh = std::move(mesh);
@@ -134,11 +139,11 @@ void vtkMorphAlgorithm::vtkInternals::CheckSeries(vtkMTimeType own, vtkMTimeType
 }
 
 vtkMorphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
-vtkMorphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
-vtkMorphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
-vtkMorphSetNumberMacro(vtkMorphAlgorithm, RestTime)
+  vtkMorphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
+    vtkMorphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
+      vtkMorphSetNumberMacro(vtkMorphAlgorithm, RestTime)
 
-vtkMorphAlgorithm::vtkMorphAlgorithm()
+        vtkMorphAlgorithm::vtkMorphAlgorithm()
   : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(2);
@@ -229,9 +234,20 @@ int vtkMorphAlgorithm::RequestData(
   const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
-    { partial = this->Morph(grid, boundary, output, badCells, monitor); },
+    {
+      try
+      {
+        partial = this->Morph(grid, boundary, output, badCells, monitor);
+      }
+      catch (const vtkMorphValidity::Infeasible& infeasible)
+      {
+        kept.BoundaryInverted = infeasible.Cells;
+        throw;
+      }
+    },
     [&](vtkDataObject* input, const char* status)
     { this->WriteUndeformed(input, status, output); } };
+  kept.BoundaryInverted = 0;
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   if (kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
@@ -261,6 +277,13 @@ void vtkMorphAlgorithm::WriteUndeformed(
     output->ShallowCopy(input);
   }
   this->Internals->Status = status;
+  if (this->Internals->BoundaryInverted > 0)
+  {
+    // What the error tells.
+    this->BoundaryInvertedCells = static_cast<vtkIdType>(this->Internals->BoundaryInverted);
+    this->Internals->Counts = { { "BoundaryDeterminedCells", this->Internals->BoundaryInverted } };
+    vtkMorphOutput::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
+  }
   vtkMorphOutput::AddField(output, "MorphStatus", status);
   vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
   vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
@@ -272,6 +295,17 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   vtkInternals& kept = *this->Internals;
   vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
   kept.SetGrid(grid, monitor);
+  this->MirroredBodies = static_cast<vtkIdType>(kept.Mirrored);
+  if (kept.Mirrored > 0)
+  {
+    const auto first = std::find(kept.Orientation.begin(), kept.Orientation.end(), -1);
+    monitor.warn(std::to_string(kept.Mirrored) +
+                 " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
+                 "type are inverted, the first is cell " +
+                 std::to_string(first - kept.Orientation.begin()) +
+                 ". They are morphed and measured as if they were not. Reverse their order of "
+                 "nodes if a solver expects VTK's.");
+  }
   std::shared_ptr<const vtkMorphStepResult> result;
   if (kept.IsSeries(this->Stepping))
   {
@@ -354,6 +388,11 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
       made->Valid.Measured = {}; // a series keeps meshes alone
       result = std::move(made);
     }
+    catch (const vtkMorphValidity::Infeasible& infeasible)
+    {
+      throw vtkMorphValidity::Infeasible(
+        "Step " + std::to_string(step) + ": " + infeasible.what(), infeasible.Cells);
+    }
     catch (const morph::Error& error)
     {
       throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
@@ -380,7 +419,8 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
   { monitor.SetRange(first + a * (last - first), first + b * (last - first)); };
   const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
   const vtkMorphValidity validity{ validityMode, this->MaximumSubSteps, from, kept.Mesh.points,
-    partition, kept.Orientation, match.Targets,
+    partition, kept.Orientation, match.Targets, kept.Outer,
+    dynamic_cast<morph::InversionFree*>(this->CreateMorpher().get()) != nullptr,
     [this]
     {
       auto morpher = this->CreateMorpher();
@@ -399,10 +439,11 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, result.Moved, monitor);
   if (const auto wrong = vtkMorphDataCheck::Immoderate(result.Moved); !wrong.empty())
   {
-    throw morph::Error("The method gave positions that are not finite or beyond 1e50, at node ids " +
-                       morph::listIds(wrong) +
-                       ". Check the boundary for huge values, and the mesh for cells without "
-                       "volume.");
+    throw morph::Error(
+      "The method gave positions that are not finite or beyond 1e50, at node ids " +
+      morph::listIds(wrong) +
+      ". Check the boundary for huge values, and the mesh for cells without "
+      "volume.");
   }
   result.Counts = report.counts;
   if (this->PostSmooth)
@@ -498,6 +539,7 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   this->WorstCellId = quality.worstCell;
   this->BoundaryInvertedCells = static_cast<vtkIdType>(result.BoundaryInverted);
   vtkMorphOutput::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
+  vtkMorphQuality::WriteMirroredBodies(kept.Mirrored, output);
   vtkMorphOutput::AddField(output, "PrepareSeconds", this->PrepareSeconds);
   vtkMorphOutput::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
   vtkMorphOutput::AddField(output, "SolverIterations", this->SolverIterations);
@@ -591,6 +633,7 @@ void vtkMorphAlgorithm::ResetResults()
   this->DegenerateCells = -1;
   this->WorstCellId = -1;
   this->BoundaryInvertedCells = 0;
+  this->MirroredBodies = 0;
   this->CertifiedCells = 0;
   this->UncertifiedCells = 0;
   this->UndecidedCells = 0;
@@ -630,6 +673,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
   os << indent << "WorstCellId: " << this->WorstCellId << "\n";
   os << indent << "BoundaryInvertedCells: " << this->BoundaryInvertedCells << "\n";
+  os << indent << "MirroredBodies: " << this->MirroredBodies << "\n";
   os << indent << "CertifiedCells: " << this->CertifiedCells << "\n";
   os << indent << "UncertifiedCells: " << this->UncertifiedCells << "\n";
   os << indent << "UndecidedCells: " << this->UndecidedCells << "\n";

@@ -29,10 +29,11 @@
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
- * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells,
- * PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers are there as getters after
- * an execution. Mid-side, face and body nodes of quadratic cells that are not prescribed keep their
- * place in the cell. Cells of lower dimension pass through.
+ * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
+ * BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
+ * MorphStatus and LargestValidStep. The same numbers are there as getters after an execution.
+ * Mid-side, face and body nodes of quadratic cells that are not prescribed keep their place in the
+ * cell. Cells of lower dimension pass through.
  *
  * Output 1 holds output 0's inverted and degenerate cells (ScaledJacobian of 0 or less) with their points and arrays, to be looked
  * at; added are the cell array `MorphCellId` and the point array `MorphPointId`, ids in output 0. It is empty where there are none.
@@ -327,10 +328,19 @@ public:
   ///@}
 
   /**
-   * Cells of the last execution's output that no method could have kept valid, since at one of their corners all four nodes are prescribed
-   * and span no positive volume. Field data BoundaryInvertedCells.
+   * Cells of the last execution's output that no method could have kept valid: at one of their
+   * corners all four nodes are prescribed and span no positive volume, or a single free node has no
+   * place where its corners are positive. Filled where an execution is refused because of them,
+   * too. Field data BoundaryInvertedCells.
    */
   vtkGetMacro(BoundaryInvertedCells, vtkIdType);
+
+  /**
+   * As of the last execution: bodies whose cells of a type are all inverted in VTK's order, as in a
+   * mirrored mesh. They are morphed and measured as if they were not, InvertedCells does not count
+   * them, and a warning says so. Field data MirroredBodies; see vtkScaledJacobian.
+   */
+  vtkGetMacro(MirroredBodies, vtkIdType);
 
   ///@{
   /**
@@ -499,6 +509,7 @@ private:
   vtkIdType DegenerateCells;
   vtkIdType WorstCellId;
   vtkIdType BoundaryInvertedCells;
+  vtkIdType MirroredBodies;
   vtkIdType CertifiedCells = 0;
   vtkIdType UncertifiedCells = 0;
   vtkIdType UndecidedCells = 0;

@@ -77,6 +77,25 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
     { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
 }
 
+morph::Index MirroredBodies(
+  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation)
+{
+  std::vector<bool> mirrored(bodies.count, false);
+  for (std::size_t c = 0; c < orientation.size(); ++c)
+  {
+    if (orientation[c] < 0)
+    {
+      mirrored[bodies.ofCell[c]] = true;
+    }
+  }
+  return std::count(mirrored.begin(), mirrored.end(), true);
+}
+
+void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output)
+{
+  addField<vtkIdTypeArray>(output->GetFieldData(), "MirroredBodies", count);
+}
+
 bool IsThatOfComputed(vtkUnstructuredGrid* output)
 {
   return output->GetPoints()->GetDataType() == VTK_DOUBLE &&

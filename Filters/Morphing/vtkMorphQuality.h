@@ -4,6 +4,7 @@
 
 #include "Certificate.h"
 #include "ScaledJacobian.h"
+#include "Topology.h"
 
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,13 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
+
+/// Bodies that have cells of orientation -1: mirrored ones. `orientation`: #cells (Topology.h).
+morph::Index MirroredBodies(
+  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation);
+
+/// Adds the field data MirroredBodies (id).
+void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output);
 
 /// Whether Measure() of these cells gives what measuring the points that were computed, in double, has given.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);

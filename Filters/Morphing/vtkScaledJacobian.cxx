@@ -15,13 +15,10 @@
 #include <vtkCellTypes.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkFieldData.h>
 #include <vtkGenericCell.h>
-#include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMath.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
@@ -56,20 +53,6 @@ DimensionOfType dimensions(const morph::Mesh& mesh)
     }
   }
   return result;
-}
-
-vtkIdType countMirroredBodies(
-  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation)
-{
-  std::vector<bool> mirrored(bodies.count, false);
-  for (std::size_t c = 0; c < orientation.size(); ++c)
-  {
-    if (orientation[c] < 0)
-    {
-      mirrored[bodies.ofCell[c]] = true;
-    }
-  }
-  return std::count(mirrored.begin(), mirrored.end(), true);
 }
 
 std::string typeName(std::uint8_t type)
@@ -151,11 +134,8 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
     this->Keep(report);
   }
 
-  const vtkIdType mirrored = countMirroredBodies(bodies, orientation);
-  vtkNew<vtkIdTypeArray> mirroredBodies;
-  mirroredBodies->SetName("MirroredBodies");
-  mirroredBodies->InsertNextValue(mirrored);
-  output->GetFieldData()->AddArray(mirroredBodies);
+  const vtkIdType mirrored = vtkMorphQuality::MirroredBodies(bodies, orientation);
+  vtkMorphQuality::WriteMirroredBodies(mirrored, output);
 
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
   std::array<vtkIdType, 256> unmeasured{};

@@ -3,13 +3,14 @@
  * @class   vtkSmoothingMorph
  * @brief   morphs a mesh by moving its boundary and smoothing what is inside
  *
- * The boundary moves, the nodes inside stay where they were, and the mesh is smoothed with its
- * boundary fixed: untangled where the motion inverted cells (Knupp's untangling, by L-BFGS), then
- * improved by Newton's method on the inverse mean ratio of the cells, first round few bad cells,
- * then everywhere. This is the smoothing of section 3.1 of Staten et al., with the stages of
- * Mesquite. Nothing but the smoothing carries the motion inside: motions of more than the cells next
- * to the boundary tangle the mesh, and not every tangled mesh can be untangled in this way. In many
- * small steps, each from the mesh of the one before, it comes farther.
+ * The boundary moves, the nodes inside follow by each body's affine map nearest to its boundary's
+ * motion, and the mesh is smoothed with its boundary fixed: untangled where cells are inverted
+ * (Knupp's untangling, by L-BFGS), then improved by Newton's method on the inverse mean ratio of
+ * the cells, first round few bad cells, then everywhere. This is the smoothing of section 3.1 of
+ * Staten et al., which leaves the nodes inside where they were, with the stages of Mesquite.
+ * Nothing but the smoothing carries the rest of the motion inside: what is not affine over more
+ * than the cells next to the boundary tangles the mesh, and not every tangled mesh can be untangled
+ * in this way. In many small steps, each from the mesh of the one before, it comes farther.
  *
  * With TargetShape Ideal, the paper's and the default, cells become as regular as they can: a
  * graded mesh loses its grading, and a boundary that does not move does not leave the mesh as it
@@ -18,7 +19,8 @@
  *
  * Tetrahedra, hexahedra, wedges, pyramids and mixed meshes; quadratic cells by their corners. Not
  * linear in the boundary's motion: there is no adjoint. What is valid before the improvement stays
- * valid, but the improvement is of the mean: the worst cell may get worse.
+ * valid, but the improvement is of the mean: the worst cell may get worse. Where the boundary stays
+ * or moves affinely it may not: nodes round cells that became worse than the worst one was go back.
  *
  * Preparing is one pass over the cells. Evaluating takes 3 microseconds of processor time a Newton
  * step for each tetrahedron, 25 for each hexahedron, and about 2.5 kB a hexahedron meanwhile.
@@ -83,13 +85,15 @@ public:
   /**
    * As of the last execution: steps of L-BFGS and of Newton's method, rounds of the latter in which
    * only the nodes round bad cells moved, iterations of its linear solver, evaluations of the
-   * objectives, and cells that the boundary itself inverts.
+   * objectives, nodes that went back to keep the minimum, and cells that the boundary itself
+   * inverts.
    */
   vtkIdType GetUntangleSteps() { return this->GetCount("UntangleSteps"); }
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
   vtkIdType GetSmoothingPatches() { return this->GetCount("SmoothingPatches"); }
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
   vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
+  vtkIdType GetNodesTakenBack() { return this->GetCount("NodesTakenBack"); }
   vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
   ///@}
 

@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -277,6 +278,116 @@ TEST(Smoothing, AffineMotionsComeOutForTheInitialShapes)
     const Points result = morphed(mesh, targets(mesh, outerPartition(mesh), map), options);
     EXPECT_LT(difference(result, mapped(mesh.points, map)), 1e-3 * size(mesh.points)) << name;
   }
+}
+
+TEST(Smoothing, RigidMotionsKeepTheMinimum)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    const double minimum = qualityOf(mesh, mesh.points).minimum;
+    ASSERT_GT(minimum, 0) << name;
+    for (const double degrees : { 0., 5., 30., 180. })
+    {
+      const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(degrees * M_PI / 180, Eigen::Vector3d(1, 2, -1).normalized())
+          .toRotationMatrix();
+      const auto move = [&](const Row& x) -> Row { return x * turn + Row(4, 0, 1) * degrees; };
+      const Points target = targets(mesh, outerPartition(mesh), move);
+      for (const Target shape : { Target::Ideal, Target::Initial })
+      {
+        const Points result = morphed(mesh, target, toTarget(shape));
+        EXPECT_GE(qualityOf(mesh, result).minimum, minimum - 1e-12) << name << ' ' << degrees;
+        if (shape == Target::Initial)
+        {
+          EXPECT_LT(difference(result, mapped(mesh.points, move)), 1e-9 * (1 + degrees)) << name;
+        }
+      }
+    }
+  }
+}
+
+TEST(Smoothing, ABodyHeldByAPlaneOrALineTurnsWithIt)
+{
+  const Mesh mesh = hexes(4, 4, 4);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const auto move = [&](const Row& x) -> Row { return 2 * x * turn; };
+  const auto held = [&](int planes)
+  {
+    std::vector<Index> ids;
+    for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+    {
+      if (mesh.points(n, 1) == 0 && (planes < 2 || mesh.points(n, 0) == 0))
+      {
+        ids.push_back(n);
+      }
+    }
+    return partitionNodes(mesh, ids);
+  };
+  for (const int planes : { 1, 2 })
+  {
+    const NodePartition partition = held(planes);
+    Smoothing method;
+    method.setOptions(toTarget(Target::Initial));
+    ThreadedMonitor monitor;
+    method.prepare(mesh, partition, monitor);
+    Points result;
+    method.evaluate(targets(mesh, partition, move), result, monitor);
+    EXPECT_TRUE(monitor.warnings.empty());
+    EXPECT_NEAR(qualityOf(mesh, result).minimum, 1, 1e-9) << planes;
+    EXPECT_LT(
+      difference(rows(result, partition.prescribed), targets(mesh, partition, move)), 1e-12);
+  }
+}
+
+TEST(Smoothing, EveryBodyFollowsItsOwnBoundary)
+{
+  const Mesh mesh = hexes(3, 3, 3);
+  const Index nodes = mesh.numberOfNodes();
+  Mesh two = mesh;
+  two.points.conservativeResize(2 * nodes, 3);
+  two.points.bottomRows(nodes) = mesh.points.rowwise() + Row(10, 0, 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    std::vector<Index> corners(mesh.cell(c), mesh.cell(c) + 8);
+    std::for_each(corners.begin(), corners.end(), [&](Index& node) { node += nodes; });
+    add(two, Hexahedron, corners);
+  }
+  // One stays, the other turns round.
+  const auto move = [](const Row& x) -> Row
+  { return x[0] < 5 ? x : Row(30 - x[0], 3 - x[1], x[2]); };
+  const Points result =
+    morphed(two, targets(two, outerPartition(two), move), toTarget(Target::Initial));
+  EXPECT_LT(difference(result, mapped(two.points, move)), 1e-9);
+}
+
+TEST(Smoothing, ABoundaryAtRestNeverLosesTheMinimum)
+{
+  // A boundary layer: smoothing for the mean alone takes its worst cells lower.
+  int taken = 0;
+  for (const auto& [name, mesh] : all(4, 4, 4))
+  {
+    Mesh layer = mesh;
+    transform(layer, [](const Row& x) { return Row(x[0], x[1], .01 * x[2] * x[2] * x[2]); });
+    // Quadratic cells by all of their nodes: some are inverted inside, and have nothing to keep.
+    ThreadedMonitor monitor;
+    const auto minimumOf = [&, &layer = layer](const Points& points)
+    { return measureQuality(layer, points, orientationOf(layer), {}, monitor).minimum; };
+    const double minimum = minimumOf(layer.points);
+    if (!(minimum > 0))
+    {
+      continue;
+    }
+    const NodePartition partition = outerPartition(layer);
+    Smoothing method;
+    method.prepare(layer, partition, monitor);
+    Points result;
+    const EvaluateReport report =
+      method.evaluate(rows(layer.points, partition.prescribed), result, monitor);
+    EXPECT_GE(minimumOf(result), minimum) << name;
+    EXPECT_EQ(report.counts[5].name, "NodesTakenBack");
+    taken += report.counts[5].value > 0 ? 1 : 0;
+  }
+  EXPECT_GT(taken, 0);
 }
 
 TEST(Smoothing, PositionRotationAndScaleDoNotShow)

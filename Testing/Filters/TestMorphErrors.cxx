@@ -411,15 +411,6 @@ TEST_F(MorphErrors, NoBoundaryPointNearTheGrid)
   this->ExpectError({ "None of the boundary's 10 points", "MatchTolerance (1e-06 of" });
 }
 
-TEST_F(MorphErrors, NoFreeNodes)
-{
-  auto grid = grids::make(meshes::hexes(1, 1, 1));
-  this->Filter->Update();
-  this->Filter->SetInputData(grid);
-  this->Filter->SetBoundaryData(grids::boundary(grid, same));
-  this->ExpectError({ "No node is free" });
-}
-
 TEST_F(MorphErrors, BodyWithoutPrescribedNode)
 {
   morph::Mesh two = meshes::hexes(3, 3, 3);

@@ -95,6 +95,38 @@ TEST_P(MorphFilters, PrescribedNodesArriveExactly)
   EXPECT_EQ(filter->GetUnmatchedPoints(), 0);
 }
 
+TEST_P(MorphFilters, MirroredMeshesAreToldOf)
+{
+  auto grid = grids::hexes(4);
+  const auto mirror = [](const grids::Row& x) { return grids::Row(-x[0], x[1], x[2]); };
+  auto filter = Make(grid, grids::boundary(grid, grids::twist));
+  {
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Warnings.empty());
+  }
+  EXPECT_EQ(filter->GetMirroredBodies(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("MirroredBodies")->GetComponent(0, 0), 0);
+  morph::Mesh mesh = meshes::hexes(4, 4, 4);
+  meshes::transform(mesh, mirror);
+  auto mirrored = grids::make(mesh);
+  filter->SetInputData(mirrored);
+  filter->SetBoundaryData(grids::boundary(mirrored, grids::twist));
+  for (int again = 0; again < 2; ++again)
+  {
+    grids::Listener listener(filter);
+    filter->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetMirroredBodies(), 1);
+    EXPECT_EQ(
+      filter->GetOutput()->GetFieldData()->GetArray("MirroredBodies")->GetComponent(0, 0), 1);
+    EXPECT_EQ(filter->GetInvertedCells(), 0);
+    ASSERT_EQ(listener.Warnings.size(), 1u);
+    EXPECT_NE(listener.Warnings[0].find("mirrored"), std::string::npos) << listener.Warnings[0];
+    EXPECT_NE(listener.Warnings[0].find("cell 0."), std::string::npos) << listener.Warnings[0];
+  }
+}
+
 TEST_P(MorphFilters, ScaleFactor)
 {
   auto grid = grids::hexes(4);

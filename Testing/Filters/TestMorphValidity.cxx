@@ -203,6 +203,153 @@ TEST_F(MorphValidity, TheLargestValidStepIsTheResultWhereThereIsNoMore)
   EXPECT_LT(filter->GetLargestValidStep(), 0.8);
 }
 
+TEST_F(MorphValidity, WhatTheBoundaryInvertsIsCountedWhereNoResultIs)
+{
+  auto filter = morphed<vtkInversionFreeMorph>(this->Grid, cornerPushedIn);
+  for (int steps : { 0, 1 })
+  {
+    filter->SetNumberOfSteps(steps);
+    filter->SetSteppingToRelative();
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_EQ(filter->GetBoundaryInvertedCells(), 1);
+    EXPECT_EQ(filter->GetBoundaryDeterminedCells(), 1);
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  }
+  // The next run is not told by the last one.
+  filter->SetBoundaryData(grids::boundary(this->Grid, grids::affine));
+  filter->Update();
+  EXPECT_EQ(filter->GetBoundaryInvertedCells(), 0);
+  EXPECT_EQ(filter->GetBoundaryDeterminedCells(), 0);
+}
+
+TEST_F(MorphValidity, ATangledMeshThatCannotBeUntangledGivesTheBestMeshAndAnError)
+{
+  // Interior nodes thrown about, and a node of the top past its neighbor: no valid mesh, neither at
+  // rest nor then.
+  morph::Mesh mesh = meshes::hexes(6, 6, 6);
+  meshes::jitterInterior(mesh, 0.9, meshes::seed());
+  auto grid = grids::make(mesh);
+  const auto folded = [](const grids::Row& x)
+  { return x == grids::Row(3, 3, 6) ? grids::Row(3, 4.4, 6) : x; };
+  for (const bool linear : { false, true })
+  {
+    SCOPED_TRACE(linear);
+    vtkSmartPointer<vtkMorphAlgorithm> filter;
+    if (linear)
+    {
+      filter = morphed<vtkSimplexLinearMorph>(grid, folded);
+    }
+    else
+    {
+      filter = morphed<vtkInversionFreeMorph>(grid, folded);
+    }
+    filter->SetValidityToReport();
+    {
+      grids::Listener listener(filter);
+      filter->Update();
+      ASSERT_FALSE(listener.Warnings.empty());
+      // The method does not advise itself.
+      const std::string& last = listener.Warnings.back();
+      EXPECT_EQ(last.find("Morph Inversion Free") != std::string::npos, linear) << last;
+    }
+    const vtkIdType bad = filter->GetInvertedCells() + filter->GetDegenerateCells();
+    ASSERT_GT(bad, 0);
+    for (int mode : { vtkMorphAlgorithm::VALIDITY_SUB_STEP, vtkMorphAlgorithm::VALIDITY_REPAIR })
+    {
+      SCOPED_TRACE(mode);
+      filter->SetValidity(mode);
+      grids::Listener listener(filter);
+      filter->Update();
+      ASSERT_EQ(listener.Errors.size(), 1u);
+      const std::string& error = listener.Errors[0];
+      EXPECT_NE(error.find("the result is the best that was"), std::string::npos) << error;
+      EXPECT_NE(
+        error.find("cell " + std::to_string(filter->GetWorstCellId()) + " at ("), std::string::npos)
+        << error;
+      const bool advises = linear && mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP;
+      EXPECT_EQ(error.find("Inversion Free") != std::string::npos, advises) << error;
+      EXPECT_EQ(error.find("inversion-free"), std::string::npos) << error;
+      EXPECT_STREQ(filter->GetMorphStatus(), "Inverted");
+      EXPECT_EQ(status(filter), "Inverted");
+      EXPECT_TRUE(std::isnan(filter->GetLargestValidStep()));
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), grid->GetNumberOfPoints());
+      EXPECT_LE(filter->GetInvertedCells() + filter->GetDegenerateCells(), bad);
+      EXPECT_GT(filter->GetInvertedCells() + filter->GetDegenerateCells(), 0);
+      EXPECT_EQ(filter->GetOutput(1)->GetNumberOfCells(),
+        filter->GetInvertedCells() + filter->GetDegenerateCells());
+    }
+    if (linear)
+    {
+      // What the minimisation has made better is kept.
+      EXPECT_LT(filter->GetInvertedCells() + filter->GetDegenerateCells(), bad / 4);
+    }
+  }
+}
+
+TEST_F(MorphValidity, SubStepsEndBeforeTheBoundaryFolds)
+{
+  auto grid = grids::make(meshes::hexes(6, 6, 6));
+  const auto folded = [](const grids::Row& x)
+  { return x == grids::Row(3, 3, 6) ? grids::Row(3, 4.4, 6) : x; };
+  auto filter = morphed<vtkInversionFreeMorph>(grid, folded);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("The boundary then folds"), std::string::npos)
+    << listener.Errors[0];
+  EXPECT_STREQ(filter->GetMorphStatus(), "Partial");
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  // The node reaches its neighbor at 1 / 1.4 of its way.
+  EXPECT_GT(filter->GetLargestValidStep(), 0.5);
+  EXPECT_LT(filter->GetLargestValidStep(), 1 / 1.4);
+  EXPECT_LE(filter->GetSubSteps(), 3);
+}
+
+TEST_F(MorphValidity, SubStepsThatStopPartwayPointToRepairWhereItMaySucceed)
+{
+  auto filter = morphed<vtkFEMWarpMorph>(this->Grid, waves);
+  filter->SetValidityToSubStep();
+  filter->SetMaximumSubSteps(1);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("Validity set to Repair"), std::string::npos)
+    << listener.Errors[0];
+  EXPECT_STREQ(filter->GetMorphStatus(), "Partial");
+}
+
+TEST_F(MorphValidity, WhereEveryNodeIsPrescribedTheMovedMeshIsTheResult)
+{
+  auto grid = grids::make(meshes::hexes(1, 1, 1));
+  const morph::Points rest = grids::points(grid);
+  auto filter = morphed<vtkInversionFreeMorph>(grid, grids::affine);
+  filter->Update();
+  EXPECT_EQ(status(filter), "Valid");
+  EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::mapped(rest, grids::affine));
+  EXPECT_EQ(filter->GetCertifiedCells(), 1);
+
+  // All corners right and the middle inside out: a twist of the top by half a turn and a stretch.
+  const auto twisted = [](const grids::Row& x)
+  { return x[2] > 0 ? grids::Row(1 - 1.2 * (x[1] - .5) - .5, .5 + 1.2 * (x[0] - .5), 1) : x; };
+  for (int mode : { vtkMorphAlgorithm::VALIDITY_REPORT, vtkMorphAlgorithm::VALIDITY_SUB_STEP,
+         vtkMorphAlgorithm::VALIDITY_REPAIR })
+  {
+    filter->SetBoundaryData(grids::boundary(grid, twisted));
+    filter->SetValidity(mode);
+    grids::Listener listener(filter);
+    filter->Update();
+    if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)
+    {
+      EXPECT_TRUE(listener.Errors.empty());
+      EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::mapped(rest, twisted));
+    }
+    EXPECT_EQ(
+      filter->GetInvertedCells() > 0, !listener.Errors.empty() || !listener.Warnings.empty());
+  }
+}
+
 TEST_F(MorphValidity, CertifiesOnRequest)
 {
   auto warp = morphed<vtkFEMWarpMorph>(this->Grid, grids::twist);

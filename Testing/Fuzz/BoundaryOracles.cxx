@@ -117,9 +117,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     }
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
     const Row image = rest + scale * (mapped - rest);
-    const double rounding = (made.choices.value("boundary.float") != 0 ? 1e-5 : 0) *
-                            made.grid.mesh.points.cwiseAbs().maxCoeff();
-    const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) + rounding +
+    const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) +
                            100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
     if (isAffine && !((x - image).norm() <= allowed))
     {
