@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <string>
 
 int main(int argc, char* argv[])
 {
@@ -48,5 +49,5 @@ int main(int argc, char* argv[])
   result->Write();
   std::cout << "least scaled Jacobian " << morph->GetMinScaledJacobian() << ", inverted cells "
             << morph->GetInvertedCells() << "\n";
-  return morph->GetInvertedCells() == 0 ? 0 : 1;
+  return std::string(morph->GetMorphStatus()) == "Valid" ? 0 : 1;
 }

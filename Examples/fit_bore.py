@@ -72,7 +72,10 @@ adjoint = MorphAdjoint(Input=part, Boundary=boundary.proxy, Gradient=derivatives
 def nodes(points):
     """The mesh for a boundary at `points`."""
     boundary.set(points)
-    return numpy.array(result_of(morph).Points)
+    result = result_of(morph)
+    if morph.MorphStatus not in ("Valid", "Inverted"):           # "Failed" after an error, which has been printed
+        raise SystemExit(f"no mesh for this boundary: {morph.MorphStatus}")
+    return numpy.array(result.Points)
 
 
 def objective(points):

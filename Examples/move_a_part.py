@@ -35,6 +35,8 @@ def script(source, target):
     mesh.UpdatePipeline()
     morph = lift(mesh)
     morph.UpdatePipeline()
+    if morph.MorphStatus != "Valid":
+        raise SystemExit(f"no valid mesh: {morph.MorphStatus}, {morph.InvertedCells:.0f} inverted cells")
     print(f"least scaled Jacobian {morph.MinScaledJacobian:.4f}, inverted cells {morph.InvertedCells:.0f}")
     # Debian's ParaView cannot read the appended data that it writes by default.
     SaveData(target, proxy=morph, **({"DataMode": "Binary"} if target.endswith(".vtu") else {}))

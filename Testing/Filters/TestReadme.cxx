@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <iostream>
 #include <sstream>
+#include <string>
 
 TEST(Readme, CxxExample)
 {
@@ -35,9 +36,11 @@ TEST(Readme, CxxExample)
   std::remove("part.vtu");
 
   std::istringstream numbers(printed.str());
+  std::string status;
   double minimum = 0;
   int inverted = -1;
-  ASSERT_TRUE(numbers >> minimum >> inverted) << printed.str();
+  ASSERT_TRUE(numbers >> status >> minimum >> inverted) << printed.str();
+  EXPECT_EQ(status, "Valid");
   // std::cout shows six digits.
   EXPECT_NEAR(minimum, 1 / std::hypot(1, .1), 1e-5);
   EXPECT_EQ(inverted, 0);

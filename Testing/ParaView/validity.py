@@ -50,9 +50,10 @@ def points(proxy):
 
 
 def status(proxy):
-    """The field data MorphStatus, or None."""
-    array = servermanager.Fetch(proxy).GetFieldData().GetAbstractArray("MorphStatus")
-    return array.GetValue(0) if array else None
+    """The field data MorphStatus; the property says the same."""
+    value = servermanager.Fetch(proxy).GetFieldData().GetAbstractArray("MorphStatus").GetValue(0)
+    assert proxy.MorphStatus == value, (proxy.MorphStatus, value)
+    return value
 
 
 def quality(proxy):

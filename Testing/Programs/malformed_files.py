@@ -171,6 +171,8 @@ def main():
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             for index, (sample, ways, status, fault) in zip(indices, pool.map(cases.run, indices)):
                 statuses[status] += 1
+                if (index + 1) % 1000 == 0:
+                    print(f"{index + 1}: {failed} failed, {time.monotonic() - start:.0f} s", flush=True)
                 if fault:
                     failed += 1
                     print(f"case {index} ({sample}, {ways}): {fault}", flush=True)
