@@ -117,7 +117,9 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     }
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
     const Row image = rest + scale * (mapped - rest);
-    const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) +
+    const double rounding = (made.choices.value("boundary.float") != 0 ? 1e-5 : 0) *
+                            made.grid.mesh.points.cwiseAbs().maxCoeff();
+    const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) + rounding +
                            100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
     if (isAffine && !((x - image).norm() <= allowed))
     {

@@ -3,6 +3,7 @@
 
 #include "RandomExtras.h"
 #include "SameData.h"
+#include "VaryingBoundary.h"
 #include "vtkBoundaryDisplacement.h"
 #include "vtkClassifyBoundary.h"
 #include "vtkCompareMorphMethods.h"
@@ -156,6 +157,7 @@ Case::Case(Choices& made, const Filter& ofFilter)
   {
     this->boundary = randomBoundary(made, this->grid);
     this->inputs.push_back(this->boundary.data);
+    this->vary();
   }
   vtkSmartPointer<vtkDataObject> more;
   if (name == "MorphBoundary")
@@ -178,6 +180,39 @@ Case::Case(Choices& made, const Filter& ofFilter)
     this->isRegular = setMotion(made, this->grid, unused, more) && this->isRegular;
     this->inputs.push_back(more);
   }
+}
+
+/// Makes the boundary one that varies in time, and its targets those of the time that is asked for.
+void Case::vary()
+{
+  RandomBoundary& known = this->boundary;
+  auto* data = vtkPointSet::SafeDownCast(known.data);
+  const bool varies = this->choices.chance("boundary.varies", 0.06) && data && known.isRight &&
+                      known.displacementArray.empty() &&
+                      static_cast<vtkIdType>(known.targets.size()) == data->GetNumberOfPoints();
+  if (!varies)
+  {
+    return;
+  }
+  auto source = vtkSmartPointer<VaryingBoundary>::New();
+  source->Data = data;
+  source->Rest.resize(data->GetNumberOfPoints(), 3);
+  source->Steps =
+    this->choices.whole("boundary.steps", 2, [](Random& r) { return 1 + r.below(4); });
+  this->time = this->choices.whole(
+    "time", source->Steps, [&](Random& r) { return r.below(source->Steps + 1); });
+  const double part = this->time / source->Steps;
+  morph::Index row = 0;
+  for (auto& [node, target] : known.targets)
+  {
+    const Eigen::RowVector3d rest = this->grid.mesh.points.row(node);
+    source->Rest.row(row++) = rest;
+    target = part == 1 ? target : (rest + part * (target - rest)).eval();
+  }
+  known.isExact = known.isExact && part == 1;
+  known.matrix = Eigen::Matrix3d::Identity() + part * (known.matrix - Eigen::Matrix3d::Identity());
+  known.shift *= part;
+  this->varying = source;
 }
 
 void Case::setNames(vtkAlgorithm* algorithm)
@@ -216,6 +251,10 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
       algorithm->SetInputDataObject(static_cast<int>(port), this->inputs[port]);
     }
   }
+  if (this->varying)
+  {
+    algorithm->SetInputConnection(1, this->varying->GetOutputPort());
+  }
   const PropertiesSet properties = setProperties(this->choices, this->filter, algorithm);
   this->isRegular = properties.areRegular && this->isRegular;
   this->acceptedProperty = properties.accepted;
@@ -252,7 +291,7 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
   return algorithm;
 }
 
-Run execute(vtkAlgorithm* filter, double abortAt)
+Run execute(vtkAlgorithm* filter, double time, double abortAt)
 {
   Run run;
   Window* heard = window();
@@ -271,7 +310,14 @@ Run execute(vtkAlgorithm* filter, double abortAt)
           filter->SetAbortExecute(1);
         }
       });
-    filter->Update();
+    if (time < 0)
+    {
+      filter->Update();
+    }
+    else
+    {
+      filter->UpdateTimeStep(time);
+    }
     for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
     {
       run.outputs.push_back(deepCopy(filter->GetOutputDataObject(port)));

@@ -25,12 +25,15 @@ public:
   RandomGrid grid;
   RandomBoundary boundary;
   std::vector<vtkSmartPointer<vtkDataObject>> inputs; ///< of ports 0, 1, ...
+  vtkSmartPointer<vtkAlgorithm> varying; ///< on port 1 in place of its data; null for none
+  double time = -1;                      ///< that is asked for; none if negative
   bool isRegular =
     true; ///< properties are in range, and inputs other than grid and boundary are right
 
   std::string acceptedProperty; ///< see PropertiesSet
 
 private:
+  void vary();
   void setNames(vtkAlgorithm* algorithm);
 };
 
@@ -45,6 +48,6 @@ struct Run
   std::vector<vtkSmartPointer<vtkDataObject>> outputs;
 };
 
-/// Executes the filter; outputs are copies. `abortAt`: progress at which it is told to stop.
-Run execute(vtkAlgorithm* filter, double abortAt = 2);
+/// Executes the filter; outputs are copies. `time`: as in Case. `abortAt`: progress at which it is told to stop.
+Run execute(vtkAlgorithm* filter, double time, double abortAt = 2);
 }

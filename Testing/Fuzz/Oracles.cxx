@@ -125,7 +125,7 @@ Finding checkAgain(Case& made, vtkSmartPointer<vtkAlgorithm> filter, const Run& 
     "abortAt", 2, [](Random& random) { return random.happens(0.06) ? random.unit() : 2; });
   if (abortAt <= 1)
   {
-    const Run aborted = execute(filter, abortAt);
+    const Run aborted = execute(filter, made.time, abortAt);
     if (const Finding found = checkAborted(made, filter, aborted))
     {
       return found;
@@ -133,7 +133,8 @@ Finding checkAgain(Case& made, vtkSmartPointer<vtkAlgorithm> filter, const Run& 
     filter->SetAbortExecute(0);
     filter->Modified();
   }
-  return compare(made, first, execute(filter), abortAt <= 1 ? "after an abort" : "repeat");
+  return compare(
+    made, first, execute(filter, made.time), abortAt <= 1 ? "after an abort" : "repeat");
 }
 }
 
@@ -186,7 +187,7 @@ Verdict judge(
   }
   auto algorithm = made.makeFilter();
   tellMade(summary(made));
-  const Run run = execute(algorithm);
+  const Run run = execute(algorithm, made.time);
   verdict.hasError = !run.errors.empty() || !run.fromExecutive.empty();
   verdict.messages = run.errors;
   verdict.messages.insert(verdict.messages.end(), run.warnings.begin(), run.warnings.end());
