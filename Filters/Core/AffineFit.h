@@ -38,8 +38,9 @@ class AffineLeastSquares
 {
 public:
   AffineLeastSquares() = default;
-  /// `rest`: #points x 3, copied; without points every fit is zero. Directions in which the points extend less than 1e-5 of their
-  /// largest extent (root mean square) count as flat: the fit's gradient vanishes along them.
+  /// `rest`: #points x 3, copied; without points every fit is zero. Directions in which the points
+  /// extend less than 1e-5 of their largest extent (root mean square) count as flat: the fit's
+  /// gradient vanishes along them.
   explicit AffineLeastSquares(const Points& rest);
 
   /// 3 for points in space, 2 in a plane, 1 on a line, 0 in one place.

@@ -9,7 +9,7 @@
 
 namespace morph
 {
-/// Tells the patterns of different owners apart: every object has a number of its own, copies included.
+/// Tells the patterns of different owners apart: each object has a number of its own, a copy too.
 class PatternId
 {
 public:

@@ -23,9 +23,10 @@ constexpr int triangleIndex(int n, int a, int b)
 ///
 /// `corners`: n x 3 in the shape's order. `K`: triangleSize(n) numbers, positive semi-definite always.
 /// Returns the Jacobian's sign at the quadrature points, and in the tetrahedra of a tetrahedron or
-/// pyramid: +1 positive at all, -1 negative at all (K is that of the mirrored cell), 0 where it changes
-/// sign or vanishes: K then comes from the averaged simplicial decomposition with absolute volumes,
-/// bounded away from zero. A hexahedron or wedge can be inverted elsewhere, at a corner, with a sign of
-/// +1: the rules hold for it all the same. Cost: 0.2 to 0.4 microseconds for a hexahedron.
+/// pyramid: +1 positive at all, -1 negative at all (K is that of the mirrored cell), 0 where it
+/// changes sign or vanishes: K then comes from the averaged simplicial decomposition with absolute
+/// volumes, bounded away from zero. A hexahedron or wedge can be inverted elsewhere, at a corner,
+/// with a sign of +1: the rules hold for it all the same. Cost: 0.2 to 0.4 microseconds for a
+/// hexahedron.
 int elementStiffness(Shape shape, const double (*corners)[3], double* K);
 }

@@ -16,14 +16,14 @@ namespace morph
 /// Stiffness: tet exact; hex trilinear with 2 x 2 x 2 Gauss points; wedge with 3 x 2 points; pyramid the mean of
 /// the two splits into tets, which conforms with the neighbors' quadrilaterals. Affine motions come out
 /// exactly, to the solver's tolerance. A cell with a Jacobian that is not positive at all its
-/// quadrature points takes the averaged simplicial stiffness with absolute volumes: the system stays
-/// positive definite. A warning names these cells, and all others that are inverted by their scaled
-/// Jacobian.
+/// quadrature points takes the averaged simplicial stiffness with absolute volumes: the system
+/// stays positive definite. A warning names these cells, and all others that are inverted by their
+/// scaled Jacobian.
 ///
 /// prepare(): one pass over the cells; keeps about 0.7 kB per node of a hexahedral mesh and 0.5 kB per node of a
-/// tetrahedral one. evaluate(): conjugate gradients, to 1e-10 in 7 iterations on a cube of hexahedra, 10
-/// on tetrahedra and wedges, 20 where layers grow by 1.6, nearly independent of the mesh's size. Slivers
-/// take more: 640 where many have a height of 1e-6.
+/// tetrahedral one. evaluate(): conjugate gradients, to 1e-10 in 7 iterations on a cube of
+/// hexahedra, 10 on tetrahedra and wedges, 20 where layers grow by 1.6, nearly independent of the
+/// mesh's size. Slivers take more: 640 where many have a height of 1e-6.
 class FemWarp : public LinearMorpher
 {
 public:

@@ -13,9 +13,9 @@ struct MeshCounts
   Index corners = 0; ///< of all cells together, mid-side nodes included
 };
 
-/// Throws Error where a count is too large for the methods: from 2^31 - 2^20 on. They keep half of their
-/// tables in 32-bit numbers, and fill up groups of cells. The entries of matrices are counted when these
-/// are made, see requireEntries().
+/// Throws Error where a count is too large for the methods: from 2^31 - 2^20 on. They keep half of
+/// their tables in 32-bit numbers, and fill up groups of cells. The entries of matrices are counted
+/// when these are made, see requireEntries().
 void requireIndexable(const MeshCounts& counts);
 void requireIndexable(const Mesh& mesh);
 }

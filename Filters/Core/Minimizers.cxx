@@ -31,8 +31,8 @@ void add(double factor, const Points& from, Points& to, Monitor& monitor)
     { to.middleRows(first, last - first) += factor * from.middleRows(first, last - first); });
 }
 
-/// Walks down along `direction`, a full step first. Returns false, leaving everything, where the slope
-/// does not descend or no step of sufficient decrease was found.
+/// Walks down along `direction`, a full step first. Returns false, leaving everything, where the
+/// slope does not descend or no step of sufficient decrease was found.
 bool lineSearch(const Objective& objective, const Points& direction, double slope, Points& points,
   Objective::Value& value, MinimizerEffort& effort, Monitor& monitor)
 {

@@ -32,9 +32,9 @@ struct EvaluateReport
 /// any number of times, in any order: a result depends on the rest mesh, the partition, the options and
 /// the prescribed positions alone, never on the thread count or on earlier calls.
 ///
-/// Several threads may call evaluate(), and applyTranspose(), of one prepared object at once, each with
-/// its own Monitor and its own result: they get the same bits as one after another. prepare() and the
-/// setters need the object for themselves.
+/// Several threads may call evaluate(), and applyTranspose(), of one prepared object at once, each
+/// with its own Monitor and its own result: they get the same bits as one after another. prepare()
+/// and the setters need the object for themselves.
 class Morpher
 {
 public:
@@ -52,7 +52,7 @@ public:
   /// `moved`: becomes #nodes x 3; prescribed nodes exactly as given, nodes outside the partition at rest.
   /// Where nothing moves the rest positions come back bit for bit (smoothing towards ideal
   /// shapes apart). Throws Error, leaving `moved` untouched, for a wrong number of rows, positions that are not
-  /// finite, or where no prepare() has succeeded last.
+  /// finite, given or found, or where no prepare() has succeeded last.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
   /// For methods that aim for the shapes the cells have in some mesh, where that is not the rest mesh: `reference`, #nodes x 3,

@@ -239,8 +239,8 @@ bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
 
 float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
 {
-  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A: in ten steps within some percent of
-  // the top, where the power method is still far below.
+  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A: in ten steps within some percent
+  // of the top, where the power method is still far below.
   const Matrix& A = level.A;
   std::vector<float> root(A.rows), before(A.rows, 0.f), now(A.rows), next(A.rows), scaled(A.rows);
   std::uint32_t state = 1; // a random start, always the same

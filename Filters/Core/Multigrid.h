@@ -102,10 +102,10 @@ private:
     float eigenvalue = 0; ///< largest of D^-1 A, see largestEigenvalue()
   };
 
-  /// The largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1, and no more than the largest row
-  /// sum, which bounds every eigenvalue. Lanczos comes from below, so this is an estimate: the smoother
-  /// damps all eigenvalues up to 1.25 times what it is given. For Symmetry::General the recurrence is
-  /// that of a symmetric matrix all the same, and the row sums alone are a bound.
+  /// The largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1, and no more than the largest
+  /// row sum, which bounds every eigenvalue. Lanczos comes from below, so this is an estimate: the
+  /// smoother damps all eigenvalues up to 1.25 times what it is given. For Symmetry::General the
+  /// recurrence is that of a symmetric matrix all the same, and the row sums alone are a bound.
   static float largestEigenvalue(const Level& level, Monitor& monitor);
   /// For each matrix entry, whether its column is a near neighbor of its row.
   static std::vector<std::uint8_t> nearNeighbors(

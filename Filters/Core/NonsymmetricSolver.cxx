@@ -112,8 +112,9 @@ struct NonsymmetricSolver::System
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
   void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
     Monitor& monitor) const;
-  /// One run of BiCGSTAB from the solution at hand, up to the goal, or to where it stagnates or breaks
-  /// down. `norm2` becomes that of the residual it carries along: the true one is the caller's to find.
+  /// One run of BiCGSTAB from the solution at hand, up to the goal, or to where it stagnates or
+  /// breaks down. `norm2` becomes that of the residual it carries along: the true one is the
+  /// caller's to find.
   void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
   Report solve(

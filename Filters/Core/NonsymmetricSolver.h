@@ -36,12 +36,12 @@ public:
   /// groups near neighbors. Throws SingularRows where a diagonal entry is not positive.
   void prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
-  /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is not
-  /// larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <= max(tolerance
-  /// |b_column|, 1e-14 |b_all|); where rounding keeps the residual above that, at
-  /// 1e-14 (|A| |x| + |b|), the best x is returned and the residual reported. An iteration counts one
-  /// application of the preconditioner. Throws Error of kind NoConvergence, with the residual reached,
-  /// after `maxIterations` or where the numbers overflow.
+  /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
+  /// not larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <=
+  /// max(tolerance |b_column|, 1e-14 |b_all|); where rounding keeps the residual above that, at
+  /// 1e-14 (|A| |x| + |b|), the best x is returned and the residual reported. An iteration counts
+  /// one application of the preconditioner. Throws Error of kind NoConvergence, with the residual
+  /// reached, after `maxIterations` or where the numbers overflow.
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 

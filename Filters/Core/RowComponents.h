@@ -21,11 +21,11 @@ struct RowComponents
 /// matrix.
 RowComponents rowComponents(const SparseMatrix& matrix);
 
-/// Replaces the first guess `solution` of A x = b by 0, and its residual by b, in each column of each
-/// component where the residual's norm is larger than that of b. Where b is exactly 0 the solution
-/// then is so too, without an iteration.
-/// `bNorm2`, `norm2`: squared norms of b and of the residual per column. Returns the latter's new
-/// value. Cost: a comparison, and a pass over the vectors where there are several components.
+/// Replaces the first guess `solution` of A x = b by 0, and its residual by b, in each column of
+/// each component where the residual's norm is larger than that of b. Where b is exactly 0 the
+/// solution then is so too, without an iteration. `bNorm2`, `norm2`: squared norms of b and of the
+/// residual per column. Returns the latter's new value. Cost: a comparison, and a pass over the
+/// vectors where there are several components.
 ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
   const ThreeColumns& bNorm2, const ThreeColumns& norm2, ThreeColumnRows& solution,
   ThreeColumnRows& residual, Monitor& monitor);

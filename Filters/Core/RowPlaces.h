@@ -6,8 +6,8 @@
 
 namespace morph
 {
-/// Numbers the different columns of one matrix row in the order of their first mention: a hash table
-/// whose size is that of the longest row, not that of the matrix. One object per thread.
+/// Numbers the different columns of one matrix row in the order of their first mention: a hash
+/// table whose size is that of the longest row, not that of the matrix. One object per thread.
 class RowPlaces
 {
 public:

@@ -19,9 +19,9 @@ void requireTolerance(double tolerance);
 /// #rows x 3, the positions of the rows' nodes.
 Points rowPositions(const Points& points, const std::vector<Index>& rows);
 
-/// The first guess of A_I U_I = -A_B U_B: in each component of the rows the affine displacement nearest
-/// to that of the prescribed nodes that A_B couples with the component. Affine motions solve the
-/// equations, so the iteration has to find only what remains of the others.
+/// The first guess of A_I U_I = -A_B U_B: in each component of the rows the affine displacement
+/// nearest to that of the prescribed nodes that A_B couples with the component. Affine motions
+/// solve the equations, so the iteration has to find only what remains of the others.
 class AffineGuess
 {
 public:

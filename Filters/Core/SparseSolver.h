@@ -26,13 +26,12 @@ public:
   /// neighbors. Throws SingularRows where a diagonal entry is not positive.
   void prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
-  /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is not
-  /// larger than that of 0, see keepBetterGuess(). Each column stops at
-  /// |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|): the second term ends columns that are pure
-  /// roundoff. The norms are over all rows. Where rounding keeps the residual above that, the best x is
-  /// returned and the residual reported.
-  /// Throws Error of kind NoConvergence, with the residual reached, after `maxIterations` or where the
-  /// numbers overflow.
+  /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
+  /// not larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <=
+  /// max(tolerance |b_column|, 1e-14 |b_all|): the second term ends columns that are pure roundoff.
+  /// The norms are over all rows. Where rounding keeps the residual above that, the best x is
+  /// returned and the residual reported. Throws Error of kind NoConvergence, with the residual
+  /// reached, after `maxIterations` or where the numbers overflow.
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First guesses of the methods that solve equations: motions that reach no free node, and several bodies.
+// First guesses of the methods that solve equations: motions that reach no free node, and several
+// bodies.
 #include "FemWarp.h"
 #include "IndexLimits.h"
 #include "InversionFree.h"
