@@ -286,13 +286,13 @@ bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
 }
 
 /// A plain case has a result. Excepted are what the method cannot do, and says so: log-barrier weights outside a hull,
-/// and smoothing that leaves inverted cells where they are refused.
+/// and inverted cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
-  const bool mayFail =
-    name == "LBWarpMorph" ||
-    (name == "SmoothingMorph" && filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT);
+  const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
+  const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
+  const bool mayFail = name == "LBWarpMorph" || (mayRefuse && mayInvert);
   return run.errors.empty() || mayFail || !isPlainCase(made, filter)
            ? Finding{}
            : Finding{ "refused", run.errors.front() };
