@@ -85,6 +85,19 @@ std::vector<std::uint8_t> ghosts(vtkDataSet* data)
   return skip;
 }
 
+/// Mirrored bodies are counted, and a morph warns of them.
+Finding checkMirrored(const Case& made, vtkUnstructuredGrid* output, const Run& run)
+{
+  const int isThere = isMirrored(made.grid.mesh);
+  const double counted = fieldValue(output, "MirroredBodies");
+  const bool isWarned = std::any_of(run.warnings.begin(), run.warnings.end(),
+    [](const std::string& text) { return text.find("mirrored") != std::string::npos; });
+  const bool isRight = isThere < 0 || (isThere == 1 ? counted > 0 : counted == 0);
+  const bool isSaid = isThere != 1 || isWarned || !made.filter.isMorph;
+  return isRight && isSaid ? Finding{}
+                           : Finding{ "mirrored bodies", std::to_string(counted) + " counted" };
+}
+
 /// Counts of inverted cells and certificates against those of Recount.h.
 Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
 {
@@ -330,6 +343,10 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   {
     return found;
   }
+  if (const Finding found = checkMirrored(made, output, run))
+  {
+    return found;
+  }
   const double reported =
     fieldValue(output, "InvertedCells") + fieldValue(output, "DegenerateCells");
   const auto counted =
@@ -426,8 +443,15 @@ Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
   if (made.filter.name == "ScaledJacobian")
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(output);
-    const Finding found = checkCells(made.grid.grid(), grid);
-    return found ? found : checkCounts(made, grid);
+    for (const auto& found : { checkCells(made.grid.grid(), grid), checkCounts(made, grid),
+           checkMirrored(made, grid, run) })
+    {
+      if (found)
+      {
+        return found;
+      }
+    }
+    return {};
   }
   if (made.filter.name == "ExtractMorphBoundary")
   {

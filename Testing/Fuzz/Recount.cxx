@@ -246,6 +246,24 @@ Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
   return result;
 }
 
+int isMirrored(const Mesh& mesh)
+{
+  const std::vector<int> sense = senses(mesh, mesh.points);
+  int result = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isVolume(mesh, c) && sense[c] <= 0)
+    {
+      if (sense[c] < 0)
+      {
+        return 1;
+      }
+      result = -1;
+    }
+  }
+  return result;
+}
+
 bool isValid(const Mesh& mesh, const Points& points, double least)
 {
   const double unit = extent(points);

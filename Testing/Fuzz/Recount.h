@@ -22,6 +22,10 @@ struct Recount
 Recount recount(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::Points& points, const std::vector<std::uint8_t>& skip = {});
 
+/// Whether a body's cells of one shape are all in the order mirrored to VTK's: 1 if some surely are, 0 if surely none
+/// are, -1 if nobody can tell.
+int isMirrored(const morph::Mesh& mesh);
+
 /// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
 bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
 
