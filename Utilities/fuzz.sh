@@ -6,12 +6,14 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: fuzz.sh [--cases N] [--from SEED] [--preset NAME] [-j N]
-Builds MeshMorphingFuzz and runs random cases through all filters, in blocks of 2,000 seeds. A run that was ended goes on where it
-was: build/fuzz has a folder for each preset and commit, with a report for each finished block. Prints the seeds, the findings and
-the minutes; the exit status is 0 if nothing was found.
+Builds MeshMorphingFuzz and runs random cases through all filters, in blocks of 2,000 seeds.
+A run that was ended goes on where it was: build/fuzz has a folder for each preset and commit,
+with a report for each finished block. Prints the seeds, the findings and the minutes; the exit
+status is 0 if nothing was found.
   --cases N      default 1000000
   --from SEED    the first seed, a multiple of 2,000, default 0
-  --preset NAME  vtk (default: fast, and with the assertions of ParaView's VTK), asan (sanitizers, ten times as slow) or another
+  --preset NAME  vtk (default: fast, and with the assertions of ParaView's VTK), asan (slower, with
+                 sanitizers) or another
   -j N           processes (default: all cores)
 END
 }

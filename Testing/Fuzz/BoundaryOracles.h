@@ -7,7 +7,8 @@ class vtkPointSet;
 
 namespace fuzz
 {
-/// Of the filters whose output is a boundary, or says what is one. `output`: port 0, not empty, without an error.
+/// Of the filters whose output is a boundary, or says what is one. `output`: port 0, not empty,
+/// without an error.
 
 /// vtkExtractMorphBoundary: the boundary's nodes are the outer ones, in ascending order.
 Finding checkExtracted(const Case& made, vtkPointSet* output);

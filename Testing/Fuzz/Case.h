@@ -48,6 +48,7 @@ struct Run
   std::vector<vtkSmartPointer<vtkDataObject>> outputs;
 };
 
-/// Executes the filter; outputs are copies. `time`: as in Case. `abortAt`: progress at which it is told to stop.
+/// Executes the filter; outputs are copies. `time`: as in Case. `abortAt`: progress at which it is
+/// told to stop.
 Run execute(vtkAlgorithm* filter, double time, double abortAt = 2);
 }

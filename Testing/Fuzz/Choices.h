@@ -32,8 +32,9 @@ private:
   std::uint64_t State;
 };
 
-/// The choices that make a case. Each has a name, a plain value, and a random value of its own that follows from the
-/// seed and the name alone. So a choice can be made plain, or set to another value, and all others stay.
+/// The choices that make a case. Each has a name, a plain value, and a random value of its own that
+/// follows from the seed and the name alone. So a choice can be made plain, or set to another
+/// value, and all others stay.
 class Choices
 {
 public:

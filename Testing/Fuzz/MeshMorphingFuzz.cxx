@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Runs seeded random grids, boundaries and properties through all public filters, and asks of each case more than that
-/// it does not crash: see Oracles.h. A case is one data set through one filter, executed twice.
+/// Runs seeded random grids, boundaries and properties through all public filters, and asks of each
+/// case more than that it does not crash: see Oracles.h. A case is one data set through one filter,
+/// executed twice.
 #include "Workers.h"
 
 #include <chrono>
@@ -14,8 +15,8 @@ namespace
 constexpr const char* Usage =
   R"(Usage: MeshMorphingFuzz [--from SEED] [--count N] [--filter NAME] [--stop] [--no-reduce]
        MeshMorphingFuzz --seed SEED [--filter NAME] [--set CHOICE=VALUE ...] [--reduce]
-The first runs N cases from SEED on, and prints each that fails and a reduced form of it. The status is 0 if none does
-and if the filters get the shares that they are to have.
+The first runs N cases from SEED on, and prints each that fails and a reduced form of it.
+The status is 0 if none fails and if the filters get the shares that they are to have.
   --stop       end at the first finding
   --no-reduce  do not reduce
 The second runs one case, and prints what it is made of.

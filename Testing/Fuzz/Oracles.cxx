@@ -91,7 +91,7 @@ Finding compare(const Case& made, const Run& first, const Run& second, const cha
            : Finding{ oracle, "errors: " + text(first) + " | " + text(second) };
 }
 
-/// An execution that is told to stop gives the mesh at rest, or nothing, and no error.
+/// An execution that is told to stop gives the undeformed mesh, or nothing, and no error.
 Finding checkAborted(const Case& made, vtkAlgorithm* filter, const Run& run)
 {
   auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
@@ -105,7 +105,7 @@ Finding checkAborted(const Case& made, vtkAlgorithm* filter, const Run& run)
                         morph->GetOutputPointsPrecision() == 0;
   return run.errors.empty() && isAtRest
            ? Finding{}
-           : Finding{ "abort", isAtRest ? run.errors.front() : "the mesh is not at rest" };
+           : Finding{ "abort", isAtRest ? run.errors.front() : "nodes have moved" };
 }
 
 /// The same call again, by the same filter or another one, gives the same bits; after an abort too.

@@ -281,7 +281,8 @@ Finding checkFailed(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   return {};
 }
 
-/// Whether nothing about the case is odd: a valid mesh whose outer nodes all move by one mild affine map.
+/// Whether nothing about the case is odd: a valid mesh whose outer nodes all move by one mild
+/// affine map.
 bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
 {
   for (const Choices::Choice& choice : made.choices.made())
@@ -298,8 +299,9 @@ bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
          motion.norm() < 0.5 && isValid(made.grid.mesh, made.grid.mesh.points, 0.1);
 }
 
-/// A plain case has a result. Excepted are what the method cannot do, and says so: log-barrier weights outside a hull,
-/// and inverted cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
+/// A plain case has a result. Excepted are what the method cannot do, and says so: log-barrier
+/// weights outside a hull, and inverted cells, where they are refused, that smoothing leaves or
+/// that quadratic cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;

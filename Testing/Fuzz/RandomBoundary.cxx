@@ -379,13 +379,15 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
       addRest(data, nodes, grid.mesh.points, "RestPosition");
     }
   }
-  // As many points as the mesh has nodes are matched by their numbers before their names are looked at.
+  // As many points as the mesh has nodes are matched by their numbers before their names are looked
+  // at.
   const bool isLikeMesh = data->GetNumberOfPoints() == grid.mesh.numberOfNodes();
   if (isLikeMesh && (ids == 3 || ids == 4 || ids == 6))
   {
     boundary.isRight = false;
   }
-  // Several nodes may lie where one is; and the float nearest to a rest position is not that position.
+  // Several nodes may lie where one is; and the float nearest to a rest position is not that
+  // position.
   boundary.isExact = boundary.isExact && ids != 6;
   if (hostile)
   {

@@ -19,7 +19,7 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkBoundaryDisplacement
 /// The point vectors `Gradient`, on a copy of the grid.
 bool randomGradient(
   Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkDataObject>& carrier);
-/// Of a boundary on port 0 of vtkBoundaryDisplacement: the grid's boundary as Extract Morph Boundary writes it, or what
-/// another filter left of it.
+/// Of a boundary on port 0 of vtkBoundaryDisplacement: the grid's boundary as Extract Morph
+/// Boundary writes it, or what another filter left of it.
 vtkSmartPointer<vtkDataObject> boundaryOfGrid(Choices& choices, const RandomGrid& grid);
 }

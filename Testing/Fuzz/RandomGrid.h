@@ -33,7 +33,8 @@ RandomGrid randomGrid(Choices& choices);
 /// The points as a grid has them: in float, those of the mesh are rounded.
 morph::Points pointsOf(vtkPointSet* data);
 
-/// Adds point and cell arrays: of the names that the filters read or write, of the right length and type or not.
+/// Adds point and cell arrays: of the names that the filters read or write, of the right length and
+/// type or not.
 void addArrays(
   Choices& choices, vtkDataSet* data, const std::string& prefix, bool hostile, bool& hasOddArrays);
 }

@@ -167,7 +167,8 @@ Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
   return result;
 }
 
-/// Cells that lie elsewhere in the list, are missing or come twice: holes, several bodies, edges with four faces.
+/// Cells that lie elsewhere in the list, are missing or come twice: holes, several bodies, edges
+/// with four faces.
 void changeCells(Choices& choices, Mesh& mesh, bool hostile)
 {
   std::vector<Index> cells(mesh.numberOfCells());

@@ -7,12 +7,13 @@
 
 namespace fuzz
 {
-/// A small random volume mesh: all cell types, shapes from perfect to tangled, several bodies, places far away and
-/// sizes out of bounds. Node ids are right and every cell has the nodes that its type asks for.
+/// A small random volume mesh: all cell types, shapes from perfect to tangled, several bodies,
+/// places far away and sizes out of bounds. Node ids are right and every cell has the nodes that
+/// its type asks for.
 morph::Mesh randomMesh(Choices& choices);
 
-/// Nodes on faces that belong to one volume cell alone, mid-side and face nodes included, ascending. Told by the nodes
-/// of VTK's own faces, so that it does not depend on what is tested.
+/// Nodes on faces that belong to one volume cell alone, mid-side and face nodes included,
+/// ascending. Told by the nodes of VTK's own faces, so that it does not depend on what is tested.
 std::vector<morph::Index> outerNodes(const morph::Mesh& mesh);
 /// Nodes of volume cells, ascending.
 std::vector<morph::Index> volumeNodes(const morph::Mesh& mesh);

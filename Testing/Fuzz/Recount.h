@@ -8,8 +8,9 @@
 
 namespace fuzz
 {
-/// How many volume cells are inverted or degenerate, counted from determinants at corners (and the centre of
-/// hexahedra) without the library's own code. Rounding and cells whose sense nobody can tell leave a range.
+/// How many volume cells are inverted or degenerate, counted from determinants at corners (and the
+/// centre of hexahedra) without the library's own code. Rounding and cells whose sense nobody can
+/// tell leave a range.
 struct Recount
 {
   morph::Index lowest = 0;
@@ -18,19 +19,20 @@ struct Recount
   std::vector<std::int8_t> bad; ///< #cells: 1 surely, 0 surely not, -1 either
 };
 
-/// `reference`: positions that tell which way round the cells of a body are. `skip`: #cells or empty.
+/// `reference`: positions that tell which way round the cells of a body are. `skip`: #cells or
+/// empty.
 Recount recount(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::Points& points, const std::vector<std::uint8_t>& skip = {});
 
-/// Whether a body's cells of one shape are all in the order mirrored to VTK's: 1 if some surely are, 0 if surely none
-/// are, -1 if nobody can tell.
+/// Whether a body's cells of one shape are all in the order mirrored to VTK's: 1 if some surely
+/// are, 0 if surely none are, -1 if nobody can tell.
 int isMirrored(const morph::Mesh& mesh);
 
 /// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
 bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
 
-/// A cell that `certificate` calls positive everywhere, and that is inverted at a random place; -1 if there is none.
-/// Determinants are those of VTK's own shape functions.
+/// A cell that `certificate` calls positive everywhere, and that is inverted at a random place; -1
+/// if there is none. Determinants are those of VTK's own shape functions.
 morph::Index falselyCertified(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::Points& points, const std::vector<signed char>& certificate, std::uint64_t seed);
 }

@@ -9,8 +9,8 @@
 
 namespace fuzz
 {
-/// Where two data objects differ in a bit: empty if nowhere. Both may be null. Arrays and columns named in `except`
-/// are left out.
+/// Where two data objects differ in a bit: empty if nowhere. Both may be null. Arrays and columns
+/// named in `except` are left out.
 std::string difference(
   vtkDataObject* a, vtkDataObject* b, const std::set<std::string>& except = {});
 

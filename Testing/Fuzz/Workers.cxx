@@ -64,8 +64,8 @@ std::string number(double value)
   return text;
 }
 
-/// A process that runs `work`, which writes lines; each is handed to `read`. Returns what it ended by, "" if well, and
-/// what it wrote to its standard error.
+/// A process that runs `work`, which writes lines; each is handed to `read`. Returns what it ended
+/// by, "" if well, and what it wrote to its standard error.
 std::pair<std::string, std::string> inProcess(
   const std::function<void(const std::function<void(const std::string&)>&)>& work,
   const std::function<void(const std::string&)>& read)

@@ -21,8 +21,8 @@ struct Report
   std::string detail; ///< of a crash, what the process wrote before it ended
 };
 
-/// Runs the seeds in processes of their own, 500 in each, so that a crash ends no more than that case. Calls `report`
-/// for each, in order, until it returns false.
+/// Runs the seeds in processes of their own, 500 in each, so that a crash ends no more than that
+/// case. Calls `report` for each, in order, until it returns false.
 void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter,
   const std::function<bool(const Report&)>& report);
 
