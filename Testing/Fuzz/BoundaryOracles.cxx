@@ -109,16 +109,16 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     output->GetPoint(p, x.data());
     const bool isGiven = target != targets.end() && dimension <= filter->GetPrescribedDimension();
     const Row wanted = isGiven ? Row(rest + scale * (target->second - rest)) : rest;
+    const double rounding = (made.choices.value("boundary.float") != 0 ? 1e-5 : 0) *
+                            made.grid.mesh.points.cwiseAbs().maxCoeff();
     const bool isKnown = isGiven || dimension == 0;
     if (isKnown && !((x - wanted).cwiseAbs().maxCoeff() <=
-                     10 * roundingOf(output, wanted) + 1e-12 * made.grid.size))
+                     10 * roundingOf(output, wanted) + 1e-12 * made.grid.size + rounding))
     {
       return { "given node", nodeText(node) };
     }
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
     const Row image = rest + scale * (mapped - rest);
-    const double rounding = (made.choices.value("boundary.float") != 0 ? 1e-5 : 0) *
-                            made.grid.mesh.points.cwiseAbs().maxCoeff();
     const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) + rounding +
                            100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
     if (isAffine && !((x - image).norm() <= allowed))

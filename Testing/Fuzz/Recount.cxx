@@ -249,19 +249,24 @@ Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
 int isMirrored(const Mesh& mesh)
 {
   const std::vector<int> sense = senses(mesh, mesh.points);
-  int result = 0;
+  const double unit = extent(mesh.points);
+  int mirrored = 0, cells = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (isVolume(mesh, c) && sense[c] <= 0)
+    if (isVolume(mesh, c))
     {
-      if (sense[c] < 0)
+      // Cells whose corners differ have a volume whose sign corners alone do not tell.
+      const Determinants found = determinants(mesh, mesh.points, c, unit);
+      const bool isClear = found.least > 0.01 || found.most < -0.01;
+      if (sense[c] == 0 || !isClear || (sense[c] > 0) != (found.least > 0))
       {
-        return 1;
+        return -1;
       }
-      result = -1;
+      mirrored += sense[c] < 0;
+      ++cells;
     }
   }
-  return result;
+  return cells == 0 ? -1 : mirrored > 0 ? 1 : 0;
 }
 
 bool isValid(const Mesh& mesh, const Points& points, double least)
