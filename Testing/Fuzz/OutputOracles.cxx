@@ -281,8 +281,7 @@ Finding checkFailed(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   return {};
 }
 
-/// Whether nothing about the case is odd: a valid mesh whose outer nodes all move by one mild
-/// affine map.
+/// Whether nothing about the case is odd: a valid mesh, and a boundary that moves moderately.
 bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
 {
   for (const Choices::Choice& choice : made.choices.made())
@@ -292,25 +291,31 @@ bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
       return false;
     }
   }
-  const Eigen::Matrix3d motion =
-    filter->GetScaleFactor() * (made.boundary.matrix - Eigen::Matrix3d::Identity());
   return made.isRegular && made.grid.isAsMesh && !volumeNodes(made.grid.mesh).empty() &&
-         made.boundary.isRight && made.boundary.isAffine && filter->GetMatchTolerance() <= 1e-3 &&
-         motion.norm() < 0.5 && isValid(made.grid.mesh, made.grid.mesh.points, 0.1);
+         made.boundary.isRight && !made.boundary.targets.empty() &&
+         filter->GetMatchTolerance() <= 1e-3 && isValid(made.grid.mesh, made.grid.mesh.points, 0.1);
 }
 
-/// A plain case has a result. Excepted are what the method cannot do, and says so: log-barrier
-/// weights outside a hull, and inverted cells, where they are refused, that smoothing leaves or
-/// that quadratic cells had inside before.
+/// All outer nodes move by one mild affine map.
+bool isMildAffine(const Case& made, vtkMorphAlgorithm* filter)
+{
+  const Eigen::Matrix3d motion =
+    filter->GetScaleFactor() * (made.boundary.matrix - Eigen::Matrix3d::Identity());
+  return made.boundary.isAffine && motion.norm() < 0.5;
+}
+
+/// A plain case has a result: of linear methods always, unless inverted cells are refused; of
+/// others where the motion is mild. Excepted are log-barrier weights outside a hull, and inverted
+/// cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
   const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
   const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
-  const bool mayFail = name == "LBWarpMorph" || (mayRefuse && mayInvert);
-  return run.errors.empty() || mayFail || !isPlainCase(made, filter)
-           ? Finding{}
-           : Finding{ "refused", run.errors.front() };
+  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary();
+  const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);
+  const bool hasResult = name != "LBWarpMorph" && (isAlways || isMild) && isPlainCase(made, filter);
+  return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
 }
 
 Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
