@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 namespace morph
 {
@@ -33,6 +35,31 @@ Eigen::RowVector3d meanOfRows(const Points& points)
 {
   return sumOfRows(points) / static_cast<double>(std::max<Index>(points.rows(), 1));
 }
+
+/// Of second moments, and their rank.
+std::pair<Eigen::Matrix3d, int> pseudoInverse(const Eigen::Matrix3d& moments)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
+  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
+  int rank = 0;
+  for (int j = 0; j < 3; ++j)
+  {
+    if (AffineLeastSquares::isExtended(axes.eigenvalues()[j], axes.eigenvalues()[2]))
+    {
+      inverse[j] = 1 / axes.eigenvalues()[j];
+      ++rank;
+    }
+  }
+  return { axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose(), rank };
+}
+}
+
+AffineFit::AffineFit(const Eigen::RowVector3d& centre, const Eigen::RowVector3d& mean,
+  const Eigen::Matrix3d& spread, const Eigen::Matrix3d& stretch)
+  : centre_(centre)
+  , mean_(mean)
+  , gradient_(pseudoInverse(spread).first * stretch)
+{
 }
 
 AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement)
@@ -42,25 +69,23 @@ AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Po
 
 AffineLeastSquares::AffineLeastSquares(const Points& rest)
 {
-  this->centre_ = meanOfRows(rest);
-  this->arms_ = rest.rowwise() - this->centre_;
+  // Sums of differences: those of coordinates far from the origin would lose the digits that tell
+  // the points apart.
+  Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
+  if (rest.rows() > 0)
+  {
+    first = rest.row(0);
+  }
+  this->arms_ = rest.rowwise() - first;
+  const Eigen::RowVector3d middle = meanOfRows(this->arms_);
+  this->centre_ = first + middle;
+  this->arms_.rowwise() -= middle;
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < rest.rows(); ++i)
   {
     Q.noalias() += this->arms_.row(i).transpose() * this->arms_.row(i);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(Q);
-  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
-  for (int j = 0; j < 3; ++j)
-  {
-    // A ratio of 1e-5 in extent: flatter sets count as planar or straight.
-    if (axes.eigenvalues()[j] > 1e-10 * axes.eigenvalues()[2])
-    {
-      inverse[j] = 1 / axes.eigenvalues()[j];
-      ++this->rank_;
-    }
-  }
-  this->inverse_ = axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+  std::tie(this->inverse_, this->rank_) = pseudoInverse(Q);
 }
 
 AffineFit AffineLeastSquares::fit(const Points& displacement) const

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace morph
@@ -55,34 +56,52 @@ ProjectionReport moveTo(
   return report;
 }
 
-/// Takes those of `nodes` that are projected back to `before`; returns whether any was.
-bool takeBack(const std::vector<Index>& nodes, const Points& before, ProjectionReport& report,
-  BoundaryMotion& motion)
+/// The projected nodes on their way back to where they were.
+class TakingBack
 {
-  std::vector<Index> back;
-  for (Index node : nodes)
+public:
+  TakingBack(const Points& displacement, const Points& moved, const std::vector<Index>& projected,
+    BoundaryMotion& motion)
+    : displacement_(displacement)
+    , moved_(moved)
+    , motion_(motion)
+    , isProjected_(motion.state.size(), 0)
   {
-    if (std::binary_search(report.projected.begin(), report.projected.end(), node))
+    for (Index node : projected)
     {
-      back.push_back(node);
+      this->isProjected_[node] = 1;
     }
   }
-  std::sort(back.begin(), back.end());
-  back.erase(std::unique(back.begin(), back.end()), back.end());
-  for (Index node : back)
-  {
-    motion.displacement.row(node) = before.row(node);
-    report.projected.erase(
-      std::lower_bound(report.projected.begin(), report.projected.end(), node));
-  }
-  report.kept.insert(report.kept.end(), back.begin(), back.end());
-  std::sort(report.kept.begin(), report.kept.end());
-  return !back.empty();
-}
-}
 
-namespace
-{
+  /// Takes the node back if it is projected, in `now` (#nodes x 3, the moved positions) as well.
+  /// Returns whether it is.
+  bool take(Index node, Points& now)
+  {
+    if (!this->isProjected_[node])
+    {
+      return false;
+    }
+    this->isProjected_[node] = 0;
+    this->motion_.displacement.row(node) = this->displacement_.row(node);
+    now.row(node) = this->moved_.row(node);
+    return true;
+  }
+
+  /// Moves what was taken back from `projected` to `kept`.
+  void finish(ProjectionReport& report) const
+  {
+    const auto kept = std::stable_partition(report.projected.begin(), report.projected.end(),
+      [this](Index node) { return this->isProjected_[node] != 0; });
+    report.kept.assign(kept, report.projected.end());
+    report.projected.erase(kept, report.projected.end());
+  }
+
+private:
+  const Points &displacement_, &moved_; ///< before the projection
+  BoundaryMotion& motion_;
+  std::vector<std::uint8_t> isProjected_; ///< #nodes
+};
+
 /// Enough for folds some tens of faces across to open; a round costs little beside the projection.
 constexpr int RelaxationRounds = 100;
 
@@ -90,13 +109,16 @@ constexpr int RelaxationRounds = 100;
 class Relaxation
 {
 public:
+  /// `now`: #nodes x 3, the moved positions; kept up to date.
   Relaxation(const BoundaryFaces& faces, const Classification& geometry,
-    const ProjectionTarget& target, const Points& normals, BoundaryMotion& motion, Monitor& monitor)
+    const ProjectionTarget& target, const Points& normals, BoundaryMotion& motion, Points& now,
+    Monitor& monitor)
     : faces_(faces)
     , geometry_(geometry)
     , target_(target)
     , normals_(normals)
     , motion_(motion)
+    , now_(now)
     , monitor_(monitor)
     , wasMoved_(motion.state.size(), 0)
   {
@@ -108,8 +130,8 @@ public:
     std::sort(this->pairs_.begin(), this->pairs_.end());
   }
 
-  /// Moves those of `nodes` and their neighbors that are projected to the place on the target nearest to the mean of
-  /// their neighbors, all at once.
+  /// Moves those of `nodes` and their neighbors that are projected to the place on the target
+  /// nearest to the mean of their neighbors, all at once.
   void round(const std::vector<Index>& nodes, const std::vector<Index>& projected)
   {
     std::vector<Index> around = nodes;
@@ -122,7 +144,6 @@ public:
     std::vector<Index> moving;
     std::set_intersection(
       around.begin(), around.end(), projected.begin(), projected.end(), std::back_inserter(moving));
-    const Points now = this->motion_.moved();
     this->place(moving,
       [&](Index node)
       {
@@ -131,7 +152,7 @@ public:
         this->eachNeighbor(node,
           [&](Index other)
           {
-            sum += now.row(other);
+            sum += this->now_.row(other);
             ++count;
           });
         return Eigen::RowVector3d(sum / static_cast<double>(count));
@@ -150,13 +171,12 @@ public:
         moving.push_back(node);
       }
     }
-    const Points now = this->motion_.moved();
     this->place(moving,
       [&](Index node)
       {
         Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
         const auto [first, last] = this->between(node);
-        std::for_each(first, last, [&](Index corner) { sum += now.row(corner); });
+        std::for_each(first, last, [&](Index corner) { sum += this->now_.row(corner); });
         return Eigen::RowVector3d(sum / static_cast<double>(last - first));
       });
   }
@@ -180,9 +200,11 @@ private:
     return { this->faces_.between.begin(i), this->faces_.between.end(i) };
   }
 
+  /// All at once: `wanted` sees the positions of before.
   template <typename Wanted>
   void place(const std::vector<Index>& nodes, const Wanted& wanted)
   {
+    std::vector<std::uint8_t> found(nodes.size(), 0);
     this->monitor_.parallelFor(static_cast<Index>(nodes.size()), 64,
       [&](Index first, Index last)
       {
@@ -196,9 +218,18 @@ private:
           {
             this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
             this->wasMoved_[node] = 1;
+            found[i] = 1;
           }
         }
       });
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if (found[i])
+      {
+        this->now_.row(nodes[i]) =
+          this->motion_.rest.row(nodes[i]) + this->motion_.displacement.row(nodes[i]);
+      }
+    }
   }
 
   const BoundaryFaces& faces_;
@@ -206,6 +237,7 @@ private:
   const ProjectionTarget& target_;
   const Points& normals_;
   BoundaryMotion& motion_;
+  Points& now_;
   Monitor& monitor_;
   std::vector<std::uint8_t> wasMoved_;
   std::vector<std::pair<Index, Index>> pairs_; ///< corners that share an edge, both ways
@@ -221,26 +253,43 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
     [&](Index, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
     { return target.closestOnFeatures(x, y); },
     motion, monitor);
-  std::vector<Index> turned;
-  do
+  // Round by round; after the first only pieces next to a node that went back can have turned.
+  Points now = motion.moved();
+  TakingBack takingBack(displacement, moved, report.projected, motion);
+  for (const GeometryCurve& curve : geometry.curves)
   {
+    const std::size_t n = curve.nodes.size(), pieces = curve.loop ? n : n - 1;
+    std::vector<std::size_t> waiting(pieces);
+    std::iota(waiting.begin(), waiting.end(), std::size_t(0));
+    report.checkedPieces += static_cast<Index>(pieces);
     monitor.check();
-    turned.clear();
-    const Points now = motion.moved();
-    for (const GeometryCurve& curve : geometry.curves)
+    while (!waiting.empty())
     {
-      const std::size_t n = curve.nodes.size(), pieces = curve.loop ? n : n - 1;
-      for (std::size_t i = 0; i < pieces; ++i)
+      std::vector<std::size_t> turned;
+      for (std::size_t i : waiting)
       {
         const Index a = curve.nodes[i], b = curve.nodes[(i + 1) % n];
         const Eigen::RowVector3d was = moved.row(b) - moved.row(a), is = now.row(b) - now.row(a);
         if (!(was.dot(is) > 0) && !was.isZero(0))
         {
-          turned.insert(turned.end(), { a, b });
+          turned.insert(turned.end(), { i, (i + 1) % n });
         }
       }
+      waiting.clear();
+      for (std::size_t i : turned)
+      {
+        if (takingBack.take(curve.nodes[i], now))
+        {
+          waiting.insert(waiting.end(), { (i + n - 1) % n, i });
+        }
+      }
+      waiting.erase(std::remove_if(waiting.begin(), waiting.end(),
+                      [pieces](std::size_t piece) { return piece >= pieces; }),
+        waiting.end());
+      report.checkedPieces += static_cast<Index>(waiting.size());
     }
-  } while (takeBack(turned, displacement, report, motion));
+  }
+  takingBack.finish(report);
   return report;
 }
 
@@ -255,10 +304,11 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
     { return target.closestOnSurface(geometry.entity[node], x, normals.row(node), y); },
     motion, monitor);
+  Points now = motion.moved();
   const auto folding = [&](const std::vector<Index>& except)
   {
     std::vector<Index> nodes;
-    for (Index f : faceQuality(motion.rest, motion.moved(), faces, geometry).folded)
+    for (Index f : faceQuality(motion.rest, now, faces, geometry).folded)
     {
       if (!std::binary_search(except.begin(), except.end(), f))
       {
@@ -274,7 +324,7 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
   std::vector<Index> nodes = folding({});
   if (!nodes.empty())
   {
-    Relaxation relaxation(faces, geometry, target, normals, motion, monitor);
+    Relaxation relaxation(faces, geometry, target, normals, motion, now, monitor);
     for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
     {
       relaxation.round(nodes, report.projected);
@@ -290,9 +340,16 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     }
     relaxation.finish(report.projected);
   }
-  while (takeBack(folding(foldedBefore), displacement, report, motion))
+  TakingBack takingBack(displacement, moved, report.projected, motion);
+  for (bool any = true; any;)
   {
+    any = false;
+    for (Index node : folding(foldedBefore))
+    {
+      any = takingBack.take(node, now) || any;
+    }
   }
+  takingBack.finish(report);
   return report;
 }
 

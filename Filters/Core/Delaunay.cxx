@@ -7,14 +7,18 @@
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_data_structure_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace morph
@@ -38,7 +42,57 @@ Point toPoint(const double* x)
   return Point(x[0], x[1], x[2]);
 }
 
-/// Numbers the cells inside the hull in their `info`, the others by Outside; returns how many are inside.
+/// Differences from it are exact: x - y is where y / 2 <= x <= 2 y (Sterbenz).
+Eigen::RowVector3d exactOrigin(const Points& sites)
+{
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  for (int j = 0; j < 3 && sites.rows() > 0; ++j)
+  {
+    const double low = sites.col(j).minCoeff(), high = sites.col(j).maxCoeff();
+    if (low > 0 && high <= 2 * low)
+    {
+      origin[j] = low;
+    }
+    else if (high < 0 && low >= 2 * high)
+    {
+      origin[j] = high;
+    }
+  }
+  return origin;
+}
+
+/// Each site's number in its vertex's `info`. As CGAL inserts a range of points, but for chances to
+/// cancel.
+Triangulation triangulated(const Points& sites, Monitor& monitor)
+{
+  std::vector<Point> points;
+  points.reserve(sites.rows());
+  std::vector<std::size_t> order(sites.rows());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  for (Index i = 0; i < sites.rows(); ++i)
+  {
+    points.push_back(toPoint(sites.row(i).data()));
+  }
+  monitor.check();
+  using PointOf = CGAL::Pointer_property_map<Point>::type;
+  CGAL::spatial_sort(order.begin(), order.end(),
+    CGAL::Spatial_sort_traits_adapter_3<Kernel, PointOf>(CGAL::make_property_map(points)));
+  Triangulation triangulation;
+  Triangulation::Vertex_handle last;
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i % Grain == 0)
+    {
+      monitor.check();
+    }
+    last = triangulation.insert(points[order[i]], last);
+    last->info() = static_cast<int>(order[i]);
+  }
+  return triangulation;
+}
+
+/// Numbers the cells inside the hull in their `info`, the others by Outside; returns how many are
+/// inside.
 int numberCells(const Triangulation& triangulation)
 {
   int count = 0;
@@ -49,8 +103,9 @@ int numberCells(const Triangulation& triangulation)
   return count;
 }
 
-/// The origin lies surely, whatever the rounding, on the negative side of the triangle a, b, c. (Shewchuk, Discrete
-/// Comput. Geom. 18 (1997) 305-363: the error is below 7.8e-16 times the sum of the absolute products.)
+/// The origin lies surely, whatever the rounding, on the negative side of the triangle a, b, c.
+/// (Shewchuk, Discrete Comput. Geom. 18 (1997) 305-363: the error is below 7.8e-16 times the sum of
+/// the absolute products.)
 bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c)
 {
   const double x[3] = { b[1] * c[2], b[2] * c[0], b[0] * c[1] };
@@ -61,11 +116,13 @@ bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Ei
     determinant += a[j] * (x[j] - y[j]);
     absolute += std::abs(a[j]) * (std::abs(x[j]) + std::abs(y[j]));
   }
-  // Seen from the origin the corners of a face turn the other way round: a positive determinant is the negative side.
+  // Seen from the origin the corners of a face turn the other way round: a positive determinant is
+  // the negative side.
   return determinant > 1e-15 * absolute;
 }
 
-/// In rational arithmetic: a flat tetrahedron's centre is the quotient of two differences that cancel almost wholly.
+/// In rational arithmetic: a flat tetrahedron's centre is the quotient of two differences that
+/// cancel almost wholly.
 Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
 {
   using Exact = CGAL::Exact_predicates_exact_constructions_kernel::Exact_kernel;
@@ -83,16 +140,11 @@ Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 
 constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
 }
 
-void Delaunay::build(const Points& sites, Monitor& monitor)
+void Delaunay::build(const Points& absolute, Monitor& monitor)
 {
-  std::vector<std::pair<Point, int>> points;
-  points.reserve(sites.rows());
-  for (Index i = 0; i < sites.rows(); ++i)
-  {
-    points.emplace_back(toPoint(sites.row(i).data()), static_cast<int>(i));
-  }
-  monitor.check();
-  const Triangulation triangulation(points.begin(), points.end());
+  const Eigen::RowVector3d origin = exactOrigin(absolute);
+  Points sites = absolute.rowwise() - origin;
+  const Triangulation triangulation = triangulated(sites, monitor);
   if (triangulation.dimension() < 3)
   {
     throw Error(
@@ -117,7 +169,8 @@ void Delaunay::build(const Points& sites, Monitor& monitor)
       atSite[tetrahedron.sites[k]] = cell->info();
     }
   }
-  this->sites_ = sites;
+  this->origin_ = origin;
+  this->sites_.swap(sites);
   this->tetrahedra_.swap(tetrahedra);
   this->atSite_.swap(atSite);
 }

@@ -153,11 +153,11 @@ EnclosingTetrahedra enclosingTetrahedra(
       for (Index block = firstBlock; block < lastBlock; ++block)
       {
         const Index first = block * BlockLength;
-        int here = delaunay.startNear(points.row(order[first]));
+        int here = delaunay.startNear(points.row(order[first]) - delaunay.origin());
         Frame frame(delaunay, here);
         for (Index i = first; i < std::min(n, first + BlockLength); ++i)
         {
-          const Row x = points.row(order[i]);
+          const Row x = points.row(order[i]) - delaunay.origin();
           const Index row = rowOf[order[i]];
           const int found = delaunay.locate(x, here);
           if (found != here) // several nodes lie in one tetrahedron

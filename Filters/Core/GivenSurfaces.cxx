@@ -4,6 +4,7 @@
 #include "Error.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace morph
@@ -65,15 +66,21 @@ Beside beside(const SurfaceEdges& edges, Index e)
                                       : Beside{ false, { -1, -1 } };
 }
 
-/// Faces without an id take a neighbor's over edges that `mayCross` lets pass, the flattest first, round by round.
+/// Faces without an id take a neighbor's over edges that `mayCross` lets pass, the flattest first,
+/// round by round. After the first round only neighbors of faces that took one in the round before
+/// can: each face is looked at a few times. Returns how often one was.
 template <typename MayCross>
-void spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<Index>& id)
+Index spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<Index>& id)
 {
+  Index visits = 0;
   std::vector<std::pair<Index, Index>> found; // face, id
+  std::vector<Index> waiting(id.size());
+  std::iota(waiting.begin(), waiting.end(), Index(0));
   do
   {
     found.clear();
-    for (Index f = 0; f < static_cast<Index>(id.size()); ++f)
+    visits += static_cast<Index>(waiting.size());
+    for (Index f : waiting)
     {
       std::tuple<double, Index> best(181, NoGeometry);
       for (const Index* e = edges.ofFace.begin(f); id[f] == NoGeometry && e != edges.ofFace.end(f);
@@ -99,7 +106,23 @@ void spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<Ind
     {
       id[face] = surface;
     }
-  } while (!found.empty());
+    waiting.clear();
+    for (const auto& [face, surface] : found)
+    {
+      for (const Index* e = edges.ofFace.begin(face); e != edges.ofFace.end(face); ++e)
+      {
+        const Beside at = beside(edges, *e);
+        const Index other = at.face[0] == face ? at.face[1] : at.face[0];
+        if (at.found && id[other] == NoGeometry)
+        {
+          waiting.push_back(other);
+        }
+      }
+    }
+    std::sort(waiting.begin(), waiting.end());
+    waiting.erase(std::unique(waiting.begin(), waiting.end()), waiting.end());
+  } while (!waiting.empty());
+  return visits;
 }
 
 /// Step 3 of givenSurfaces().
@@ -206,7 +229,8 @@ private:
     }
   }
 
-  /// Of the candidates at a node, the one that continues its curve edge, or another candidate, most nearly straight.
+  /// Of the candidates at a node, the one that continues its curve edge, or another candidate, most
+  /// nearly straight.
   Index straightest(Index node, const std::vector<Index>& open) const
   {
     const auto away = [&](Index e) -> Eigen::RowVector3d
@@ -246,10 +270,10 @@ GivenSurfaces givenSurfaces(const ConstPoints& points, const BoundaryFaces& face
     return result;
   }
   result.id = fromNodes(faces, given);
-  spread(
+  result.visits = spread(
     edges, [&](Index e) { return !mayShareCurve(given, edges.nodes[e]); }, result.id);
   result.isCurve = CurveFinder(points, edges, options).find(result.id);
-  spread(
+  result.visits += spread(
     edges, [&](Index e) { return !result.isCurve[e] && edges.angle[e] <= options.featureAngle; },
     result.id);
   return result;

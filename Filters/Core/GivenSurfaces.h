@@ -10,6 +10,8 @@ struct GivenSurfaces
 {
   std::vector<Index> id;             ///< #faces, surface id, NoGeometry where unknown
   std::vector<std::uint8_t> isCurve; ///< #edges: a given curve runs along it
+  /// Faces that were looked at for an id: a measure of the cost. At most 10 times #faces.
+  Index visits = 0;
 };
 
 /// Ids are `given.surface`, or else follow from the nodes:
@@ -21,7 +23,8 @@ struct GivenSurfaces
 ///    features that join two vertices; and on from a curve's last node to a vertex, the straightest way.
 /// 4. A face still without an id takes that of a neighbor over an edge that is neither a curve nor a feature, if there
 ///    is one.
-/// Throws Error naming nodes of one face that are given to different surfaces. Cost: a sort of the edges.
+/// Throws Error naming nodes of one face that are given to different surfaces. Cost: a sort of the
+/// edges.
 GivenSurfaces givenSurfaces(const ConstPoints& points, const BoundaryFaces& faces,
   const SurfaceEdges& edges, const ClassificationOptions& options);
 }

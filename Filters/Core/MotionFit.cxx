@@ -7,87 +7,57 @@
 
 namespace morph
 {
-namespace
+MotionSums::MotionSums(const BoundaryMotion& motion, const std::vector<Index>& ids)
+  : count_(static_cast<Index>(ids.size()))
 {
-Points displacements(const BoundaryMotion& motion, const std::vector<Index>& ids)
-{
-  Points result(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  if (ids.empty())
   {
-    result.row(static_cast<Index>(i)) = motion.displacement.row(ids[i]);
+    return;
   }
-  return result;
+  // Sums of differences: those of coordinates far from the origin would lose the digits that tell
+  // the nodes apart.
+  const double n = static_cast<double>(ids.size());
+  const Eigen::RowVector3d first = motion.rest.row(ids[0]);
+  for (Index id : ids)
+  {
+    this->centre_ += (motion.rest.row(id) - first) / n;
+    this->mean_ += motion.displacement.row(id) / n;
+  }
+  this->centre_ += first;
+  for (Index id : ids)
+  {
+    const Eigen::RowVector3d arm = motion.rest.row(id) - this->centre_;
+    this->spread_ += arm.transpose() * arm;
+    this->stretch_ += arm.transpose() * (motion.displacement.row(id) - this->mean_);
+  }
 }
 
-/// x' = c' + (x - c) R^T, nearest to the motion of `ids`.
-struct RigidFit
+void MotionSums::add(const MotionSums& other)
 {
-  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero(), shift = centre;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); ///< R - I
-
-  RigidFit(const BoundaryMotion& motion, const std::vector<Index>& ids)
+  if (this->empty() || other.empty())
   {
-    const double n = static_cast<double>(ids.size());
-    for (Index id : ids)
-    {
-      this->centre += motion.rest.row(id) / n;
-      this->shift += motion.displacement.row(id) / n;
-    }
-    // With displacements beside positions a small motion keeps its digits.
-    Eigen::Matrix3d Q = Eigen::Matrix3d::Zero(), P = Q;
-    for (Index id : ids)
-    {
-      const Eigen::RowVector3d d = motion.rest.row(id) - this->centre;
-      Q += d.transpose() * d;
-      P += (motion.displacement.row(id) - this->shift).transpose() * d;
-    }
-    if (P.isZero(0))
-    {
-      this->turn.setZero();
-      return;
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(P + Q, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Vector3d& size = svd.singularValues();
-    if (!(size[1] > 1e-10 * size[0]))
-    {
-      // A line: the turn about its axis is free.
-      const Eigen::Quaterniond q =
-        Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0));
-      this->turn = q.toRotationMatrix() - Eigen::Matrix3d::Identity();
-      return;
-    }
-    Eigen::Vector3d sign(
-      1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-    this->turn =
-      svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - Eigen::Matrix3d::Identity();
+    *this = this->empty() ? other : *this;
+    return;
   }
-
-  Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
-  {
-    return this->shift + (x - this->centre) * this->turn.transpose();
-  }
-};
+  // Chan, Golub, LeVeque (The American Statistician 37 (1983) 242-247): nothing cancels.
+  const double n = static_cast<double>(this->count_), m = static_cast<double>(other.count_);
+  const Eigen::RowVector3d arm = other.centre_ - this->centre_, gain = other.mean_ - this->mean_;
+  const double weight = n * m / (n + m);
+  this->spread_ += other.spread_ + weight * arm.transpose() * arm;
+  this->stretch_ += other.stretch_ + weight * arm.transpose() * gain;
+  this->centre_ += m / (n + m) * arm;
+  this->mean_ += m / (n + m) * gain;
+  this->count_ += other.count_;
 }
 
-Flat::Flat(const Points& rest, const std::vector<Index>& ids)
-  : centre_(Eigen::RowVector3d::Zero())
+Flat::Flat(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread)
+  : centre_(centre)
   , normal_(Eigen::Matrix3d::Identity())
 {
-  for (Index id : ids)
-  {
-    this->centre_ += rest.row(id) / static_cast<double>(ids.size());
-  }
-  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
-  for (Index id : ids)
-  {
-    const Eigen::RowVector3d d = rest.row(id) - this->centre_;
-    Q += d.transpose() * d;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(Q);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   for (int j = 0; j < 3; ++j)
   {
-    // As in AffineFit: flatter sets count as planar or straight.
-    if (axes.eigenvalues()[j] > 1e-10 * axes.eigenvalues()[2])
+    if (AffineLeastSquares::isExtended(axes.eigenvalues()[j], axes.eigenvalues()[2]))
     {
       this->normal_ -= axes.eigenvectors().col(j) * axes.eigenvectors().col(j).transpose();
     }
@@ -99,41 +69,52 @@ double Flat::distance(const Eigen::RowVector3d& x) const
   return ((x - this->centre_) * this->normal_).norm();
 }
 
-const std::vector<Index>& spanningSet(
-  const Points& rest, const std::vector<Index>& nodes, const std::vector<std::vector<Index>>& sets)
+AffineFit MotionSums::affineFit() const
 {
-  static const std::vector<Index> none;
-  const double size =
-    rest.rows() > 0 ? (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm() : 0;
-  const std::vector<Index>* last = &none;
-  for (const std::vector<Index>& set : sets)
+  return AffineFit(this->centre_, this->mean_, this->spread_, this->stretch_);
+}
+
+MotionSums::RigidFit MotionSums::rigidFit() const
+{
+  RigidFit fit;
+  fit.centre_ = this->centre_;
+  fit.shift_ = this->mean_;
+  if (this->stretch_.isZero(0))
   {
-    if (set.empty())
-    {
-      continue;
-    }
-    last = &set;
-    const Flat flat(rest, set);
-    bool holds = true;
-    for (Index node : nodes)
-    {
-      holds = holds && flat.distance(rest.row(node)) <= 1e-9 * size;
-    }
-    if (holds)
-    {
-      break;
-    }
+    fit.turn_.setZero();
+    return fit;
   }
-  return *last;
+  // With displacements beside positions a small motion keeps its digits.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+    this->stretch_.transpose() + this->spread_, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& size = svd.singularValues();
+  if (!(size[1] > 1e-10 * size[0]))
+  {
+    // A line: the turn about its axis is free.
+    const Eigen::Quaterniond q =
+      Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0));
+    fit.turn_ = q.toRotationMatrix() - Eigen::Matrix3d::Identity();
+    return fit;
+  }
+  const Eigen::Vector3d sign(
+    1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  fit.turn_ =
+    svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - Eigen::Matrix3d::Identity();
+  return fit;
+}
+
+Eigen::RowVector3d MotionSums::RigidFit::displacement(const Eigen::RowVector3d& x) const
+{
+  return this->shift_ + (x - this->centre_) * this->turn_.transpose();
 }
 
 AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids)
 {
-  return AffineFit(motion.rest, ids, displacements(motion, ids));
+  return MotionSums(motion, ids).affineFit();
 }
 
-void follow(const std::vector<Index>& ids, const std::vector<Index>& nodes, Unattached how,
-  BoundaryMotion& motion)
+void follow(
+  const MotionSums& sums, const std::vector<Index>& nodes, Unattached how, BoundaryMotion& motion)
 {
   const auto set = [&](const auto& fit)
   {
@@ -142,7 +123,7 @@ void follow(const std::vector<Index>& ids, const std::vector<Index>& nodes, Unat
       motion.displacement.row(node) = fit.displacement(Eigen::RowVector3d(motion.rest.row(node)));
     }
   };
-  if (ids.empty() || how == Unattached::Stay)
+  if (sums.empty() || how == Unattached::Stay)
   {
     for (Index node : nodes)
     {
@@ -151,11 +132,11 @@ void follow(const std::vector<Index>& ids, const std::vector<Index>& nodes, Unat
   }
   else if (how == Unattached::FollowAffinely)
   {
-    set(affineFit(motion, ids));
+    set(sums.affineFit());
   }
   else
   {
-    set(RigidFit(motion, ids));
+    set(sums.rigidFit());
   }
 }
 }

@@ -26,6 +26,7 @@ constexpr int OuterFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2
 NaturalNeighbors::NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor)
 {
   const Points& sites = delaunay.sites();
+  this->outer_ = delaunay.origin();
   this->origin_ = (sites.colwise().minCoeff() + sites.colwise().maxCoeff()) / 2;
   this->sites_ = sites.rowwise() - this->origin_;
   const Points centres = delaunay.circumcentres(monitor);
@@ -280,7 +281,7 @@ bool NaturalNeighbors::finish(Workspace& work)
 bool NaturalNeighbors::compute(
   const Vector& x, int inside, Coordinates coordinates, Workspace& work) const
 {
-  const Vector local = x - this->origin_;
+  const Vector local = (x - this->outer_) - this->origin_;
   for (int site : this->cells_[inside].sites)
   {
     if (this->sites_.row(site) == local)

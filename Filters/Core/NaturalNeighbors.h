@@ -92,8 +92,9 @@ private:
   static void joinBorder(bool volumes, Workspace& workspace);
   static bool finish(Workspace& workspace);
 
-  Eigen::RowVector3d origin_ =
-    Eigen::RowVector3d::Zero(); ///< of all coordinates in here: the middle of the sites
+  Eigen::RowVector3d outer_ = Eigen::RowVector3d::Zero(); ///< Delaunay::origin()
+  /// Of all coordinates in here, relative to that: the middle of the sites.
+  Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   Points sites_;
   std::vector<Cell> cells_;
 };

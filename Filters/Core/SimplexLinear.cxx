@@ -62,7 +62,7 @@ EvaluateReport SimplexLinear::displace(
   this->weights_.multiply(displacement, free, monitor);
   monitor.check();
 
-  const Points moved = this->sites_.coordinates() + displacement;
+  const Points moved = this->delaunay_.sites() + displacement;
   const Index folded = blockSum(static_cast<Index>(this->used_.size()), monitor, Index(0),
     [&](Index i)
     {

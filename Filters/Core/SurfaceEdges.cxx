@@ -76,10 +76,15 @@ struct Meeting
   bool sameDirection; ///< both run through the edge alike: they are wound against each other
 };
 
-/// Gives faces without area the normal of their neighbor at the longest edge that has one, round by round.
-void fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
+/// Gives faces without area the normal of their neighbor at the longest edge that has one, round by
+/// round. After the first round only neighbors of faces that took one in the round before can.
+/// Returns how often a face was looked at.
+Index fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
   const std::vector<Meeting>& meeting, Points& normal)
 {
+  const auto across = [&](Index f, Index e)
+  { return meeting[e].face[0] == f ? meeting[e].face[1] : meeting[e].face[0]; };
+  Index visits = 0;
   std::vector<Index> flat;
   for (Index f = 0; f < normal.rows(); ++f)
   {
@@ -92,13 +97,14 @@ void fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
   do
   {
     found.clear();
+    visits += static_cast<Index>(flat.size());
     for (Index f : flat)
     {
       double longest = -1;
       for (const Index* e = edges.ofFace.begin(f); e != edges.ofFace.end(f); ++e)
       {
         const Meeting& at = meeting[*e];
-        const Index other = at.face[0] == f ? at.face[1] : at.face[0];
+        const Index other = across(f, *e);
         const auto& ends = edges.nodes[*e];
         const double length = (points.row(ends[0]) - points.row(ends[1])).squaredNorm();
         if (other >= 0 && !normal.row(other).isZero(0) && length > longest)
@@ -113,10 +119,22 @@ void fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
     {
       normal.row(face) = direction;
     }
-    flat.erase(
-      std::remove_if(flat.begin(), flat.end(), [&](Index f) { return !normal.row(f).isZero(0); }),
-      flat.end());
-  } while (!found.empty());
+    flat.clear();
+    for (const auto& [face, direction] : found)
+    {
+      for (const Index* e = edges.ofFace.begin(face); e != edges.ofFace.end(face); ++e)
+      {
+        const Index other = across(face, *e);
+        if (other >= 0 && normal.row(other).isZero(0))
+        {
+          flat.push_back(other);
+        }
+      }
+    }
+    std::sort(flat.begin(), flat.end());
+    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
+  } while (!flat.empty());
+  return visits;
 }
 
 double degreesBetween(Eigen::RowVector3d a, const Eigen::RowVector3d& b, bool sameDirection)
@@ -173,7 +191,7 @@ SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces)
   }
 
   Points normal = normals(points, faces);
-  fillNormals(points, result, meeting, normal);
+  result.visits = fillNormals(points, result, meeting, normal);
   for (const Meeting& at : meeting)
   {
     result.angle.push_back(at.face[0] < 0 ? std::numeric_limits<double>::quiet_NaN()

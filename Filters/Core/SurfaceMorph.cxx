@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceMorph.h"
 
-#include "MotionFit.h"
+#include "KnownMotion.h"
 #include "SurfaceLoops.h"
 #include "SurfaceSmoothing.h"
 
 #include <algorithm>
-#include <iterator>
+#include <optional>
 
 namespace morph
 {
@@ -20,6 +20,12 @@ Points rows(const Points& all, const std::vector<Index>& ids)
     some.row(static_cast<Index>(i)) = all.row(ids[i]);
   }
   return some;
+}
+
+bool isUnknown(const GeometrySurface& surface, const BoundaryMotion& motion)
+{
+  return std::all_of(surface.nodes.begin(), surface.nodes.end(),
+    [&](Index node) { return motion.state[node] == BoundaryMotion::Unknown; });
 }
 
 /// The loops round a surface as rows in `fixed`; none where a loop's node is not fixed.
@@ -81,7 +87,14 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
   SurfaceWeights own;
   SurfaceWeights& weights = kept ? *kept : own;
   weights.surfaces.resize(geometry.surfaces.size());
-  const std::vector<Index> known = motion.known();
+  BoundaryMotion before;
+  std::optional<KnownMotion> known; // where a surface has to follow what others do
+  if (std::any_of(geometry.surfaces.begin(), geometry.surfaces.end(),
+        [&](const GeometrySurface& surface) { return isUnknown(surface, motion); }))
+  {
+    before = motion;
+    known.emplace(geometry, before);
+  }
   const double count = static_cast<double>(geometry.surfaces.size());
   for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
   {
@@ -95,12 +108,8 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
       [&](Index node) { return !motion.displacement.row(node).isZero(0); });
     if (fixed.empty())
     {
-      std::vector<std::vector<Index>> sets(2, known);
       const Index body = motion.bodyOfNode[faces.connectivity[faces.offsets[surface.faces[0]]]];
-      sets[0].erase(std::remove_if(sets[0].begin(), sets[0].end(),
-                      [&](Index node) { return motion.bodyOfNode[node] != body; }),
-        sets[0].end());
-      follow(spanningSet(motion.rest, free, sets), free, options.unattached, motion);
+      follow(known->around(body, free), free, options.unattached, motion);
       report.unattached.push_back(static_cast<Index>(s));
     }
     else if (moves && !free.empty())

@@ -90,6 +90,29 @@ TEST(BoundaryProjection, SurfaceNodesGoToTheTargetOthersStay)
   }
 }
 
+TEST(BoundaryProjection, CurvesThatTurnBackPieceByPieceTakeLinearTime)
+{
+  for (const int n : { 20, 200 })
+  {
+    // All nodes go 1.5 cells along: the last one of a curve goes back, then the one before it, and
+    // so on.
+    Case c(meshes::hexes(n, 1, 1));
+    Formula target;
+    target.features = [](const Row& x, Row& y)
+    {
+      y = x + Row(1.5, 0, 0);
+      return true;
+    };
+    const Points before = c.motion.moved();
+    const ProjectionReport report = projectCurves(c.geometry, target, c.motion, c.monitor);
+    EXPECT_TRUE(report.projected.empty());
+    EXPECT_EQ(report.kept.size(), 4u * (n - 1));
+    EXPECT_TRUE(std::is_sorted(report.kept.begin(), report.kept.end()));
+    EXPECT_EQ(c.motion.moved(), before);
+    EXPECT_LE(report.checkedPieces, 3 * (4 * n + 8));
+  }
+}
+
 TEST(BoundaryProjection, FoldsAreSpreadOutOnTheTarget)
 {
   Case c(meshes::hexes(6, 6, 2));
@@ -114,7 +137,8 @@ TEST(BoundaryProjection, FoldsAreSpreadOutOnTheTarget)
 
 TEST(BoundaryProjection, FoldsThatWereThereBeforeAreOpened)
 {
-  // Surfaces follow their curves so that one node of the top and one of a side lie beyond their neighbors.
+  // Surfaces follow their curves so that one node of the top and one of a side lie beyond their
+  // neighbors.
   Case c(meshes::hexes(6, 6, 6));
   c.surfaces();
   const auto nodeAt = [&](const Row& x)

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Aborts.h"
+
+#include "Case.h"
+
+#include <algorithm>
+#include <iostream>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace soak
+{
+namespace
+{
+using morph::Index;
+using morph::Points;
+
+struct Outcome
+{
+  std::vector<double> late; ///< seconds from each abort until the filter was back
+  double latest = 0;
+  double progress = 0; ///< where the latest noticed it
+  int finished = 0;    ///< before they were stopped
+  int deformed = 0;    ///< outputs that are not the undeformed mesh
+  int misnamed = 0;    ///< without the status Cancelled
+  int differing = 0;   ///< runs to the end with other bits than a fresh filter's
+  int checked = 0;     ///< runs to the end after an abort
+};
+
+bool print(const Method& method, const AbortOptions& options, Index nodes, const double* cold,
+  Outcome& outcome)
+{
+  const bool isRight = static_cast<int>(outcome.late.size()) == options.aborts &&
+                       outcome.latest <= options.seconds && outcome.deformed == 0 &&
+                       outcome.misnamed == 0 && outcome.differing == 0 && outcome.checked > 0;
+  std::sort(outcome.late.begin(), outcome.late.end());
+  std::cout << method.name << ": " << nodes << " nodes, whole runs of " << cold[0] << " and "
+            << cold[1] << " s, " << outcome.late.size() << " aborts: back within " << outcome.latest
+            << " s (at progress " << outcome.progress << "), median "
+            << (outcome.late.empty() ? 0 : outcome.late[outcome.late.size() / 2]) << " s; deformed "
+            << outcome.deformed << ", not Cancelled " << outcome.misnamed << ", next runs "
+            << outcome.checked << ", of them different " << outcome.differing << "; "
+            << outcome.finished << " had finished" << (isRight ? "" : ": WRONG") << std::endl;
+  return isRight;
+}
+}
+
+bool stopsRight(const Method& method, const AbortOptions& options)
+{
+  Case world(options.cells, options.seed);
+  std::mt19937 random(options.seed);
+  const Points rest = grids::points(world.grid());
+  const vtkSmartPointer<vtkPolyData> boundaries[2] = { world.boundary(), world.partOfBoundary() };
+
+  // What each boundary gives in a fresh filter, and how long that takes, again where the method is
+  // prepared already.
+  Points expected[2];
+  double cold[2], warm[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const auto fresh = method.make(nullptr);
+    const grids::Listener listener(fresh);
+    fresh->SetInputData(world.grid());
+    fresh->SetBoundaryData(boundaries[k]);
+    const double start = Clock::now();
+    fresh->Update();
+    const double middle = Clock::now();
+    fresh->Modified();
+    fresh->Update();
+    cold[k] = middle - start;
+    warm[k] = Clock::now() - middle;
+    expected[k] = grids::points(fresh->GetOutput());
+  }
+
+  Abort abort;
+  const auto filter = method.make(&abort);
+  const grids::Listener listener(filter);
+  filter->SetInputData(world.grid());
+  Outcome outcome;
+  int before = 0;          // the boundary of the run before
+  bool isPrepared = false; // that one came to its end
+  while (static_cast<int>(outcome.late.size()) < options.aborts &&
+         outcome.finished < 10 * options.aborts)
+  {
+    const bool isWarm = isPrepared && random() % 2 == 0;
+    const int k = isWarm ? before : 1 - before;
+    before = k;
+    filter->SetBoundaryData(boundaries[k]);
+    filter->Modified();
+    const double whole = isWarm ? warm[k] : cold[k];
+    abort.progress = -1;
+    abort.at = Clock::now() + std::uniform_real_distribution<double>(0, whole)(random);
+    abort.armed = true;
+    filter->Update();
+    const double late = Clock::now() - abort.at;
+    abort.armed = false;
+    isPrepared = abort.progress < 0;
+    if (isPrepared)
+    {
+      ++outcome.finished;
+      outcome.differing += !(grids::points(filter->GetOutput()) == expected[k]);
+      continue;
+    }
+    outcome.late.push_back(late);
+    if (late > outcome.latest)
+    {
+      outcome.latest = late;
+      outcome.progress = abort.progress;
+    }
+    outcome.deformed += !(grids::points(filter->GetOutput()) == rest);
+    outcome.misnamed += std::string(filter->GetMorphStatus()) != "Cancelled";
+    if (outcome.late.size() % static_cast<std::size_t>(options.checkEvery) == 0)
+    {
+      filter->Modified();
+      filter->Update();
+      ++outcome.checked;
+      outcome.differing += !(grids::points(filter->GetOutput()) == expected[k]);
+      isPrepared = true;
+    }
+  }
+  return print(method, options, rest.rows(), cold, outcome);
+}
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Memory.h"
+
+#include "Case.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace soak
+{
+namespace
+{
+constexpr int First = 20;
+constexpr double Growth = 1.01;
+
+Process largest(const Process& a, const Process& b)
+{
+  return { std::max(a.resident, b.resident), std::max(a.heap, b.heap),
+    std::max(a.handles, b.handles), std::max(a.threads, b.threads) };
+}
+
+double percent(std::size_t before, std::size_t after)
+{
+  return before > 0 ? 100 * (static_cast<double>(after) / static_cast<double>(before) - 1) : 0;
+}
+
+bool isFlat(std::size_t before, std::size_t after)
+{
+  return static_cast<double>(after) <= Growth * static_cast<double>(before);
+}
+}
+
+bool staysFlat(const Method& method, const MemoryOptions& options)
+{
+  Case world(options.cells, options.seed);
+  const auto filter = method.make(nullptr);
+  grids::Listener listener(filter);
+  filter->SetInputData(world.grid());
+  filter->HoldUnnamedBoundaryOff();
+  Process start, end;
+  int failures = 0;
+  for (int k = 0; k < options.morphs; ++k)
+  {
+    filter->SetBoundaryData(k % 5 == 4 ? world.partOfBoundary() : world.boundary());
+    filter->Update();
+    failures += filter->GetOutput()->GetNumberOfPoints() != world.grid()->GetNumberOfPoints();
+    listener.Warnings.clear(); // they are not the filter's memory
+    Process now;
+    measure(now);
+    (k < First ? start : end) = largest(k < First ? start : end, now);
+  }
+  const bool isRight = isFlat(start.resident, end.resident) && isFlat(start.heap, end.heap) &&
+                       end.handles <= start.handles && end.threads <= start.threads &&
+                       failures == 0;
+  std::cout << method.name << ": " << options.morphs << " morphs of "
+            << world.grid()->GetNumberOfPoints() << " nodes, the first " << First
+            << " against the others: resident " << static_cast<double>(start.resident) / 1e6
+            << " MB, " << percent(start.resident, end.resident) << " %; heap "
+            << static_cast<double>(start.heap) / 1e6 << " MB, " << percent(start.heap, end.heap)
+            << " %; handles " << start.handles << ", " << end.handles << "; threads "
+            << start.threads << ", " << end.threads << "; without a result " << failures
+            << (isRight ? "" : ": NOT FLAT") << std::endl;
+  return isRight;
+}
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+/// What this process holds, as the kernel counts it.
+namespace soak
+{
+struct Process
+{
+  std::size_t resident = 0; ///< bytes
+  std::size_t heap =
+    0;             ///< bytes that are allocated and not freed; 0 where the C library does not tell
+  int handles = 0; ///< open files, sockets and the like
+  int threads = 0;
+};
+
+/// False where the system has no /proc.
+bool measure(Process& now);
+}
