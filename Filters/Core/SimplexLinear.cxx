@@ -4,8 +4,10 @@
 #include "BlockSum.h"
 #include "BridgingTetrahedra.h"
 #include "EnclosingTetrahedra.h"
+#include "Error.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace morph
 {
@@ -18,6 +20,33 @@ std::vector<int> distinct(std::vector<int> values)
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
+}
+
+/// Outside the hull a tetrahedron's weights are of any size, and its corners' motions count by them.
+void warnOfLargeWeights(
+  const EnclosingTetrahedra& enclosing, const std::vector<Index>& ids, Monitor& monitor)
+{
+  constexpr double Large = 10;
+  double largest = 0;
+  std::vector<Index> nodes;
+  for (Index row = 0; row < enclosing.barycentric.rows(); ++row)
+  {
+    const double weight = enclosing.barycentric.row(row).cwiseAbs().maxCoeff();
+    largest = std::max(largest, weight);
+    if (weight > Large)
+    {
+      nodes.push_back(ids[row]);
+    }
+  }
+  if (!nodes.empty())
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Free nodes far outside the convex hull of the prescribed nodes take " << largest
+         << " times the motion of some of these at worst: node ids " << listIds(nodes)
+         << ". Prescribe nodes around them, or choose FEMWARP.";
+    monitor.warn(text.str());
+  }
 }
 
 void fillWeights(const Delaunay& delaunay, const EnclosingTetrahedra& enclosing,
@@ -47,6 +76,7 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
   const EnclosingTetrahedra enclosing =
     enclosingTetrahedra(this->delaunay_, rest.points, this->partition().free, monitor);
   monitor.progress(0.8);
+  warnOfLargeWeights(enclosing, this->partition().free, monitor);
   fillWeights(this->delaunay_, enclosing, this->weights_, monitor);
   this->used_ = distinct(enclosing.tetrahedron);
   this->extrapolated_ = static_cast<Index>(enclosing.extrapolated.size());

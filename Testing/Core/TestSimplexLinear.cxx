@@ -287,6 +287,32 @@ TEST(SimplexLinear, NodesBeyondTheHullAreExtrapolatedAndCounted)
     1e-10 * meshes::size(mesh.points));
 }
 
+TEST(SimplexLinear, LargeWeightsOutsideTheHullAreWarnedOf)
+{
+  // The bottom is prescribed up to `high`; the node farthest away is 20 / high of that off.
+  const Mesh mesh = meshes::hexes(3, 3, 20);
+  for (const double high : { 1., 12. })
+  {
+    std::vector<Index> ids;
+    for (Index id : outerPartition(mesh).prescribed)
+    {
+      if (mesh.points(id, 2) <= high)
+      {
+        ids.push_back(id);
+      }
+    }
+    SimplexLinear method;
+    meshes::ThreadedMonitor monitor;
+    method.prepare(mesh, partitionNodes(mesh, ids), monitor);
+    ASSERT_EQ(monitor.warnings.size(), high == 1 ? 1u : 0u);
+    if (high == 1)
+    {
+      EXPECT_NE(monitor.warnings[0].find("far outside the convex hull"), std::string::npos);
+      EXPECT_NE(monitor.warnings[0].find("times the motion"), std::string::npos);
+    }
+  }
+}
+
 TEST(SimplexLinear, FoldedTetrahedraAreThoseWithNodesInThemAndNoVolume)
 {
   const motions::Map fold = [](const Row& x) { return Row(std::abs(x[0] - 3.5), x[1], x[2]); };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <string>
 
 namespace soak
 {
@@ -38,13 +39,19 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
   filter->SetInputData(world.grid());
   filter->HoldUnnamedBoundaryOff();
   Process start, end;
+  std::string firstError;
   int failures = 0;
   for (int k = 0; k < options.morphs; ++k)
   {
     filter->SetBoundaryData(k % 5 == 4 ? world.partOfBoundary() : world.boundary());
     filter->Update();
     failures += filter->GetOutput()->GetNumberOfPoints() != world.grid()->GetNumberOfPoints();
+    if (firstError.empty() && !listener.Errors.empty())
+    {
+      firstError = listener.Errors[0];
+    }
     listener.Warnings.clear(); // they are not the filter's memory
+    listener.Errors.clear();
     Process now;
     measure(now);
     (k < First ? start : end) = largest(k < First ? start : end, now);
@@ -60,6 +67,10 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
             << " %; handles " << start.handles << ", " << end.handles << "; threads "
             << start.threads << ", " << end.threads << "; without a result " << failures
             << (isRight ? "" : ": NOT FLAT") << std::endl;
+  if (!firstError.empty())
+  {
+    std::cout << "The first error: " << firstError << std::endl;
+  }
   return isRight;
 }
 }

@@ -42,6 +42,10 @@ Method method(const char* name)
     {
       auto filter = vtkSmartPointer<Stoppable<Filter>>::New();
       filter->When = abort;
+      if (auto* weighted = vtkLBWarpMorph::SafeDownCast(filter))
+      {
+        weighted->SetOutsideHullToRelax(); // for the free nodes of a boundary given in part
+      }
       return vtkSmartPointer<vtkMorphAlgorithm>(filter);
     } };
 }

@@ -46,6 +46,6 @@ struct Method
   std::function<vtkSmartPointer<vtkMorphAlgorithm>(Abort* abort)> make;
 };
 
-/// The seven methods, with their default options.
+/// The seven methods, with their default options, but that LBWARP relaxes nodes outside a hull.
 const std::vector<Method>& methods();
 }
