@@ -62,6 +62,7 @@ bool stopsRight(const Method& method, const AbortOptions& options)
     const auto fresh = method.make(nullptr);
     const grids::Listener listener(fresh);
     fresh->SetInputData(world.grid());
+    fresh->HoldUnnamedBoundaryOff(); // held beside others that move, it would fold
     fresh->SetBoundaryData(boundaries[k]);
     const double start = Clock::now();
     fresh->Update();
@@ -71,12 +72,18 @@ bool stopsRight(const Method& method, const AbortOptions& options)
     cold[k] = middle - start;
     warm[k] = Clock::now() - middle;
     expected[k] = grids::points(fresh->GetOutput());
+    if (!listener.Errors.empty())
+    {
+      std::cout << method.name << ": " << listener.Errors[0] << std::endl;
+      return false;
+    }
   }
 
   Abort abort;
   const auto filter = method.make(&abort);
   const grids::Listener listener(filter);
   filter->SetInputData(world.grid());
+  filter->HoldUnnamedBoundaryOff();
   Outcome outcome;
   int before = 0;          // the boundary of the run before
   bool isPrepared = false; // that one came to its end

@@ -45,7 +45,8 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
   {
     filter->SetBoundaryData(k % 5 == 4 ? world.partOfBoundary() : world.boundary());
     filter->Update();
-    failures += filter->GetOutput()->GetNumberOfPoints() != world.grid()->GetNumberOfPoints();
+    failures += !listener.Errors.empty() ||
+                filter->GetOutput()->GetNumberOfPoints() != world.grid()->GetNumberOfPoints();
     if (firstError.empty() && !listener.Errors.empty())
     {
       firstError = listener.Errors[0];
