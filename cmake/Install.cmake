@@ -5,8 +5,10 @@ include(CMakePackageConfigHelpers)
 set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
 set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
 
-file(GLOB core_headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core/*.h")
-install(FILES ${core_headers} DESTINATION "${headers_destination}/Core" COMPONENT sdk)
+install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core/"
+  DESTINATION "${headers_destination}/Core"
+  COMPONENT   sdk
+  FILES_MATCHING PATTERN "*.h")
 set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
 target_include_directories(morph_core
   PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing/Core>)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBoundaryDisplacement.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphBoundaryModel.h"
 #include "vtkMorphChoice.h"
 #include "vtkMorphDisplacedSurface.h"
@@ -34,12 +34,12 @@
 vtkStandardNewMacro(vtkBoundaryDisplacement);
 
 vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
-vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkBoundaryDisplacement, Distance)
-vtkMorphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
+  vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
+    vtkMorphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
+      vtkMorphSetNumberMacro(vtkBoundaryDisplacement, Distance)
+        vtkMorphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
 
-void vtkBoundaryDisplacement::SetVector(double x, double y, double z)
+          void vtkBoundaryDisplacement::SetVector(double x, double y, double z)
 {
   const double values[3] = { x, y, z };
   for (int i = 0; i < 3; ++i)

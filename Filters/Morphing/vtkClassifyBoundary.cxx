@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkClassifyBoundary.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphGeometry.h"
 #include "vtkMorphInput.h"
@@ -23,9 +23,9 @@
 vtkStandardNewMacro(vtkClassifyBoundary);
 
 vtkMorphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
+  vtkMorphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
 
-vtkClassifyBoundary::vtkClassifyBoundary()
+    vtkClassifyBoundary::vtkClassifyBoundary()
 {
   this->SetNumberOfOutputPorts(3);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareMorphMethods.h"
 
-#include "Error.h"
-#include "SubMonitor.h"
-#include "SubSteps.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
+#include "Morpher/SubSteps.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Support/SubMonitor.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
@@ -47,11 +48,11 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 vtkStandardNewMacro(vtkCompareMorphMethods);
 
 vtkMorphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
-vtkMorphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
-vtkMorphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
-vtkMorphSetNumberMacro(vtkCompareMorphMethods, RestTime)
+  vtkMorphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
+    vtkMorphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
+      vtkMorphSetNumberMacro(vtkCompareMorphMethods, RestTime)
 
-struct vtkCompareMorphMethods::vtkInternals
+        struct vtkCompareMorphMethods::vtkInternals
 {
   vtkMorphPorts Ports;
   vtkMorphSteps Steps;

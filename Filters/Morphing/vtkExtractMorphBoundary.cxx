@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExtractMorphBoundary.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"

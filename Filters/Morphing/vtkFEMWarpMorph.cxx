@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFEMWarpMorph.h"
 
-#include "FemWarp.h"
+#include "LinearMethods/FemWarp.h"
 #include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
@@ -10,7 +10,7 @@ vtkStandardNewMacro(vtkFEMWarpMorph);
 
 vtkMorphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
 
-vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
+  vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
 vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLBWarpMorph.h"
 
-#include "LogBarrierWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
 #include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
@@ -10,7 +10,7 @@ vtkStandardNewMacro(vtkLBWarpMorph);
 
 vtkMorphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
 
-vtkLBWarpMorph::vtkLBWarpMorph() = default;
+  vtkLBWarpMorph::vtkLBWarpMorph() = default;
 vtkLBWarpMorph::~vtkLBWarpMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()

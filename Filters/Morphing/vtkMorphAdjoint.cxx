@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAdjoint.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphDataCheck.h"
 #include "vtkMorphInput.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAlgorithm.h"
 
-#include "BoundaryDetermined.h"
-#include "Error.h"
-#include "InversionFree.h"
-#include "Morpher.h"
-#include "SmoothMesh.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
+#include "Morpher/Morpher.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Support/Error.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/SmoothMesh.h"
 #include "vtkMorphBadCells.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphCrewMonitor.h"

@@ -2,7 +2,7 @@
 #ifndef vtkMorphBadCells_h
 #define vtkMorphBadCells_h
 
-#include "ScaledJacobian.h"
+#include "Quality/ScaledJacobian.h"
 
 class vtkUnstructuredGrid;
 

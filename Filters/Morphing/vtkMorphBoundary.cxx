@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphBoundary.h"
 
-#include "CurveMorph.h"
-#include "Error.h"
-#include "FaceQuality.h"
-#include "SurfaceImprovement.h"
-#include "SurfaceMorph.h"
-#include "Topology.h"
+#include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceImprovement.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphGeometry.h"
 #include "vtkMorphInput.h"
@@ -37,14 +37,14 @@
 vtkStandardNewMacro(vtkMorphBoundary);
 
 vtkMorphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
-vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
-vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
-vtkMorphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
-vtkMorphSetNumberMacro(vtkMorphBoundary, RestTime)
+  vtkMorphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
+    vtkMorphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
+      vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
+        vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
+          vtkMorphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
+            vtkMorphSetNumberMacro(vtkMorphBoundary, RestTime)
 
-struct vtkMorphBoundary::vtkInternals
+              struct vtkMorphBoundary::vtkInternals
 {
   vtkMorphPorts Ports;
 };

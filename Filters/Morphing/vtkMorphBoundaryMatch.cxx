@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphBoundaryMatch.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphDataCheck.h"
 #include "vtkMorphMesh.h"
 
@@ -167,8 +167,8 @@ Pairs byPosition(const Points& positions, const morph::Mesh& rest, const std::ve
 
   Pairs pairs;
   // The locator turns places into bucket numbers, and those far outside overflow.
-  const Eigen::AlignedBox3d box(rest.points.colwise().minCoeff().transpose() -
-      Eigen::Vector3d::Constant(tolerance),
+  const Eigen::AlignedBox3d box(
+    rest.points.colwise().minCoeff().transpose() - Eigen::Vector3d::Constant(tolerance),
     rest.points.colwise().maxCoeff().transpose() + Eigen::Vector3d::Constant(tolerance));
   std::vector<std::uint8_t> taken(rest.numberOfNodes(), 0);
   for (Index i = 0; i < positions.rows(); ++i)

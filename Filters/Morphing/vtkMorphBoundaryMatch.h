@@ -2,8 +2,8 @@
 #ifndef vtkMorphBoundaryMatch_h
 #define vtkMorphBoundaryMatch_h
 
-#include "Mesh.h"
-#include "Topology.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
 
 #include <string>
 #include <vector>

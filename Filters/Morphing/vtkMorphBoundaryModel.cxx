@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphBoundaryModel.h"
 
-#include "Error.h"
-#include "FaceAreas.h"
+#include "Boundary/FaceAreas.h"
+#include "Support/Error.h"
 #include "vtkMorphBoundaryMatch.h"
 #include "vtkMorphDataCheck.h"
 #include "vtkMorphInput.h"

@@ -2,7 +2,7 @@
 #ifndef vtkMorphBoundaryModel_h
 #define vtkMorphBoundaryModel_h
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkMorphGeometry.h"
 
 #include <vtkSmartPointer.h>

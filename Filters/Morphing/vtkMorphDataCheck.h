@@ -2,7 +2,7 @@
 #ifndef vtkMorphDataCheck_h
 #define vtkMorphDataCheck_h
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphExecution.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphRanks.h"
 
 #include <vtkAlgorithm.h>

@@ -2,7 +2,7 @@
 #ifndef vtkMorphFaces_h
 #define vtkMorphFaces_h
 
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphGeometry.h"
 
-#include "CellShape.h"
-#include "Error.h"
+#include "Mesh/CellShape.h"
+#include "Support/Error.h"
 #include "vtkMorphBoundaryMatch.h"
 
 #include <vtkCellArray.h>

@@ -2,7 +2,7 @@
 #ifndef vtkMorphGeometry_h
 #define vtkMorphGeometry_h
 
-#include "Classification.h"
+#include "Boundary/Classification.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef vtkMorphGradient_h
 #define vtkMorphGradient_h
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <vtkType.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphInput.h"
 
-#include "CellShape.h"
-#include "Error.h"
+#include "Mesh/CellShape.h"
+#include "Support/Error.h"
 #include "vtkMorphDataCheck.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphRanks.h"
@@ -40,7 +40,8 @@ bool hasVolumeCells(vtkDataObject* data)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
   vtkUnsignedCharArray* types = grid ? grid->GetCellTypesArray() : nullptr;
-  const vtkIdType cells = types ? std::min(types->GetNumberOfValues(), grid->GetNumberOfCells()) : 0;
+  const vtkIdType cells =
+    types ? std::min(types->GetNumberOfValues(), grid->GetNumberOfCells()) : 0;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
     const morph::CellShape* shape = morph::cellShape(types->GetValue(cell));

@@ -2,7 +2,7 @@
 #ifndef vtkMorphInput_h
 #define vtkMorphInput_h
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphMesh.h"
 
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>

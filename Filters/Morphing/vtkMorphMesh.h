@@ -2,7 +2,7 @@
 #ifndef vtkMorphMesh_h
 #define vtkMorphMesh_h
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 class vtkDataArray;
 class vtkPoints;

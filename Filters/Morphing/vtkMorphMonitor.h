@@ -2,7 +2,7 @@
 #ifndef vtkMorphMonitor_h
 #define vtkMorphMonitor_h
 
-#include "Monitor.h"
+#include "Support/Monitor.h"
 
 #include <string>
 #include <unordered_set>

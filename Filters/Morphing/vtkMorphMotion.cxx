@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphMotion.h"
 
-#include "Error.h"
-#include "FaceAreas.h"
+#include "Boundary/FaceAreas.h"
+#include "Support/Error.h"
 #include "vtkMorphDataCheck.h"
 
 #include <vtkAbstractTransform.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphOutput.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphDataCheck.h"
 
 #include <vtkAlgorithm.h>
@@ -90,7 +90,7 @@ void RequireWritable(
   {
     if (std::max(moved.row(n).array().abs().maxCoeff(),
           (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
-      std::numeric_limits<float>::max())
+        std::numeric_limits<float>::max())
     {
       tooLarge.push_back(n);
     }

@@ -2,7 +2,7 @@
 #ifndef vtkMorphOutput_h
 #define vtkMorphOutput_h
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <vtkType.h>
 

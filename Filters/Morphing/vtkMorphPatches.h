@@ -2,7 +2,7 @@
 #ifndef vtkMorphPatches_h
 #define vtkMorphPatches_h
 
-#include "Classification.h"
+#include "Boundary/Classification.h"
 
 #include <set>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphPorts.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphCrewMonitor.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
@@ -124,8 +124,8 @@ int vtkMorphPorts::RequestData(
   {
     vtkSmartPointer<vtkDataObject> given = vtkDataObject::GetData(inputVector[0]);
     input = inputVector[1]->GetInformationObject(0)
-              ? this->Time.TakeRest(given, [this](int port, std::optional<double> time)
-                  { return this->Fetch(port, time); })
+              ? this->Time.TakeRest(given,
+                  [this](int port, std::optional<double> time) { return this->Fetch(port, time); })
               : given;
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
@@ -151,8 +151,7 @@ int vtkMorphPorts::RequestData(
   }
   if (outcome != vtkMorphExecution::Outcome::Done && task.Undone)
   {
-    task.Undone(
-      input, outcome == vtkMorphExecution::Outcome::Cancelled ? "Cancelled" : "Failed");
+    task.Undone(input, outcome == vtkMorphExecution::Outcome::Cancelled ? "Cancelled" : "Failed");
   }
   if (vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]))
   {

@@ -2,9 +2,9 @@
 #ifndef vtkMorphQuality_h
 #define vtkMorphQuality_h
 
-#include "Certificate.h"
-#include "ScaledJacobian.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
+#include "Quality/Certificate.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <cstdint>
 #include <vector>

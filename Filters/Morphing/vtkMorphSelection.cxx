@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphSelection.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>

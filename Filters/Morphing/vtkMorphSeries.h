@@ -2,7 +2,7 @@
 #ifndef vtkMorphSeries_h
 #define vtkMorphSeries_h
 
-#include "Morpher.h"
+#include "Morpher/Morpher.h"
 #include "vtkMorphValidity.h"
 
 #include <map>
@@ -37,7 +37,8 @@ public:
 private:
   std::map<int, Step> Kept;
   int Stride = 1;
-  int Last = 0; ///< the step that came last: of the kept ones the only one that may be between strides
+  int Last =
+    0; ///< the step that came last: of the kept ones the only one that may be between strides
 
   /// Drops all but every Stride-th and the last one.
   void Thin();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphSpread.h"
 
-#include "CurveMorph.h"
-#include "Error.h"
-#include "SurfaceImprovement.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceImprovement.h"
+#include "Support/Error.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #ifndef vtkMorphSpread_h
 #define vtkMorphSpread_h
 
-#include "Falloff.h"
-#include "SurfaceMorph.h"
+#include "BoundaryMorphing/Falloff.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
 #include "vtkMorphBoundaryModel.h"
 #include "vtkMorphChoice.h"
 

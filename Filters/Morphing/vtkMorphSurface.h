@@ -2,8 +2,8 @@
 #ifndef vtkMorphSurface_h
 #define vtkMorphSurface_h
 
-#include "Monitor.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
 
 class vtkPolyData;
 class vtkUnstructuredGrid;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphTarget.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkMorphMesh.h"
 
 #include <vtkCellArray.h>

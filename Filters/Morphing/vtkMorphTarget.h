@@ -2,7 +2,7 @@
 #ifndef vtkMorphTarget_h
 #define vtkMorphTarget_h
 
-#include "BoundaryProjection.h"
+#include "BoundaryMorphing/BoundaryProjection.h"
 
 #include <memory>
 

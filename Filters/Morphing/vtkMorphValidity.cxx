@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphValidity.h"
 
-#include "BoundaryCheck.h"
-#include "CellShape.h"
-#include "Error.h"
-#include "InversionFree.h"
-#include "SubMonitor.h"
-#include "SubSteps.h"
+#include "Mesh/CellShape.h"
+#include "Morpher/SubSteps.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Support/SubMonitor.h"
+#include "Untangling/BoundaryCheck.h"
+#include "Untangling/InversionFree.h"
 #include "vtkMorphAlgorithm.h"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 #ifndef vtkMorphValidity_h
 #define vtkMorphValidity_h
 
-#include "Error.h"
-#include "Morpher.h"
-#include "ScaledJacobian.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
+#include "Morpher/Morpher.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkScaledJacobian.h"
 
-#include "CellShape.h"
-#include "Topology.h"
+#include "Mesh/CellShape.h"
+#include "Mesh/Topology.h"
 #include "vtkMorphExecution.h"
 #include "vtkMorphInput.h"
 #include "vtkMorphMesh.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSimplexLinearMorph.h"
 
-#include "SimplexLinear.h"
+#include "LinearMethods/SimplexLinear.h"
 
 #include <vtkObjectFactory.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSimplexNaturalNeighborMorph.h"
 
-#include "SimplexNaturalNeighbor.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
@@ -12,7 +12,7 @@ vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
 
 vtkMorphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
 
-vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
+  vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
 vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()

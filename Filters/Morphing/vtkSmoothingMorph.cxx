@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSmoothingMorph.h"
 
-#include "Smoothing.h"
+#include "Untangling/Smoothing.h"
 #include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
@@ -10,7 +10,7 @@ vtkStandardNewMacro(vtkSmoothingMorph);
 
 vtkMorphSetNumberMacro(vtkSmoothingMorph, StopMove, 1e-12, 1.0)
 
-vtkSmoothingMorph::vtkSmoothingMorph() = default;
+  vtkSmoothingMorph::vtkSmoothingMorph() = default;
 vtkSmoothingMorph::~vtkSmoothingMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSmoothingMorph::CreateMorpher()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWeightedResidualMorph.h"
 
-#include "WeightedResidual.h"
+#include "LinearMethods/WeightedResidual.h"
 
 #include <vtkObjectFactory.h>
 

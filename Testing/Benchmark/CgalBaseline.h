@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <memory>
 #include <vector>

@@ -8,7 +8,7 @@
 #include "Threads.h"
 #include "Timing.h"
 
-#include "FemWarp.h"
+#include "LinearMethods/FemWarp.h"
 
 #include <unistd.h>
 

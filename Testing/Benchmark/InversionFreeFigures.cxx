@@ -5,9 +5,9 @@
 #include "FigureRun.h"
 #include "Threads.h"
 
-#include "FemWarp.h"
-#include "InversionFree.h"
-#include "ScaledJacobian.h"
+#include "LinearMethods/FemWarp.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/InversionFree.h"
 
 namespace benchmark
 {

@@ -5,10 +5,10 @@
 #include "FigureRun.h"
 #include "Threads.h"
 
-#include "FemWarp.h"
-#include "LogBarrierRow.h"
-#include "LogBarrierSystem.h"
-#include "LogBarrierWarp.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierRow.h"
+#include "LinearMethods/LogBarrierSystem.h"
+#include "LinearMethods/LogBarrierWarp.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "TwistedBrick.h"
 
-#include "SparseRows.h"
+#include "Solvers/SparseRows.h"
 
 namespace benchmark
 {

@@ -6,8 +6,8 @@
 #include "ReadProblem.h"
 #include "Threads.h"
 
-#include "FemWarp.h"
-#include "LogBarrierWarp.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
 
 namespace benchmark
 {

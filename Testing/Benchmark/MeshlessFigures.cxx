@@ -6,11 +6,11 @@
 #include "FigureRun.h"
 #include "Threads.h"
 
-#include "PrescribedSites.h"
-#include "SimplexLinear.h"
-#include "SimplexNaturalNeighbor.h"
-#include "SpatialOrder.h"
-#include "WeightedResidual.h"
+#include "Geometry/SpatialOrder.h"
+#include "Interpolation/PrescribedSites.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
 
 #include <algorithm>
 

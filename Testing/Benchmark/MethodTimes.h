@@ -4,7 +4,7 @@
 #include "Timing.h"
 #include "TwistedBrick.h"
 
-#include "Morpher.h"
+#include "Morpher/Morpher.h"
 
 #include <memory>
 #include <stdexcept>

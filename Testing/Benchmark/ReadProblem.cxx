@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadProblem.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkMorphMesh.h"
 
 #include <vtkNew.h>

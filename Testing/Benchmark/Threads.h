@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Monitor.h"
+#include "Support/Monitor.h"
 
 #include <memory>
 

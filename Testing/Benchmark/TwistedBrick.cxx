@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TwistedBrick.h"
 
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 
 #include <array>
 #include <cmath>

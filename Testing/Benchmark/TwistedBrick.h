@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh.h"
-#include "NodePartition.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
 
 #include <string>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods.h"
 
-#include "FemWarp.h"
-#include "LogBarrierWarp.h"
-#include "SimplexLinear.h"
-#include "SimplexNaturalNeighbor.h"
-#include "WeightedResidual.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
 
 #include <ostream>
 

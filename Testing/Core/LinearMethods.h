@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Morpher.h"
+#include "Morpher/Morpher.h"
 
 #include <functional>
 #include <iosfwd>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CellShape.h"
-#include "Mesh.h"
-#include "Monitor.h"
+#include "Mesh/CellShape.h"
+#include "Mesh/Mesh.h"
+#include "Support/Monitor.h"
 
 #include <functional>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Motions.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Error.h"
+#include "Mesh/NodePartition.h"
 #include "Meshes.h"
-#include "NodePartition.h"
+#include "Support/Error.h"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadraticCells.h"
 
-#include "ScaledJacobian.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <Eigen/LU>
 

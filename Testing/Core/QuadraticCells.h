@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "AffineFit.h"
+#include "Geometry/AffineFit.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

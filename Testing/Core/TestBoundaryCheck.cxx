@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause What boundaries forbid by themselves, and how soon the
 // inversion-free morph and its sub-steps give up then.
-#include "BoundaryCheck.h"
-#include "CommonPoint.h"
-#include "FemWarp.h"
-#include "InversionFree.h"
+#include "Geometry/CommonPoint.h"
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SubSteps.h"
 #include "Motions.h"
-#include "ScaledJacobian.h"
-#include "SubSteps.h"
-#include "Topology.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/BoundaryCheck.h"
+#include "Untangling/InversionFree.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 
-#include "BoundaryProjection.h"
-#include "CurveMorph.h"
-#include "FaceQuality.h"
-#include "SurfaceMorph.h"
+#include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/BoundaryProjection.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BridgingTetrahedra.h"
+#include "LinearMethods/BridgingTetrahedra.h"
 
+#include "LinearMethods/SimplexLinear.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "SimplexLinear.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

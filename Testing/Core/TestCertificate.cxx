@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BernsteinHex.h"
-#include "CellShape.h"
-#include "Certificate.h"
-#include "Error.h"
+#include "Geometry/OrientationPredicate.h"
+#include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "OrientationPredicate.h"
-#include "ScaledJacobian.h"
+#include "Quality/BernsteinHex.h"
+#include "Quality/Certificate.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

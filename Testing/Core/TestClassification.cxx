@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 
-#include "Classification.h"
-#include "Error.h"
+#include "Boundary/Classification.h"
+#include "Support/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several threads with one prepared object; for the linear methods see TestLinearMorphers.cxx.
-#include "InversionFree.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "Smoothing.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/Smoothing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CornerAngles.h"
+#include "Energies/CornerAngles.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "ScaledJacobian.h"
-#include "WorstCells.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/WorstCells.h"
 
 #include <gtest/gtest.h>
 

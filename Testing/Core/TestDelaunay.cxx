@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Delaunay.h"
+#include "Geometry/Delaunay.h"
 
 #include "Meshes.h"
 #include "Motions.h"

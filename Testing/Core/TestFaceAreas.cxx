@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Boundary/FaceAreas.h"
 #include "BoundaryShapes.h"
-#include "Error.h"
-#include "FaceAreas.h"
+#include "Support/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Error.h"
-#include "Falloff.h"
+#include "BoundaryMorphing/Falloff.h"
 #include "Meshes.h"
+#include "Support/Error.h"
 
 #include <gtest/gtest.h>
 

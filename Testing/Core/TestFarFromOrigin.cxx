@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes far from the origin, compared with their size: every method works there to rounding.
-#include "InversionFree.h"
 #include "LinearMethods.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "Smoothing.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/Smoothing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "ElementStiffness.h"
-#include "Error.h"
-#include "FemWarp.h"
+#include "LinearMethods/ElementStiffness.h"
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/Topology.h"
 #include "Motions.h"
-#include "ScaledJacobian.h"
-#include "SimplicialDecomposition.h"
-#include "Topology.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

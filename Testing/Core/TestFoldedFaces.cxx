@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FaceQuality.h"
-#include "FoldedFaces.h"
+#include "Boundary/FaceQuality.h"
+#include "Boundary/FoldedFaces.h"
 #include "Meshes.h"
 
 #include <gtest/gtest.h>

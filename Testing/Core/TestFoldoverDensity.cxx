@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FoldoverDensity.h"
+#include "Energies/FoldoverDensity.h"
 #include "Meshes.h"
 
 #include <Eigen/Eigenvalues>

@@ -2,11 +2,11 @@
 // FEMWARP on what production meshes bring along: collapsed cells, slivers, coordinates far from the origin.
 #include "Meshes.h"
 
-#include "Error.h"
-#include "FemWarp.h"
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/Topology.h"
 #include "Motions.h"
-#include "Smoothing.h"
-#include "Topology.h"
+#include "Support/Error.h"
+#include "Untangling/Smoothing.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryDetermined.h"
-#include "Classification.h"
-#include "FaceQuality.h"
-#include "InversionFree.h"
+#include "Boundary/Classification.h"
+#include "Boundary/FaceQuality.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SubSteps.h"
 #include "Motions.h"
-#include "ScaledJacobian.h"
-#include "SimplexLinear.h"
-#include "SubSteps.h"
-#include "Topology.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/InversionFree.h"
 
 #include <gtest/gtest.h>
 

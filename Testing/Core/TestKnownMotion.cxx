@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 
-#include "CurveMorph.h"
-#include "KnownMotion.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/KnownMotion.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four numbers at once give what each gives alone, on every processor.
-#include "CellGroups.h"
-#include "FoldoverKernel.h"
+#include "Energies/CellGroups.h"
+#include "Energies/FoldoverKernel.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "VectorLoop.h"
+#include "Support/VectorLoop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Long rows of faces that learn from each other: the work grows with their number, not with its
 // square.
-#include "GivenSurfaces.h"
+#include "Boundary/GivenSurfaces.h"
+#include "Boundary/SurfaceEdges.h"
 #include "Meshes.h"
-#include "SurfaceEdges.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include "CellShape.h"
-#include "Error.h"
-#include "LogBarrierWarp.h"
-#include "LogBarrierWeights.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/LogBarrierWeights.h"
+#include "Mesh/CellShape.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseLU>

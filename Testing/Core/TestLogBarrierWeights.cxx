@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LogBarrierWeights.h"
+#include "LinearMethods/LogBarrierWeights.h"
 
 #include "Meshes.h"
 

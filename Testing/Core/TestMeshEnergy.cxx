@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The energy of a mesh, and the minimisers, on every kind of cell.
-#include "MeshEnergy.h"
+#include "Energies/MeshEnergy.h"
 #include "Meshes.h"
-#include "Minimizers.h"
 #include "Motions.h"
+#include "Optimization/Minimizers.h"
 #include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "NaturalNeighbors.h"
+#include "Interpolation/NaturalNeighbors.h"
 
 #include "Meshes.h"
 #include "Motions.h"

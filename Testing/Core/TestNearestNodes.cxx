@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "ConvexHullTest.h"
-#include "NearestNodes.h"
-#include "SpatialOrder.h"
-#include "Topology.h"
+#include "Geometry/ConvexHullTest.h"
+#include "Geometry/NearestNodes.h"
+#include "Geometry/SpatialOrder.h"
+#include "Mesh/Topology.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "NonsymmetricSolver.h"
+#include "Solvers/NonsymmetricSolver.h"
 
-#include "Error.h"
-#include "Gmres.h"
 #include "Meshes.h"
 #include "Motions.h"
+#include "Solvers/Gmres.h"
+#include "Support/Error.h"
 #include "WatchingMonitor.h"
 
 #include <Eigen/SparseLU>

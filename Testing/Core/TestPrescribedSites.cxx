@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Error.h"
-#include "PrescribedSites.h"
-#include "Topology.h"
+#include "Interpolation/PrescribedSites.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,12 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include "InversionFree.h"
-#include "Smoothing.h"
-#include "SubMonitor.h"
-#include "SubSteps.h"
-#include "Topology.h"
-#include "WeightedResidual.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Mesh/Topology.h"
+#include "Morpher/SubSteps.h"
+#include "Support/SubMonitor.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/Smoothing.h"
 
 #include <gtest/gtest.h>
 

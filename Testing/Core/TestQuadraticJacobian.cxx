@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InversionFree.h"
+#include "Geometry/OrientationPredicate.h"
+#include "Mesh/NodePartition.h"
+#include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "NodePartition.h"
-#include "OrientationPredicate.h"
 #include "QuadraticCells.h"
-#include "QuadraticJacobian.h"
-#include "QuadraticMap.h"
-#include "ScaledJacobian.h"
-#include "Smoothing.h"
-#include "Topology.h"
+#include "Quality/QuadraticJacobian.h"
+#include "Quality/QuadraticMap.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/Smoothing.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // First guesses of the methods that solve equations: motions that reach no free node, and several
 // bodies.
-#include "FemWarp.h"
-#include "IndexLimits.h"
-#include "InversionFree.h"
-#include "LogBarrierWarp.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "Mesh/IndexLimits.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "NonsymmetricSolver.h"
-#include "RowComponents.h"
-#include "RowPlaces.h"
-#include "SparseSolver.h"
+#include "Solvers/NonsymmetricSolver.h"
+#include "Solvers/RowComponents.h"
+#include "Solvers/RowPlaces.h"
+#include "Solvers/SparseSolver.h"
+#include "Untangling/InversionFree.h"
 #include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellShape.h"
-#include "Error.h"
+#include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "ScaledJacobian.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is particular to simplex-linear; TestLinearMorphers.cxx has what it shares with the other methods.
-#include "SimplexLinear.h"
+#include "LinearMethods/SimplexLinear.h"
 
-#include "Error.h"
 #include "Meshes.h"
 #include "Motions.h"
+#include "Support/Error.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

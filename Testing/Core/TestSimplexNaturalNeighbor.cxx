@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is particular to natural neighbors; TestLinearMorphers.cxx has what they share with the other methods.
-#include "SimplexNaturalNeighbor.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
 
 #include "Meshes.h"
 #include "Motions.h"

@@ -2,14 +2,14 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include "Error.h"
-#include "MeshEnergy.h"
-#include "ScaledJacobian.h"
-#include "SmoothMesh.h"
-#include "Smoothing.h"
-#include "SmoothingTargets.h"
-#include "Topology.h"
-#include "UntangleEnergy.h"
+#include "Energies/MeshEnergy.h"
+#include "Energies/SmoothingTargets.h"
+#include "Energies/UntangleEnergy.h"
+#include "Mesh/Topology.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Untangling/SmoothMesh.h"
+#include "Untangling/Smoothing.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 
-#include "CurveMorph.h"
-#include "FaceQuality.h"
-#include "SurfaceImprovement.h"
-#include "SurfaceMorph.h"
+#include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceImprovement.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 
-#include "CurveMorph.h"
-#include "Error.h"
-#include "FaceQuality.h"
-#include "SurfaceLoops.h"
-#include "SurfaceMorph.h"
+#include "Boundary/FaceQuality.h"
+#include "Boundary/SurfaceLoops.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

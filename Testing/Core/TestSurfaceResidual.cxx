@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Error.h"
-#include "SurfaceResidual.h"
+#include "BoundaryMorphing/SurfaceResidual.h"
+#include "Support/Error.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Error.h"
-#include "NodePartition.h"
-#include "SimplicialDecomposition.h"
-#include "Topology.h"
+#include "Mesh/NodePartition.h"
+#include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Error.h"
-#include "WeightMatrix.h"
+#include "Interpolation/WeightMatrix.h"
+#include "Support/Error.h"
 
 #include <gtest/gtest.h>
 

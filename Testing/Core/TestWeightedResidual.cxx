@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Error.h"
-#include "Topology.h"
-#include "WeightedResidual.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "TestGrids.h"
 
 #include "../Core/BoundaryShapes.h"
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkClassifyBoundary.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"

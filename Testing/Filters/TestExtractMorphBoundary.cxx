@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestGrids.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkExtractMorphBoundary.h"
 
 #include <vtkCellData.h>

@@ -3,7 +3,7 @@
 // difference to results.
 #include "TestGrids.h"
 
-#include "FemWarp.h"
+#include "LinearMethods/FemWarp.h"
 #include "vtkFEMWarpMorph.h"
 
 #include <vtkCellArray.h>

@@ -2,7 +2,7 @@
 // Threads, progress, abort, and what becomes of exceptions.
 #include "TestGrids.h"
 
-#include "Error.h"
+#include "Support/Error.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkMorphCrewMonitor.h"

@@ -3,7 +3,7 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
-#include "ScaledJacobian.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -2,7 +2,7 @@
 // Which nodes the boundary's points stand for: every route, and their order.
 #include "TestGrids.h"
 
-#include "Topology.h"
+#include "Mesh/Topology.h"
 #include "vtkFEMWarpMorph.h"
 
 #include <vtkDoubleArray.h>

@@ -4,9 +4,9 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
-#include "QuadraticJacobian.h"
-#include "QuadraticMap.h"
-#include "ScaledJacobian.h"
+#include "Quality/QuadraticJacobian.h"
+#include "Quality/QuadraticMap.h"
+#include "Quality/ScaledJacobian.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkScaledJacobian.h"

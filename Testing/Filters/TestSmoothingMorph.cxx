@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing is neither linear nor, with its default target, the identity where nothing moves: TestMorphFilters.cxx is
 // not for it.
-#include "NodePartition.h"
+#include "Mesh/NodePartition.h"
+#include "Mesh/Topology.h"
 #include "TestGrids.h"
-#include "Topology.h"
 
 #include "vtkFEMWarpMorph.h"
 #include "vtkSmoothingMorph.h"

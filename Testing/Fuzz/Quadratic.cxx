@@ -2,7 +2,7 @@
 #include "Quadratic.h"
 
 #include "../Core/Meshes.h"
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,7 @@
 
 #include "Choices.h"
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 namespace fuzz
 {

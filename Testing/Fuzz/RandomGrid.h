@@ -3,7 +3,7 @@
 
 #include "Choices.h"
 
-#include "Mesh.h"
+#include "Mesh/Mesh.h"
 
 #include <vtkDataObject.h>
 #include <vtkSmartPointer.h>

@@ -2,7 +2,7 @@
 #include "RandomMesh.h"
 
 #include "../Core/Meshes.h"
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 #include "Quadratic.h"
 
 #include <vtkCell.h>

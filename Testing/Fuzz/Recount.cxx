@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Recount.h"
 
-#include "CellShape.h"
 #include "Choices.h"
+#include "Mesh/CellShape.h"
 
 #include <vtkCell3D.h>
 #include <vtkGenericCell.h>

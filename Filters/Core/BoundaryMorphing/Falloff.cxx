@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMorphing/Falloff.h"
+
+#include "Geometry/NearestNodes.h"
+#include "Geometry/SpatialOrder.h"
+#include "Interpolation/InverseDistanceWeights.h"
+#include "Support/Error.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Neighbors = 20;
+constexpr Index Grain = 1024;
+
+std::vector<Index> all(Index count)
+{
+  std::vector<Index> rows(count);
+  std::iota(rows.begin(), rows.end(), Index(0));
+  return rows;
+}
+
+/// Squared distance of each place from the nearest node.
+std::vector<double> squaredDistances(const Points& nodes, const Points& places, Monitor& monitor)
+{
+  std::vector<double> result(places.rows());
+  const NearestNodes nearest(nodes);
+  const std::vector<Index> order = spatialOrder(places, all(places.rows()));
+  monitor.parallelFor(places.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      nearest.search(places, order, first, last, 1,
+        [&](Index row, const NearestNodes::Neighbors& found)
+        { result[row] = found.squaredDistances[0]; });
+    });
+  return result;
+}
+}
+
+void Falloff::prepare(const Points& moving, const Points& places, double radius, Monitor& monitor)
+{
+  if (!(radius > 0) || !std::isfinite(radius))
+  {
+    throw Error("The radius of the falloff is " + std::to_string(radius) +
+                "; it has to be a positive number.");
+  }
+  if (moving.rows() == 0)
+  {
+    throw Error("No node moves, so there is nothing that could fade.");
+  }
+  this->places_ = places.rows();
+  this->sites_ = PrescribedSites(moving, all(moving.rows()));
+  this->reached_.clear();
+  this->factor_.clear();
+  const std::vector<double> distance2 =
+    squaredDistances(this->sites_.coordinates(), places, monitor);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    const double t = std::sqrt(distance2[i]) / radius;
+    if (t < 1)
+    {
+      const double s = (1 - t) * (1 - t);
+      this->reached_.push_back(i);
+      this->factor_.push_back(s * s * (4 * t + 1));
+    }
+  }
+  monitor.check();
+  Points near(static_cast<Index>(this->reached_.size()), 3);
+  for (Index i = 0; i < near.rows(); ++i)
+  {
+    near.row(i) = places.row(this->reached_[i]);
+  }
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, near, Neighborhood{ Neighbors, false }, monitor);
+}
+
+Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const
+{
+  Points near(static_cast<Index>(this->reached_.size()), 3);
+  this->weights_.multiply(this->sites_.average(displacement), near, monitor);
+  Points result = Points::Zero(this->places_, 3);
+  for (Index i = 0; i < near.rows(); ++i)
+  {
+    result.row(this->reached_[i]) = this->factor_[i] * near.row(i);
+  }
+  return result;
+}
+}

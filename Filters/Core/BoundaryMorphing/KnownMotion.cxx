@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMorphing/KnownMotion.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+std::vector<Index> knownOf(const std::vector<Index>& nodes, const BoundaryMotion& motion)
+{
+  std::vector<Index> known;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(known),
+    [&](Index node) { return motion.state[node] != BoundaryMotion::Unknown; });
+  return known;
+}
+
+/// Below it a node counts as in a flat: 1e-9 of the model's size, or what rounding makes of
+/// coordinates far away.
+double flatTolerance(const Points& rest)
+{
+  if (rest.rows() == 0)
+  {
+    return 0;
+  }
+  const double size = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+  return 1e-9 * size + 8 * std::numeric_limits<double>::epsilon() * rest.cwiseAbs().maxCoeff();
+}
+}
+
+KnownMotion::KnownMotion(const Classification& geometry, const BoundaryMotion& motion)
+  : motion_(motion)
+  , tolerance_(flatTolerance(motion.rest))
+{
+  for (const GeometrySurface& surface : geometry.surfaces)
+  {
+    this->ofSurface_.push_back(knownOf(surface.nodes, motion));
+    this->surface_.push_back(this->sumOf(this->ofSurface_.back()));
+  }
+  std::vector<std::vector<Index>> ofBody(1);
+  for (Index node : motion.known())
+  {
+    const std::size_t body = static_cast<std::size_t>(motion.bodyOfNode[node] + 1);
+    ofBody.resize(std::max(ofBody.size(), body + 1));
+    ofBody[body].push_back(node);
+  }
+  for (const std::vector<Index>& nodes : ofBody)
+  {
+    this->body_.push_back(this->sumOf(nodes));
+    this->all_.add(this->body_.back());
+  }
+}
+
+MotionSums KnownMotion::sumOf(const std::vector<Index>& ids)
+{
+  this->summed_ += static_cast<Index>(ids.size());
+  return MotionSums(this->motion_, ids);
+}
+
+bool KnownMotion::holds(const MotionSums& sums, const std::vector<Index>& nodes) const
+{
+  const Flat flat = sums.flat();
+  return std::all_of(nodes.begin(), nodes.end(),
+    [&](Index node) { return flat.distance(this->motion_.rest.row(node)) <= this->tolerance_; });
+}
+
+const MotionSums& KnownMotion::besides(const GeometryCurve& curve)
+{
+  const auto found = this->besides_.find(curve.surfaces);
+  if (found != this->besides_.end())
+  {
+    return found->second;
+  }
+  std::vector<Index> order = curve.surfaces;
+  std::stable_sort(order.begin(), order.end(),
+    [&](Index a, Index b) { return this->ofSurface_[a].size() > this->ofSurface_[b].size(); });
+  MotionSums sums;
+  for (auto surface = order.begin(); surface != order.end(); ++surface)
+  {
+    if (surface == order.begin())
+    {
+      sums = this->surface_[*surface];
+      continue;
+    }
+    std::vector<Index> others; // known nodes that none of the larger ones has
+    for (Index node : this->ofSurface_[*surface])
+    {
+      const auto has = [&](Index larger)
+      {
+        const std::vector<Index>& nodes = this->ofSurface_[larger];
+        return std::binary_search(nodes.begin(), nodes.end(), node);
+      };
+      if (std::none_of(order.begin(), surface, has))
+      {
+        others.push_back(node);
+      }
+    }
+    sums.add(this->sumOf(others));
+  }
+  return this->besides_.emplace(curve.surfaces, sums).first->second;
+}
+
+MotionSums KnownMotion::around(const GeometryCurve& curve)
+{
+  MotionSums last;
+  const auto does = [&](const MotionSums& sums)
+  {
+    last = sums.empty() ? last : sums;
+    return !sums.empty() && this->holds(sums, curve.nodes);
+  };
+  if (does(this->sumOf(knownOf(curve.nodes, this->motion_))) || does(this->besides(curve)))
+  {
+    return last;
+  }
+  const MotionSums more = this->around(this->motion_.bodyOfNode[curve.nodes[0]], curve.nodes);
+  return more.empty() ? last : more;
+}
+
+MotionSums KnownMotion::around(Index body, const std::vector<Index>& nodes) const
+{
+  const std::size_t place = static_cast<std::size_t>(body + 1);
+  const bool does = place < this->body_.size() && !this->body_[place].empty() &&
+                    this->holds(this->body_[place], nodes);
+  return does ? this->body_[place] : this->all_;
+}
+}

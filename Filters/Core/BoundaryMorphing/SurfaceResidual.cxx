@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMorphing/SurfaceResidual.h"
+
+#include "Interpolation/InverseDistanceWeights.h"
+#include "Support/Error.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+constexpr double Flat = 1e-12; // determinants and areas this small, relative, count as zero
+
+void requireFinite(const char* what, const Points& points)
+{
+  std::vector<Index> wrong;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    if (!points.row(i).allFinite())
+    {
+      wrong.push_back(i);
+    }
+  }
+  if (!wrong.empty())
+  {
+    throw Error(
+      std::string(what) + " that are not finite (NaN or infinite) in rows " + listIds(wrong) + ".");
+  }
+}
+
+void requireLoops(const SurfaceResidual::Loops& loops, Index points)
+{
+  for (std::size_t l = 0; l < loops.size(); ++l)
+  {
+    if (loops[l].size() < 3)
+    {
+      throw Error("Loop " + std::to_string(l) + " of a surface has " +
+                  std::to_string(loops[l].size()) + " points; a loop has at least three.");
+    }
+    std::vector<Index> wrong;
+    for (Index row : loops[l])
+    {
+      if (row < 0 || row >= points)
+      {
+        wrong.push_back(row);
+      }
+    }
+    if (!wrong.empty())
+    {
+      throw Error("Loop " + std::to_string(l) + " of a surface names rows " + listIds(wrong) +
+                  " where there are " + std::to_string(points) + " prescribed points.");
+    }
+  }
+}
+
+Points centred(const Points& points)
+{
+  return points.rowwise() - points.colwise().mean();
+}
+
+/// Unit normal of the plane nearest to the points, and two unit vectors in it; turned as the eigenvectors happen to
+/// be.
+Eigen::Matrix3d planeAxes(const Points& points)
+{
+  const Points arms = centred(points);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
+  Eigen::Matrix3d columns;
+  columns.col(0) = axes.eigenvectors().col(0);
+  columns.col(1) = axes.eigenvectors().col(1);
+  columns.col(2) = columns.col(0).cross(columns.col(1));
+  return columns;
+}
+
+Eigen::Vector3d vectorArea(const Points& points, const SurfaceResidual::Loops& loops)
+{
+  const Points arms = centred(points); // keeps the digits of surfaces far from the origin
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::vector<Index>& loop : loops)
+  {
+    Eigen::Vector3d last = arms.row(loop.back());
+    for (Index row : loop)
+    {
+      const Eigen::Vector3d next = arms.row(row);
+      sum += last.cross(next) / 2;
+      last = next;
+    }
+  }
+  return sum;
+}
+
+/// Rotation times scale nearest to the map from `rest` to `moved` (both centred): Kabsch, Acta Cryst. A 34 (1978)
+/// 827-828, and the ratio of the extents. Rows are multiplied by it.
+Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+    rest.transpose() * moved, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1, 1, 1);
+  signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const double scale = std::sqrt(moved.squaredNorm() / rest.squaredNorm());
+  return scale * svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+}
+
+/// u(x) = mean + (x - centre) gradient.
+struct SurfaceResidual::Map
+{
+  Report report;
+  Eigen::RowVector3d centre, mean;
+  Eigen::Matrix3d gradient;
+
+  Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
+  {
+    return this->mean + (x - this->centre) * this->gradient;
+  }
+};
+
+void SurfaceResidual::setNumberOfNeighbors(Index count)
+{
+  if (count < 1)
+  {
+    throw Error("The number of neighbors must be at least 1; it is " + std::to_string(count) + ".");
+  }
+  this->numberOfNeighbors_ = count;
+}
+
+void SurfaceResidual::prepare(
+  const Points& prescribed, const Points& points, const Loops& loops, Monitor& monitor)
+{
+  this->prepared_ = false;
+  requireFinite("Prescribed points", prescribed);
+  requireFinite("Points of a surface", points);
+  requireLoops(loops, prescribed.rows());
+  this->prescribed_ = prescribed;
+  this->points_ = points;
+  this->loops_ = loops;
+  std::vector<Index> rows(prescribed.rows());
+  std::iota(rows.begin(), rows.end(), Index(0));
+  this->sites_ = PrescribedSites(prescribed, rows);
+  this->fit_ = AffineLeastSquares(this->sites_.coordinates());
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, points, { this->numberOfNeighbors_ }, monitor);
+  this->prepared_ = true;
+}
+
+/// `displacement`: of the sites; `prescribed`: new positions of the prescribed points.
+SurfaceResidual::Map SurfaceResidual::map(
+  const Points& displacement, const Points& prescribed) const
+{
+  const Points& sites = this->sites_.coordinates();
+  const AffineFit fit = this->fit_.fit(displacement);
+  Map map;
+  map.centre = sites.colwise().mean();
+  map.mean = fit.displacement(map.centre);
+  if (this->fit_.rank() < 2)
+  {
+    map.report.fit = Fit::Translation;
+    map.gradient.setZero();
+    return map;
+  }
+  map.gradient = fit.gradient();
+  const Points moved = sites + displacement;
+  if (this->fit_.rank() == 2)
+  {
+    map.report.fit = Fit::Plane;
+    // Axes, areas and normals of both planes come out of the same steps: bit for bit the same where nothing moves.
+    const Eigen::Matrix3d axes = planeAxes(sites);
+    const Eigen::Vector3d u = axes.col(1), v = axes.col(2);
+    Eigen::Vector3d area = u.cross(v);
+    Eigen::Vector3d movedArea = Eigen::Vector3d(u + map.gradient.transpose() * u)
+                                  .cross(Eigen::Vector3d(v + map.gradient.transpose() * v));
+    const Eigen::Vector3d loopArea = vectorArea(this->prescribed_, this->loops_);
+    const Eigen::Vector3d movedLoopArea = vectorArea(prescribed, this->loops_);
+    // The loops of a closed strip cancel, and say nothing.
+    if (loopArea.norm() > Flat * (sites.rowwise() - map.centre).squaredNorm())
+    {
+      area = loopArea;
+      movedArea = movedLoopArea;
+    }
+    Eigen::Vector3d normal = axes.col(0), movedNormal = planeAxes(moved).col(0);
+    normal *= normal.dot(area) < 0 ? -1 : 1;
+    movedNormal *= movedNormal.dot(movedArea) < 0 ? -1 : 1;
+    const double scale = std::sqrt(movedArea.norm() / area.norm());
+    map.gradient += normal * (scale * movedNormal - normal).transpose();
+  }
+  const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() + map.gradient;
+  map.report.determinant = A.determinant();
+  if (map.report.determinant <= Flat * std::pow(A.norm(), 3))
+  {
+    map.report.determinant = std::min(map.report.determinant, 0.);
+    map.report.fit = Fit::Similarity;
+    map.gradient = similarity(centred(sites), centred(moved)) - Eigen::Matrix3d::Identity();
+  }
+  return map;
+}
+
+SurfaceResidual::Report SurfaceResidual::evaluate(
+  const Points& prescribed, Points& moved, Monitor& monitor) const
+{
+  if (!this->prepared_)
+  {
+    throw Error(
+      "The method is not prepared: call prepare() first, and again after one that failed.");
+  }
+  if (prescribed.rows() != this->prescribed_.rows())
+  {
+    throw Error("The array of prescribed positions has " + std::to_string(prescribed.rows()) +
+                " rows where " + std::to_string(this->prescribed_.rows()) + " are expected.");
+  }
+  requireFinite("Prescribed positions", prescribed);
+  monitor.check();
+
+  Points residual = this->sites_.average(prescribed - this->prescribed_);
+  const Map map = this->map(residual, prescribed);
+  for (Index s = 0; s < residual.rows(); ++s)
+  {
+    residual.row(s) -= map.displacement(this->sites_.coordinates().row(s));
+  }
+  Points displacement, result = this->points_;
+  this->weights_.multiply(residual, displacement, monitor);
+  monitor.parallelFor(result.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        displacement.row(i) += map.displacement(this->points_.row(i));
+        for (int j = 0; j < 3; ++j)
+        {
+          if (displacement(i, j) != 0) // -0.0 + 0.0 would be 0.0
+          {
+            result(i, j) += displacement(i, j);
+          }
+        }
+      }
+    });
+  moved.swap(result);
+  return map.report;
+}
+}

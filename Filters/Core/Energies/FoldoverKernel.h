@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/LaneFunctions.h"
+
+#include <limits>
+
+namespace morph
+{
+/// The formulas of FoldoverDensity, for a number type T that is double or Lanes. Included by few sources: all is inlined.
+namespace foldover
+{
+template <typename T>
+struct Vector3
+{
+  T x[3];
+  MORPH_LANES_INLINE T& operator[](int i) { return this->x[i]; }
+  MORPH_LANES_INLINE const T& operator[](int i) const { return this->x[i]; }
+};
+
+template <typename T>
+MORPH_LANES_INLINE void dot(const Vector3<T>& a, const Vector3<T>& b, T& result)
+{
+  result = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <typename T>
+MORPH_LANES_INLINE void cross(const Vector3<T>& a, const Vector3<T>& b, Vector3<T>& result)
+{
+  result[0] = a[1] * b[2] - a[2] * b[1];
+  result[1] = a[2] * b[0] - a[0] * b[2];
+  result[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// By columns.
+template <typename T>
+struct Matrix3
+{
+  Vector3<T> column[3];
+  MORPH_LANES_INLINE Vector3<T>& operator[](int j) { return this->column[j]; }
+  MORPH_LANES_INLINE const Vector3<T>& operator[](int j) const { return this->column[j]; }
+};
+
+template <typename T>
+MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Vector3<T>& x, Vector3<T>& result)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    result[i] = A[0][i] * x[0] + A[1][i] * x[1] + A[2][i] * x[2];
+  }
+}
+
+template <typename T>
+MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Matrix3<T>& B, Matrix3<T>& result)
+{
+  for (int j = 0; j < 3; ++j)
+  {
+    multiply(A, B[j], result[j]);
+  }
+}
+
+template <typename T>
+MORPH_LANES_INLINE void cofactor(const Matrix3<T>& J, Matrix3<T>& result)
+{
+  cross(J[1], J[2], result[0]);
+  cross(J[2], J[0], result[1]);
+  cross(J[0], J[1], result[2]);
+}
+
+template <typename T>
+MORPH_LANES_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
+{
+  result = T{};
+  for (int j = 0; j < 3; ++j)
+  {
+    T square;
+    dot(J[j], J[j], square);
+    result += square;
+  }
+}
+
+/// What the formulas depend on besides J.
+template <typename T>
+struct Parameters
+{
+  T theta, stiffness;
+  double epsilon;
+};
+
+/// chi, and its derivatives by the determinant D.
+template <typename T>
+struct Regularised
+{
+  T chi, first, second;
+
+  MORPH_LANES_INLINE Regularised(const T& D, double epsilon)
+  {
+    const double square = epsilon * epsilon;
+    const T root = squareRoot(square + D * D);
+    // The second form is the first without its cancellation.
+    this->chi = D > 0. ? (D + root) / 2. : square / (2. * (root - D));
+    this->first = this->chi / root;
+    this->second = square / (2. * root * root * root);
+  }
+};
+
+/// phi, without the stiffness. `I`: squared norm of J; `D`: its determinant.
+template <typename T>
+MORPH_LANES_INLINE void distortion(const Parameters<T>& p, const T& I, const T& D, T& phi)
+{
+  const Regularised<T> r(D, p.epsilon);
+  const T root = inverseCubeRoot(r.chi);
+  phi = (1. - p.theta) / 3. * I * (root * root) + p.theta / 2. * (1. + D * D) / r.chi;
+}
+
+template <typename T>
+MORPH_LANES_INLINE void stiffen(const T& stiffness, const T& phi, T& value)
+{
+  const T gap = 1. - stiffness * phi;
+  const T infinity = T{} + std::numeric_limits<double>::infinity();
+  value = gap > 0. ? phi / gap : infinity;
+}
+
+/// The density and its derivatives by I and D, which mean nothing where it is infinite.
+template <typename T>
+struct Derivatives
+{
+  T value, I, D, II, ID, DD;
+};
+
+template <typename T>
+MORPH_LANES_INLINE void derivatives(
+  const Parameters<T>& parameters, const T& I, const T& D, Derivatives<T>& d)
+{
+  const T a = (1. - parameters.theta) / 3., b = parameters.theta / 2.;
+  const Regularised<T> r(D, parameters.epsilon);
+  const T inverse = 1. / r.chi, root = inverseCubeRoot(r.chi), p = root * root;
+  const T u = r.first * inverse, v = r.second * inverse;
+  const T square = (1. + D * D) * inverse;
+  const T shape = a * I * p;
+
+  const T phi = shape + b * square;
+  const T byI = a * p;
+  const T byD = -2. / 3 * shape * u + b * (2. * D * inverse - square * u);
+  const T byID = -2. / 3 * a * p * u;
+  const T byDD = shape * (10. / 9 * u * u - 2. / 3 * v) +
+                 b * (2. * inverse - 4. * D * inverse * u - square * v + 2. * square * u * u);
+
+  const T gap = 1. - parameters.stiffness * phi;
+  const T one = T{} + 1.;
+  const T gain = gap > 0. ? 1. / gap : one;
+  const T once = gain * gain, twice = 2. * parameters.stiffness * once * gain;
+  d.II = twice * byI * byI;
+  d.ID = once * byID + twice * byI * byD;
+  d.DD = once * byDD + twice * byD * byD;
+  d.I = once * byI;
+  d.D = once * byD;
+  stiffen(parameters.stiffness, phi, d.value);
+}
+
+/// One rotation of Jacobi's method for eigenvalues, of axes p and q; r is the third.
+template <typename T>
+MORPH_LANES_INLINE void rotate(
+  T& app, T& aqq, T& apq, T& apr, T& aqr, Vector3<T>& vp, Vector3<T>& vq)
+{
+  const T gap = aqq - app, one = T{} + 1.;
+  const T root = squareRoot(gap * gap + 4. * apq * apq);
+  const T sum = gap < 0. ? gap - root : gap + root;
+  const T tangent = 2. * apq / (sum == 0. ? one : sum);
+  const T c = 1. / squareRoot(1. + tangent * tangent), s = tangent * c;
+  app -= tangent * apq;
+  aqq += tangent * apq;
+  apq = T{};
+  const T turned = c * apr - s * aqr;
+  aqr = s * apr + c * aqr;
+  apr = turned;
+  for (int i = 0; i < 3; ++i)
+  {
+    const T x = c * vp[i] - s * vq[i];
+    vq[i] = s * vp[i] + c * vq[i];
+    vp[i] = x;
+  }
+}
+
+/// Eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix, of which the lower triangle is read.
+template <typename T>
+MORPH_LANES_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matrix3<T>& V)
+{
+  constexpr int Sweeps = 4; // the error is squared in each
+  T a00 = A[0][0], a11 = A[1][1], a22 = A[2][2], a01 = A[0][1], a02 = A[0][2], a12 = A[1][2];
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      V[j][i] = T{} + (i == j ? 1. : 0.);
+    }
+  }
+  for (int sweep = 0; sweep < Sweeps; ++sweep)
+  {
+    rotate(a00, a11, a01, a02, a12, V[0], V[1]);
+    rotate(a00, a22, a02, a01, a12, V[0], V[2]);
+    rotate(a11, a22, a12, a01, a02, V[1], V[2]);
+  }
+  e[0] = a00;
+  e[1] = a11;
+  e[2] = a22;
+}
+
+template <typename T>
+MORPH_LANES_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
+{
+  const auto swap = a < b;
+  const T first = swap ? b : a;
+  b = swap ? a : b;
+  a = first;
+  for (int i = 0; i < 3; ++i)
+  {
+    const T x = swap ? vb[i] : va[i];
+    vb[i] = swap ? va[i] : vb[i];
+    va[i] = x;
+  }
+}
+
+/// Some unit vector at a right angle to the unit vector `u`.
+template <typename T>
+MORPH_LANES_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
+{
+  // Of its three products with the axes, one of the longer ones.
+  const auto alongZ = u[2] * u[2] > u[0] * u[0];
+  const T zero = T{};
+  result[0] = alongZ ? zero : -u[1];
+  result[1] = alongZ ? -u[2] : u[0];
+  result[2] = alongZ ? u[1] : zero;
+  T square;
+  dot(result, result, square);
+  const T inverse = 1. / squareRoot(square);
+  for (int i = 0; i < 3; ++i)
+  {
+    result[i] *= inverse;
+  }
+}
+
+/// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.
+template <typename T>
+MORPH_LANES_INLINE void signedSingularValues(
+  const Matrix3<T>& J, Matrix3<T>& U, Vector3<T>& S, Matrix3<T>& V)
+{
+  Matrix3<T> A;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j <= i; ++j)
+    {
+      dot(J[i], J[j], A[j][i]);
+    }
+  }
+  Vector3<T> e;
+  symmetricEigen(A, e, V);
+  descend(e[0], e[1], V[0], V[1]);
+  descend(e[1], e[2], V[1], V[2]);
+  descend(e[0], e[1], V[0], V[1]);
+  cross(V[0], V[1], V[2]);
+
+  // The left vectors by orthogonalisation in descending order: a vanishing singular value leaves its vector to the others.
+  Vector3<T> f[3];
+  for (int j = 0; j < 3; ++j)
+  {
+    multiply(J, V[j], f[j]);
+  }
+  const T one = T{} + 1.;
+  T square, along;
+  dot(f[0], f[0], square);
+  const T length = squareRoot(square);
+  const auto some = length > 0.;
+  const T inverse = 1. / (some ? length : one);
+  for (int i = 0; i < 3; ++i)
+  {
+    U[0][i] = some ? f[0][i] * inverse : V[0][i];
+  }
+  dot(f[1], U[0], along);
+  Vector3<T> second;
+  for (int i = 0; i < 3; ++i)
+  {
+    second[i] = f[1][i] - along * U[0][i];
+  }
+  dot(second, second, square);
+  const T across = squareRoot(square);
+  const auto wide = across > 1e-14 * length;
+  const T scale = 1. / (wide ? across : one);
+  Vector3<T> other;
+  perpendicular(U[0], other);
+  for (int i = 0; i < 3; ++i)
+  {
+    U[1][i] = wide ? second[i] * scale : other[i];
+  }
+  cross(U[0], U[1], U[2]);
+  for (int j = 0; j < 3; ++j)
+  {
+    dot(U[j], f[j], S[j]);
+  }
+}
+
+/// Sets the negative eigenvalues of a symmetric matrix to 0.
+template <typename T>
+MORPH_LANES_INLINE void makeSemiDefinite(Matrix3<T>& A)
+{
+  // Most matrices are definite, which their leading minors tell sooner.
+  const T minor = A[0][0] * A[1][1] - A[0][1] * A[0][1];
+  const T determinant = A[2][2] * minor - A[0][2] * (A[0][2] * A[1][1] - A[0][1] * A[1][2]) +
+                        A[1][2] * (A[0][2] * A[0][1] - A[0][0] * A[1][2]);
+  const auto indefinite = !((A[0][0] > 0.) & (minor > 0.) & (determinant > 0.));
+  if (!any(indefinite))
+  {
+    return;
+  }
+  Vector3<T> e;
+  Matrix3<T> V;
+  symmetricEigen(A, e, V);
+  const T zero = T{};
+  for (int i = 0; i < 3; ++i)
+  {
+    e[i] = e[i] > 0. ? e[i] : zero;
+  }
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const T clamped =
+        V[0][i] * V[0][j] * e[0] + V[1][i] * V[1][j] * e[1] + V[2][i] * V[2][j] * e[2];
+      A[j][i] = indefinite ? clamped : A[j][i];
+    }
+  }
+}
+
+/// FoldoverDensity::hessian(); `g` and the blocks by columns.
+template <typename T>
+MORPH_LANES_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
+  const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
+{
+  Matrix3<T> U, V;
+  Vector3<T> s;
+  signedSingularValues(J, U, s, V);
+  const Vector3<T> c = { { s[1] * s[2], s[0] * s[2], s[0] * s[1] } }; // d(det)/ds
+  Derivatives<T> d;
+  derivatives(parameters, T(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), T(s[0] * c[0]), d);
+
+  // Stretches along the axes, coupled with each other.
+  Matrix3<T> A;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j <= i; ++j)
+    {
+      const T own = i == j ? 2. * d.I : d.D * s[3 - i - j];
+      A[j][i] = A[i][j] = 4. * d.II * s[i] * s[j] + 2. * d.ID * (s[i] * c[j] + s[j] * c[i]) +
+                          d.DD * c[i] * c[j] + own;
+    }
+  }
+  makeSemiDefinite(A);
+  // Rotations and shears between two axes: half the sum and half the difference of their eigenvalues.
+  Vector3<T> sum, difference;
+  const T zero = T{};
+  for (int k = 0; k < 3; ++k)
+  {
+    const T positive = 2. * d.I + d.D * s[k], negative = 2. * d.I - d.D * s[k];
+    const T twist = positive > 0. ? positive : zero, shear = negative > 0. ? negative : zero;
+    sum[k] = (shear + twist) / 2.;
+    difference[k] = (shear - twist) / 2.;
+  }
+
+  Matrix3<T> h; // V^T g
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      dot(V[i], g[a], h[a][i]);
+    }
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int b = a; b < 3; ++b)
+    {
+      Matrix3<T> K, UK;
+      for (int i = 0; i < 3; ++i)
+      {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        K[i][i] =
+          A[i][i] * h[a][i] * h[b][i] + sum[k] * h[a][j] * h[b][j] + sum[j] * h[a][k] * h[b][k];
+        K[j][i] = A[j][i] * h[a][i] * h[b][j] + difference[k] * h[a][j] * h[b][i];
+        K[i][j] = A[j][i] * h[a][j] * h[b][i] + difference[k] * h[a][i] * h[b][j];
+      }
+      multiply(U, K, UK);
+      for (int j = 0; j < 3; ++j)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          block[a][b][j][i] = UK[0][i] * U[0][j] + UK[1][i] * U[1][j] + UK[2][i] * U[2][j];
+        }
+      }
+    }
+  }
+}
+}
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Energies/SmoothingTargets.h"
+
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr double LeastVolume = 1e-3; // of the mean cell's
+
+/// Corners of the shape with all edges of length 1, in VTK's order.
+const double (*unitShape(Shape shape))[3]
+{
+  static const double h = std::sqrt(.75), p = std::sqrt(.5), q = std::sqrt(2. / 3);
+  static const double hex[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+    { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  static const double wedge[6][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, h, 0 }, { 0, 0, 1 },
+    { 1, 0, 1 }, { .5, h, 1 } };
+  static const double pyramid[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+    { .5, .5, p } };
+  static const double tet[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, h, 0 }, { .5, h / 3, q } };
+  switch (shape)
+  {
+    case Shape::Hex:
+      return hex;
+    case Shape::Wedge:
+      return wedge;
+    case Shape::Pyramid:
+      return pyramid;
+    default:
+      return tet;
+  }
+}
+
+/// Of each volume cell, those with next to none as large as the mean; 0 for other cells.
+std::vector<double> volumes(const Mesh& rest)
+{
+  std::vector<double> result(rest.numberOfCells(), 0);
+  double sum = 0;
+  Index count = 0;
+  for (Index c = 0; c < rest.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(rest.types[c]);
+    double x[8][3];
+    for (int a = 0; a < numberOfCorners(shape.shape); ++a)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        x[a][j] = rest.points(rest.cell(c)[shape.cornerNode[a]], j);
+      }
+    }
+    if (numberOfCorners(shape.shape) > 0)
+    {
+      result[c] = std::abs(signedVolume(shape.shape, x));
+      sum += result[c];
+      ++count;
+    }
+  }
+  const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
+  for (Index c = 0; c < rest.numberOfCells(); ++c)
+  {
+    const bool isVolume = numberOfCorners(cellShape(rest.types[c])->shape) > 0;
+    if (isVolume && !(result[c] > LeastVolume * mean))
+    {
+      result[c] = mean > 0 ? mean : 1;
+    }
+  }
+  return result;
+}
+
+TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation)
+{
+  const std::vector<double> volume = volumes(rest);
+  TargetShapes result;
+  result.start.assign(1, 0);
+  for (Index c = 0; c < rest.numberOfCells(); ++c)
+  {
+    const Shape shape = cellShape(rest.types[c])->shape;
+    const int corners = cornerTetrahedra(shape);
+    const double(*unit)[3] = unitShape(shape);
+    const double size =
+      corners > 0 ? std::cbrt(volume[c] / std::abs(signedVolume(shape, unit))) : 1;
+    for (int t = 0; t < corners; ++t)
+    {
+      const int* corner = simplicialDecomposition(shape).tets[t].corner;
+      Eigen::Matrix3d D;
+      for (int k = 0; k < 3; ++k)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          D(j, k) = size * (unit[corner[k + 1]][j] - unit[corner[0]][j]);
+        }
+      }
+      D.row(0) *= orientation[c];
+      TargetShapes::Tetrahedron tetrahedron;
+      Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
+      tetrahedron.weight = 1. / corners;
+      tetrahedron.theta = 0;
+      tetrahedron.stiffened = false;
+      result.tetrahedra.push_back(tetrahedron);
+    }
+    result.start.push_back(static_cast<Index>(result.tetrahedra.size()));
+  }
+  return result;
+}
+}
+
+TargetShapes smoothingTargets(
+  const Mesh& rest, const std::vector<std::int8_t>& orientation, Target target, Monitor& monitor)
+{
+  if (target == Target::Ideal)
+  {
+    return idealTargets(rest, orientation);
+  }
+  TargetShapes result = targetShapes(rest, orientation, rest.points, Target::Initial, monitor);
+  for (TargetShapes::Tetrahedron& tetrahedron : result.tetrahedra)
+  {
+    tetrahedron.theta = 0;
+  }
+  return result;
+}
+}

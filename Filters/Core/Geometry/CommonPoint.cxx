@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Geometry/CommonPoint.h"
+
+#include <CGAL/Gmpzf.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace morph
+{
+namespace
+{
+constexpr int Projections = 200;
+constexpr double Margin =
+  1e-9; // of the half-spaces' size, by which a point in double has to lie inside
+
+/// A plane with its unit normal: inside is normal . v > offset.
+struct Plane
+{
+  Eigen::RowVector3d normal;
+  double offset;
+};
+
+/// Projects a point onto the half-space it violates most, again and again.
+bool findByProjection(const std::vector<HalfSpace>& halfSpaces)
+{
+  Eigen::RowVector3d v = Eigen::RowVector3d::Zero(), low = halfSpaces[0][0], high = low;
+  for (const HalfSpace& h : halfSpaces)
+  {
+    for (const Eigen::RowVector3d& corner : h)
+    {
+      v += corner / (3. * static_cast<double>(halfSpaces.size()));
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  }
+  const double size = (high - low).norm();
+  std::vector<Plane> planes;
+  for (const HalfSpace& h : halfSpaces)
+  {
+    const Eigen::RowVector3d outward = (h[1] - h[0]).cross(h[2] - h[0]);
+    const double length = outward.norm();
+    if (!(length > 0))
+    {
+      return false;
+    }
+    const Eigen::RowVector3d normal = -outward / length;
+    planes.push_back({ normal, normal.dot(h[0]) });
+  }
+  for (int step = 0; step < Projections; ++step)
+  {
+    const Plane* worst = nullptr;
+    double depth = 0;
+    for (const Plane& plane : planes)
+    {
+      const double inside = plane.normal.dot(v) - plane.offset;
+      if (!worst || inside < depth)
+      {
+        worst = &plane;
+        depth = inside;
+      }
+    }
+    if (depth > Margin * size)
+    {
+      return true;
+    }
+    // A little farther than the plane.
+    v += (-depth + 0.01 * size) * worst->normal;
+  }
+  return false;
+}
+
+using Exact = CGAL::Gmpzf;
+using ExactVector = std::array<Exact, 3>;
+
+ExactVector minus(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b)
+{
+  ExactVector result;
+  for (int j = 0; j < 3; ++j)
+  {
+    result[j] = Exact(a[j]) - Exact(b[j]);
+  }
+  return result;
+}
+
+/// Maximises the room s <= 1 that all half-spaces leave, n . v - s >= n . p.
+bool findByLinearProgram(const std::vector<HalfSpace>& halfSpaces)
+{
+  CGAL::Quadratic_program<Exact> program(CGAL::LARGER, false, Exact(0), false, Exact(0));
+  constexpr int Room = 3;
+  int row = 0;
+  for (const HalfSpace& h : halfSpaces)
+  {
+    const ExactVector a = minus(h[1], h[0]), b = minus(h[2], h[0]);
+    Exact offset(0);
+    for (int j = 0; j < 3; ++j)
+    {
+      const int k = (j + 1) % 3, l = (j + 2) % 3;
+      const Exact normal = a[l] * b[k] - a[k] * b[l];
+      program.set_a(j, row, normal);
+      offset += normal * Exact(h[0][j]);
+    }
+    program.set_a(Room, row, Exact(-1));
+    program.set_b(row, offset);
+    ++row;
+  }
+  program.set_u(Room, true, Exact(1));
+  program.set_c(Room, Exact(-1));
+  const auto solution = CGAL::solve_linear_program(program, Exact());
+  return CGAL::sign(solution.objective_value_numerator()) *
+           CGAL::sign(solution.objective_value_denominator()) <
+         0;
+}
+}
+
+bool haveCommonPoint(const std::vector<HalfSpace>& halfSpaces)
+{
+  const auto isFinite = [](const HalfSpace& h)
+  { return h[0].allFinite() && h[1].allFinite() && h[2].allFinite(); };
+  if (halfSpaces.empty() || !std::all_of(halfSpaces.begin(), halfSpaces.end(), isFinite))
+  {
+    return true;
+  }
+  return findByProjection(halfSpaces) || findByLinearProgram(halfSpaces);
+}
+}

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Geometry/Delaunay.h"
+
+#include "Support/Error.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_data_structure_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+constexpr double FlatVolume =
+  1e-4; // 6 V over the cube of the longest edge: below, centres take exact arithmetic
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<int, Kernel,
+  CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
+
+Point toPoint(const double* x)
+{
+  return Point(x[0], x[1], x[2]);
+}
+
+/// Differences from it are exact: x - y is where y / 2 <= x <= 2 y (Sterbenz).
+Eigen::RowVector3d exactOrigin(const Points& sites)
+{
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  for (int j = 0; j < 3 && sites.rows() > 0; ++j)
+  {
+    const double low = sites.col(j).minCoeff(), high = sites.col(j).maxCoeff();
+    if (low > 0 && high <= 2 * low)
+    {
+      origin[j] = low;
+    }
+    else if (high < 0 && low >= 2 * high)
+    {
+      origin[j] = high;
+    }
+  }
+  return origin;
+}
+
+/// Each site's number in its vertex's `info`. As CGAL inserts a range of points, but for chances to
+/// cancel.
+Triangulation triangulated(const Points& sites, Monitor& monitor)
+{
+  std::vector<Point> points;
+  points.reserve(sites.rows());
+  std::vector<std::size_t> order(sites.rows());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  for (Index i = 0; i < sites.rows(); ++i)
+  {
+    points.push_back(toPoint(sites.row(i).data()));
+  }
+  monitor.check();
+  using PointOf = CGAL::Pointer_property_map<Point>::type;
+  CGAL::spatial_sort(order.begin(), order.end(),
+    CGAL::Spatial_sort_traits_adapter_3<Kernel, PointOf>(CGAL::make_property_map(points)));
+  Triangulation triangulation;
+  Triangulation::Vertex_handle last;
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i % Grain == 0)
+    {
+      monitor.check();
+    }
+    last = triangulation.insert(points[order[i]], last);
+    last->info() = static_cast<int>(order[i]);
+  }
+  return triangulation;
+}
+
+/// Numbers the cells inside the hull in their `info`, the others by Outside; returns how many are
+/// inside.
+int numberCells(const Triangulation& triangulation)
+{
+  int count = 0;
+  for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell)
+  {
+    cell->info() = triangulation.is_infinite(cell) ? Delaunay::Outside : count++;
+  }
+  return count;
+}
+
+/// The origin lies surely, whatever the rounding, on the negative side of the triangle a, b, c.
+/// (Shewchuk, Discrete Comput. Geom. 18 (1997) 305-363: the error is below 7.8e-16 times the sum of
+/// the absolute products.)
+bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c)
+{
+  const double x[3] = { b[1] * c[2], b[2] * c[0], b[0] * c[1] };
+  const double y[3] = { b[2] * c[1], b[0] * c[2], b[1] * c[0] };
+  double determinant = 0, absolute = 0;
+  for (int j = 0; j < 3; ++j)
+  {
+    determinant += a[j] * (x[j] - y[j]);
+    absolute += std::abs(a[j]) * (std::abs(x[j]) + std::abs(y[j]));
+  }
+  // Seen from the origin the corners of a face turn the other way round: a positive determinant is
+  // the negative side.
+  return determinant > 1e-15 * absolute;
+}
+
+/// In rational arithmetic: a flat tetrahedron's centre is the quotient of two differences that
+/// cancel almost wholly.
+Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel::Exact_kernel;
+  Exact::Point_3 p[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    const auto x = sites.row(corners[k]);
+    p[k] = Exact::Point_3(x[0], x[1], x[2]);
+  }
+  const Exact::Point_3 centre = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
+  return { CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z()) };
+}
+
+/// The corners of the face opposite to corner k, so that they and corner k are positively oriented.
+constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+}
+
+void Delaunay::build(const Points& absolute, Monitor& monitor)
+{
+  const Eigen::RowVector3d origin = exactOrigin(absolute);
+  Points sites = absolute.rowwise() - origin;
+  const Triangulation triangulation = triangulated(sites, monitor);
+  if (triangulation.dimension() < 3)
+  {
+    throw Error(
+      Error::Kind::Singular, "The " + std::to_string(sites.rows()) +
+                               " distinct places of prescribed nodes lie in one plane, or on one "
+                               "line: they span no volume to interpolate in. "
+                               "Prescribe nodes on all sides of the mesh, or choose FEMWARP.");
+  }
+  monitor.check();
+
+  const int count = numberCells(triangulation);
+  std::vector<Tetrahedron> tetrahedra(count);
+  std::vector<int> atSite(sites.rows(), Outside);
+  for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end();
+       ++cell)
+  {
+    Tetrahedron& tetrahedron = tetrahedra[cell->info()];
+    for (int k = 0; k < 4; ++k)
+    {
+      tetrahedron.sites[k] = cell->vertex(k)->info();
+      tetrahedron.neighbors[k] = cell->neighbor(k)->info();
+      atSite[tetrahedron.sites[k]] = cell->info();
+    }
+  }
+  this->origin_ = origin;
+  this->sites_.swap(sites);
+  this->tetrahedra_.swap(tetrahedra);
+  this->atSite_.swap(atSite);
+}
+
+int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
+{
+  int before = Outside; // the tetrahedron the walk came from: x is not back there
+  int here = start;
+  while (true)
+  {
+    const Tetrahedron& tetrahedron = this->tetrahedra_[here];
+    Eigen::RowVector3d d[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      d[k] = this->sites_.row(tetrahedron.sites[k]) - x;
+    }
+    int next = here;
+    for (int k = 0; k < 4 && next == here; ++k)
+    {
+      const int neighbor = tetrahedron.neighbors[k];
+      if (neighbor != Outside && neighbor != before &&
+          isBeyond(d[Faces[k][0]], d[Faces[k][1]], d[Faces[k][2]]))
+      {
+        next = neighbor;
+      }
+    }
+    if (next == here)
+    {
+      return here;
+    }
+    before = here;
+    here = next;
+  }
+}
+
+int Delaunay::startNear(const Eigen::RowVector3d& x) const
+{
+  // The sample that balances its own cost with that of the walk.
+  const Index n = this->sites_.rows();
+  const Index step =
+    std::max<Index>(1, n / (4 * static_cast<Index>(std::cbrt(static_cast<double>(n))) + 1));
+  double best = std::numeric_limits<double>::infinity();
+  int start = 0;
+  for (Index i = 0; i < n; i += step)
+  {
+    const double distance = (this->sites_.row(i) - x).squaredNorm();
+    if (distance < best && this->atSite_[i] != Outside)
+    {
+      best = distance;
+      start = this->atSite_[i];
+    }
+  }
+  return start;
+}
+
+Points Delaunay::circumcentres(Monitor& monitor) const
+{
+  Points centres(static_cast<Index>(this->tetrahedra_.size()), 3);
+  monitor.parallelFor(centres.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index t = first; t < last; ++t)
+      {
+        const auto& s = this->tetrahedra_[t].sites;
+        const Eigen::RowVector3d origin = this->sites_.row(s[0]);
+        const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
+        const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
+        const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
+        const double volume = a.dot(b.cross(c));
+        const double longest = std::max({ a.norm(), b.norm(), c.norm() });
+        if (volume > FlatVolume * longest * longest * longest)
+        {
+          centres.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
+                                      c.squaredNorm() * a.cross(b)) /
+                                      (2 * volume);
+        }
+        else
+        {
+          centres.row(t) = exactCircumcentre(this->sites_, s);
+        }
+      }
+    });
+  return centres;
+}
+
+double Delaunay::sixVolumes(const Tetrahedron& tetrahedron, const Points& positions)
+{
+  const auto& s = tetrahedron.sites;
+  const Eigen::RowVector3d a = positions.row(s[1]) - positions.row(s[0]);
+  const Eigen::RowVector3d b = positions.row(s[2]) - positions.row(s[0]);
+  const Eigen::RowVector3d c = positions.row(s[3]) - positions.row(s[0]);
+  return a.dot(b.cross(c));
+}
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interpolation/WeightMatrix.h"
+
+#include "Support/Error.h"
+#include "Support/VectorLoop.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <string>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+constexpr Index MostBlocks = 32;
+constexpr Index MostEntries = Index(1) << 36; // 800 GB: do not even ask for it
+
+using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// Four numbers a site are whole vector registers, three are none.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// Three numbers of the weighted sum of `n` sites. Two sums, so that an addition need not wait for the one before.
+inline __attribute__((always_inline)) void weightedSum(
+  const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
+{
+  Four even = { 0, 0, 0, 0 }, odd = even;
+  Index e = 0;
+  for (; e + 1 < n; e += 2)
+  {
+    even += weight[e] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e]));
+    odd +=
+      weight[e + 1] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e + 1]));
+  }
+  if (e < n)
+  {
+    even += weight[e] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e]));
+  }
+  even += odd;
+  sum[0] = even[0];
+  sum[1] = even[1];
+  sum[2] = even[2];
+}
+
+struct MultiplyRow
+{
+  static inline __attribute__((always_inline)) void run(
+    Index row, const WeightMatrix& matrix, const PaddedPoints& sites, Points& free)
+  {
+    weightedSum(matrix.column(row), matrix.weight(row), matrix.entries(row), sites.data(),
+      free.data() + 3 * row);
+  }
+};
+}
+
+void WeightMatrix::open(Index columns, std::vector<Index> offsets)
+{
+  if (columns > std::numeric_limits<std::int32_t>::max())
+  {
+    throw Error("There are " + std::to_string(columns) +
+                " prescribed places, more than the weights can number (2^31 - 1).");
+  }
+  const Index entries = offsets.back();
+  bool fits = entries <= MostEntries;
+  try
+  {
+    this->column_.resize(fits ? entries : 0);
+    this->weight_.resize(fits ? entries : 0);
+  }
+  catch (const std::bad_alloc&)
+  {
+    fits = false;
+  }
+  if (!fits)
+  {
+    *this = WeightMatrix();
+    throw Error("The weights need " + std::to_string(12 * entries / 1000000) +
+                " MB, more than there is. Use fewer neighbors, or prescribe fewer nodes.");
+  }
+  this->columns_ = columns;
+  this->offsets_ = std::move(offsets);
+}
+
+void WeightMatrix::open(Index rows, Index columns, Index entries)
+{
+  std::vector<Index> offsets(rows + 1);
+  for (Index i = 0; i <= rows; ++i)
+  {
+    offsets[i] = i * entries;
+  }
+  this->open(columns, std::move(offsets));
+}
+
+void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor) const
+{
+  PaddedPoints padded = PaddedPoints::Zero(this->columns(), 4);
+  padded.leftCols<3>() = sites;
+  free.resize(this->rows(), 3);
+  monitor.parallelFor(this->rows(), Grain,
+    [&](Index first, Index last)
+    { vectorLoop<MultiplyRow>(first, last, *this, std::as_const(padded), free); });
+}
+
+void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const
+{
+  // As many blocks as keep their sums smaller than the matrix; by sizes alone, never by threads.
+  const Index blocks = std::min(
+    MostBlocks, std::max<Index>(1, this->entries() / (8 * std::max<Index>(1, this->columns()))));
+  const Index length = (this->rows() + blocks - 1) / blocks;
+  std::vector<Points> part(blocks);
+  monitor.parallelFor(blocks, 1,
+    [&](Index firstBlock, Index lastBlock)
+    {
+      for (Index b = firstBlock; b < lastBlock; ++b)
+      {
+        part[b].setZero(this->columns(), 3);
+        const Index last = std::min(this->rows(), (b + 1) * length);
+        for (Index row = b * length; row < last; ++row)
+        {
+          const std::int32_t* column = this->column(row);
+          const double* weight = this->weight(row);
+          const double* y = free.data() + 3 * row;
+          const Index n = this->entries(row);
+          for (Index e = 0; e < n; ++e)
+          {
+            double* at = part[b].data() + 3 * static_cast<Index>(column[e]);
+            at[0] += weight[e] * y[0];
+            at[1] += weight[e] * y[1];
+            at[2] += weight[e] * y[2];
+          }
+        }
+      }
+    });
+  sites.resize(this->columns(), 3);
+  monitor.parallelFor(this->columns(), Grain,
+    [&](Index first, Index last)
+    {
+      const Index n = last - first;
+      sites.middleRows(first, n) = part[0].middleRows(first, n);
+      for (Index b = 1; b < blocks; ++b)
+      {
+        sites.middleRows(first, n) += part[b].middleRows(first, n);
+      }
+    });
+}
+
+std::size_t WeightMatrix::memory() const
+{
+  return 12 * static_cast<std::size_t>(this->entries()) + sizeof(Index) * this->offsets_.size();
+}
+}

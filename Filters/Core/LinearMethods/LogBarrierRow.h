@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "LinearMethods/LogBarrierWeights.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Solvers/RowPlaces.h"
+
+#include <array>
+#include <vector>
+
+namespace morph
+{
+/// Columns of [W_I W_B]: the free nodes in the order of the rows, then the prescribed nodes.
+struct WeightColumns
+{
+  WeightColumns(Index nodes, const std::vector<Index>& rows, const std::vector<Index>& prescribed);
+
+  std::vector<int> ofNode;  ///< #nodes, -1 for a node in neither
+  std::vector<Index> nodes; ///< node of each column
+};
+
+/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them. One object per
+/// thread.
+class LogBarrierRow
+{
+public:
+  /// Where the weights come from.
+  enum class Kind
+  {
+    OneRing, ///< log-barrier weights among the nodes that share a volume cell with the node
+    TwoRing, ///< log-barrier weights among those and their neighbors
+    Affine, ///< least-norm affine weights of the one ring: exact for affine maps, some of them negative
+    Stiffness, ///< FEMWARP's row
+    None       ///< no weights: asked for OneRing only, or every cell around has zero volume
+  };
+
+  /// The arguments must outlive this object. `around`: nodeToCells(mesh).
+  LogBarrierRow(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
+
+  /// Weights of `node`. With `relax` the kinds are tried in their order, without it only the first is.
+  Kind compute(Index node, bool relax);
+
+  /// Ascending; the node's own is not among them.
+  const std::vector<int>& columns() const { return this->columns_; }
+  /// One per column, sum 1.
+  const std::vector<double>& weights() const { return this->weights_; }
+  /// Newton steps of the last compute().
+  int iterations() const { return this->iterations_; }
+
+private:
+  void gather(Index node);
+  void widen();
+  void takeOffsets(Index node);
+  bool logBarrier();
+  bool leastNormAffine();
+  bool stiffness(Index node);
+
+  const Mesh* mesh_;
+  const Adjacency* around_;
+  const WeightColumns* numbers_;
+
+  LogBarrierWeights solver_;
+  std::vector<int> columns_;
+  std::vector<double> weights_;
+  std::vector<std::array<double, 3>> offsets_;
+  int iterations_ = 0;
+  RowPlaces met_; ///< the columns of this gathering, and the node's own
+};
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/LogBarrierWarp.h"
+
+#include "LinearMethods/LogBarrierSystem.h"
+#include "Mesh/RowOrder.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
+
+#include <sstream>
+
+namespace morph
+{
+namespace
+{
+constexpr int MaxIterations = 2000;
+
+/// Throws for nodes that have no weights.
+void requireWeights(const LogBarrierSystem& system, bool relax)
+{
+  if (system.empty.empty())
+  {
+    return;
+  }
+  if (relax)
+  {
+    throw Error(Error::Kind::Singular,
+      "Every cell around node ids " + listIds(system.empty) +
+        " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
+  }
+  std::ostringstream text;
+  text
+    << system.empty.size() << (system.empty.size() == 1 ? " free node does" : " free nodes do")
+    << " not lie inside the hull of the neighbors, at inverted or strongly concave cells, and so "
+    << "cannot be a convex combination of them: node ids " << listIds(system.empty)
+    << ". Repair the rest mesh, prescribe those nodes, or set OutsideHull to Relax.";
+  throw Error(text.str());
+}
+}
+
+void LogBarrierWarp::setTolerance(double tolerance)
+{
+  requireTolerance(tolerance);
+  this->tolerance_ = tolerance;
+}
+
+void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
+{
+  const NodePartition& partition = this->partition();
+  requirePrescribedBodies(rest, bodies(rest), partition);
+  this->rows_ = rowOrder(rest, partition.free);
+  const bool relax = this->outsideHull_ == OutsideHull::Relax;
+  LogBarrierSystem system =
+    logBarrierSystem(rest, this->rows_, partition.prescribed, relax, monitor);
+  requireWeights(system, relax);
+  this->meanWeightIterations_ = system.meanIterations;
+  this->mostWeightIterations_ = system.mostIterations;
+  this->outsideCounts_ = { { "OutsideHullNodes", static_cast<Index>(system.outside.size()) },
+    { "TwoRingNodes", system.twoRing }, { "AffineNodes", system.affine },
+    { "StiffnessNodes", system.stiffness } };
+  if (!system.outside.empty())
+  {
+    monitor.warn("Free nodes outside the hull of their neighbors: node ids " +
+                 listIds(system.outside) + ". " + std::to_string(system.twoRing) +
+                 " took weights among a second ring of neighbors, " +
+                 std::to_string(system.affine) + " affine weights, " +
+                 std::to_string(system.stiffness) + " FEMWARP's row.");
+  }
+  monitor.check();
+  monitor.progress(0.6);
+
+  const Points coordinates = rowPositions(rest.points, this->rows_);
+  this->coupling_.swap(system.coupling);
+  this->solver_.prepare(system.interior, coordinates, monitor);
+  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+}
+
+EvaluateReport LogBarrierWarp::report(
+  const NonsymmetricSolver::Report& solved, Monitor& monitor) const
+{
+  reportRounding(solved, this->tolerance_, monitor);
+  EvaluateReport result;
+  result.iterations = solved.iterations;
+  result.relativeResidual = solved.relativeResidual;
+  result.bytesMoved = solved.bytesMoved;
+  result.counts = this->outsideCounts_;
+  result.counts.push_back({ "FallBackIterations", solved.fallBackIterations });
+  return result;
+}
+
+EvaluateReport LogBarrierWarp::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  Points rhs, x;
+  startSystem(
+    this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
+  const NonsymmetricSolver::Report solved =
+    this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
+  fromRows(x, this->rows_, this->partition(), free, monitor);
+  return this->report(solved, monitor);
+}
+
+EvaluateReport LogBarrierWarp::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  // M = (I - W_I)^-1 W_B, so M^T g = W_B^T (I - W_I)^-T g.
+  const Points rhs = toRows(free, this->rows_, this->partition());
+  Points solution = Points::Zero(free.rows(), 3);
+  const NonsymmetricSolver::Report solved =
+    this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
+  prescribed -= this->coupling_.transpose() * solution;
+  return this->report(solved, monitor);
+}
+
+std::size_t LogBarrierWarp::memory() const
+{
+  const NodePartition& partition = this->partition();
+  return this->solver_.memory() + this->guess_.memory() +
+         12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
+         24 * this->restPoints().rows() +
+         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
+}
+}

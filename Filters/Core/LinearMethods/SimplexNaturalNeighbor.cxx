@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+
+#include "Geometry/SpatialOrder.h"
+
+#include <algorithm>
+#include <atomic>
+#include <sstream>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+constexpr Index BlockLength = 128;
+constexpr Index Stretch = 64; // blocks between two chances to cancel
+constexpr Index Samples = 64;
+constexpr Index Sums = 32; // of the transposed product: fixed, so that threads do not show
+
+/// Places in `ids` in spatial order of the nodes.
+std::vector<Index> placesInOrder(const Points& points, const std::vector<Index>& ids)
+{
+  std::vector<Index> places = spatialOrder(points, ids);
+  for (Index& place : places)
+  {
+    place = std::lower_bound(ids.begin(), ids.end(), place) - ids.begin();
+  }
+  return places;
+}
+}
+
+Index SimplexNaturalNeighbor::blocks() const
+{
+  return (static_cast<Index>(this->order_.size()) + BlockLength - 1) / BlockLength;
+}
+
+/// Into the workspace; false where they are the barycentric coordinates.
+bool SimplexNaturalNeighbor::weightsOf(Index place, NaturalNeighbors::Workspace& work) const
+{
+  const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
+  const int inside = this->enclosing_.tetrahedron[place];
+  const auto barycentric = this->enclosing_.barycentric.row(place);
+  if (barycentric.minCoeff() >= -EnclosingTetrahedra::InsideTolerance &&
+      this->neighbors_.compute(x, inside, this->coordinates_, work))
+  {
+    return true;
+  }
+  const auto& sites = this->delaunay_.tetrahedra()[inside].sites;
+  work.sites.assign(sites.begin(), sites.end());
+  work.weights.assign(barycentric.data(), barycentric.data() + 4);
+  return false;
+}
+
+double SimplexNaturalNeighbor::estimateMemory() const
+{
+  NaturalNeighbors::Workspace work(this->neighbors_);
+  const Index n = static_cast<Index>(this->order_.size());
+  const Index samples = std::min(n, Samples);
+  std::size_t entries = 0;
+  for (Index i = 0; i < samples; ++i)
+  {
+    this->weightsOf(this->order_[i * n / samples], work);
+    entries += work.sites.size();
+  }
+  return 12. * static_cast<double>(entries) / static_cast<double>(samples) * static_cast<double>(n);
+}
+
+/// Returns how many of the block's nodes take barycentric coordinates.
+Index SimplexNaturalNeighbor::computeBlock(
+  Index block, NaturalNeighbors::Workspace& work, WeightMatrix& weights) const
+{
+  const Index first = block * BlockLength;
+  const Index last = std::min(first + BlockLength, static_cast<Index>(this->order_.size()));
+  std::vector<std::int32_t> columns;
+  std::vector<double> values;
+  std::vector<Index> offsets{ 0 };
+  Index barycentric = 0;
+  for (Index i = first; i < last; ++i)
+  {
+    barycentric += this->weightsOf(this->order_[i], work) ? 0 : 1;
+    columns.insert(columns.end(), work.sites.begin(), work.sites.end());
+    values.insert(values.end(), work.weights.begin(), work.weights.end());
+    offsets.push_back(static_cast<Index>(columns.size()));
+  }
+  weights.open(this->sites_.size(), std::move(offsets));
+  std::copy(columns.begin(), columns.end(), weights.column(0));
+  std::copy(values.begin(), values.end(), weights.weight(0));
+  return barycentric;
+}
+
+/// Returns how many nodes took barycentric coordinates, where it computes them.
+Index SimplexNaturalNeighbor::forEachBlock(
+  Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const
+{
+  Index barycentric = 0;
+  if (!this->stored_.empty())
+  {
+    for (Index block = first; block < last; ++block)
+    {
+      use(block, this->stored_[block]);
+    }
+    return barycentric;
+  }
+  NaturalNeighbors::Workspace work(this->neighbors_);
+  for (Index block = first; block < last; ++block)
+  {
+    WeightMatrix weights;
+    barycentric += this->computeBlock(block, work, weights);
+    use(block, weights);
+  }
+  return barycentric;
+}
+
+void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
+{
+  const std::vector<Index>& free = this->partition().free;
+  this->stored_.clear();
+  this->sites_ = PrescribedSites(rest.points, this->partition().prescribed);
+  this->delaunay_.build(this->sites_.coordinates(), monitor);
+  this->enclosing_ = enclosingTetrahedra(this->delaunay_, rest.points, free, monitor);
+  this->neighbors_ = NaturalNeighbors(this->delaunay_, monitor);
+  this->order_ = placesInOrder(rest.points, free);
+  monitor.progress(0.05);
+
+  const double estimate = this->estimateMemory();
+  const bool store = estimate <= static_cast<double>(this->memoryLimit_);
+  if (!store)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "The natural-neighbor weights would take about " << estimate / 1e9
+         << " GB, more than the memory limit of " << static_cast<double>(this->memoryLimit_) / 1e9
+         << " GB: they are computed anew for each motion, which is slow. Raise the limit if the "
+            "memory is there.";
+    monitor.warn(text.str());
+  }
+
+  std::vector<WeightMatrix> stored(store ? this->blocks() : 0);
+  std::atomic<Index> barycentric{ 0 };
+  for (Index begin = 0; store && begin < this->blocks(); begin += Stretch)
+  {
+    const Index end = std::min(begin + Stretch, this->blocks());
+    monitor.check();
+    monitor.parallelFor(end - begin, 1,
+      [&](Index first, Index last)
+      {
+        NaturalNeighbors::Workspace work(this->neighbors_);
+        for (Index block = begin + first; block < begin + last; ++block)
+        {
+          barycentric += this->computeBlock(block, work, stored[block]);
+        }
+      });
+    monitor.progress(0.05 + 0.95 * static_cast<double>(end) / static_cast<double>(this->blocks()));
+  }
+  this->barycentric_ = barycentric;
+  this->stored_.swap(stored);
+}
+
+EvaluateReport SimplexNaturalNeighbor::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  const Points displacement = this->sites_.average(prescribed);
+  std::atomic<Index> barycentric{ this->barycentric_ };
+  for (Index begin = 0; begin < this->blocks(); begin += Stretch)
+  {
+    const Index end = std::min(begin + Stretch, this->blocks());
+    monitor.check();
+    monitor.parallelFor(end - begin, 1,
+      [&](Index first, Index last)
+      {
+        Monitor serial;
+        Points moved;
+        barycentric += this->forEachBlock(begin + first, begin + last,
+          [&](Index block, const WeightMatrix& weights)
+          {
+            weights.multiply(displacement, moved, serial);
+            for (Index i = 0; i < moved.rows(); ++i)
+            {
+              free.row(this->order_[block * BlockLength + i]) = moved.row(i);
+            }
+          });
+      });
+  }
+  EvaluateReport report;
+  report.bytesMoved = 72. * static_cast<double>(free.rows());
+  for (const WeightMatrix& weights : this->stored_)
+  {
+    report.bytesMoved += static_cast<double>(weights.memory());
+  }
+  report.counts = { { "BarycentricNodes", barycentric },
+    { "ExtrapolatedNodes", static_cast<Index>(this->enclosing_.extrapolated.size()) },
+    { "WeightsStored", this->stored_.empty() ? 0 : 1 } };
+  return report;
+}
+
+EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  const Index blocks = this->blocks();
+  const Index length = (blocks + Sums - 1) / Sums;
+  std::vector<Points> part(Sums);
+  monitor.parallelFor(Sums, 1,
+    [&](Index firstSum, Index lastSum)
+    {
+      Monitor serial;
+      for (Index k = firstSum; k < lastSum; ++k)
+      {
+        part[k].setZero(this->sites_.size(), 3);
+        Points gradient, sites;
+        this->forEachBlock(std::min(blocks, k * length), std::min(blocks, (k + 1) * length),
+          [&](Index block, const WeightMatrix& weights)
+          {
+            gradient.resize(weights.rows(), 3);
+            for (Index i = 0; i < gradient.rows(); ++i)
+            {
+              gradient.row(i) = free.row(this->order_[block * BlockLength + i]);
+            }
+            weights.multiplyTranspose(gradient, sites, serial);
+            part[k] += sites;
+          });
+      }
+    });
+  monitor.check();
+  for (Index k = 1; k < Sums; ++k)
+  {
+    part[0] += part[k];
+  }
+  this->sites_.scatterTranspose(part[0], prescribed);
+  return {};
+}
+
+void SimplexNaturalNeighbor::forEachNode(
+  const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
+    use) const
+{
+  NaturalNeighbors::Workspace work(this->neighbors_);
+  for (Index place : this->order_)
+  {
+    this->weightsOf(place, work);
+    use(place, work.sites, work.weights);
+  }
+}
+
+std::size_t SimplexNaturalNeighbor::memory() const
+{
+  std::size_t bytes = this->sites_.memory() + this->neighbors_.memory() +
+                      sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
+                      this->order_.size() * (sizeof(Index) + sizeof(int) + 4 * sizeof(double));
+  for (const WeightMatrix& weights : this->stored_)
+  {
+    bytes += weights.memory();
+  }
+  return bytes;
+}
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/WeightedResidual.h"
+
+#include "Interpolation/InverseDistanceWeights.h"
+#include "Support/Error.h"
+
+#include <Eigen/LU>
+
+#include <sstream>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+
+void warnIfInsideOut(const AffineFit& fit, Monitor& monitor)
+{
+  const double determinant = (Eigen::Matrix3d::Identity() + fit.gradient()).determinant();
+  if (!(determinant > 0))
+  {
+    std::ostringstream text;
+    text << "The affine map fitted to the boundary's motion has determinant " << determinant
+         << ": it reflects or flattens the mesh. Move the boundary in smaller steps, or use a "
+            "method that follows "
+            "the mesh's cells.";
+    monitor.warn(text.str());
+  }
+}
+}
+
+void WeightedResidual::setNumberOfNeighbors(Index count)
+{
+  if (count < 1)
+  {
+    throw Error("The number of neighbors must be at least 1; it is " + std::to_string(count) + ".");
+  }
+  this->numberOfNeighbors_ = count;
+}
+
+void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
+{
+  const std::vector<Index>& free = this->partition().free;
+  const Index rows = static_cast<Index>(free.size());
+  this->sites_ = PrescribedSites(rest.points, this->partition().prescribed);
+  this->fit_ = AffineLeastSquares(this->sites_.coordinates());
+  this->freePlaces_.resize(rows, 3);
+  for (Index i = 0; i < rows; ++i)
+  {
+    this->freePlaces_.row(i) = rest.points.row(free[i]);
+  }
+  monitor.check();
+
+  this->weights_ = inverseDistanceWeights(this->sites_, this->freePlaces_,
+    { this->numberOfNeighbors_, this->adaptiveNeighbors_ }, monitor);
+}
+
+EvaluateReport WeightedResidual::report() const
+{
+  EvaluateReport report;
+  report.bytesMoved = static_cast<double>(this->weights_.memory()) +
+                      sizeof(double) * static_cast<double>(4 * this->freePlaces_.size());
+  return report;
+}
+
+EvaluateReport WeightedResidual::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  Points residual = this->sites_.average(prescribed);
+  const AffineFit fit = this->fit_.fit(residual);
+  warnIfInsideOut(fit, monitor);
+  for (Index s = 0; s < residual.rows(); ++s)
+  {
+    residual.row(s) -= fit.displacement(this->sites_.coordinates().row(s));
+  }
+  monitor.check();
+  this->weights_.multiply(residual, free, monitor);
+  monitor.parallelFor(free.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        free.row(i) += fit.displacement(this->freePlaces_.row(i));
+      }
+    });
+  return this->report();
+}
+
+EvaluateReport WeightedResidual::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  // u = L_x U + W (U - L_b U), hence the adjoint W^T g + L_x^T g - L_b^T W^T g.
+  Points onSites;
+  monitor.check();
+  this->weights_.multiplyTranspose(free, onSites, monitor);
+  Points result = onSites;
+  this->fit_.fitTranspose(this->freePlaces_, free, result);
+  this->fit_.fitTranspose(this->sites_.coordinates(), -onSites, result);
+  this->sites_.scatterTranspose(result, prescribed);
+  return this->report();
+}
+
+std::size_t WeightedResidual::memory() const
+{
+  // The fit keeps an arm per site.
+  return this->sites_.memory() + this->weights_.memory() +
+         sizeof(double) * (this->freePlaces_.size() + this->sites_.coordinates().size());
+}
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/NodePartition.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/Topology.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+
+namespace morph
+{
+NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
+{
+  const Index nodes = mesh.numberOfNodes();
+  std::sort(prescribed.begin(), prescribed.end());
+  std::vector<Index> wrong, twice;
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+  {
+    if (prescribed[i] < 0 || prescribed[i] >= nodes)
+    {
+      wrong.push_back(prescribed[i]);
+    }
+    else if (i > 0 && prescribed[i] == prescribed[i - 1])
+    {
+      twice.push_back(prescribed[i]);
+    }
+  }
+  if (!wrong.empty())
+  {
+    throw Error("Prescribed node ids outside 0 to " + std::to_string(nodes - 1) + ": " +
+                listIds(wrong) + ".");
+  }
+  if (!twice.empty())
+  {
+    throw Error("Node ids prescribed more than once: " + listIds(twice) + ".");
+  }
+
+  enum : std::uint8_t
+  {
+    Unused,
+    Follower,
+    Free,
+    Prescribed
+  };
+  std::vector<std::uint8_t> role(nodes, Unused);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh.types[c]);
+    if (!shape || shape->dimension != 3)
+    {
+      continue;
+    }
+    for (Index k = 0; k < mesh.cellSize(c); ++k)
+    {
+      std::uint8_t& r = role[mesh.cell(c)[k]];
+      r = std::max<std::uint8_t>(r, k < shape->numberOfCorners ? Free : Follower);
+    }
+  }
+  for (Index id : prescribed)
+  {
+    role[id] = Prescribed;
+  }
+
+  NodePartition partition;
+  partition.prescribed = std::move(prescribed);
+  for (Index n = 0; n < nodes; ++n)
+  {
+    if (role[n] == Free)
+    {
+      partition.free.push_back(n);
+    }
+    else if (role[n] == Follower)
+    {
+      partition.followers.push_back(n);
+    }
+  }
+  return partition;
+}
+
+void requirePrescribedBodies(const Mesh& mesh, const Bodies& parts, const NodePartition& partition)
+{
+  std::vector<std::uint8_t> held(parts.count, 0);
+  for (Index id : partition.prescribed)
+  {
+    if (parts.ofNode[id] >= 0)
+    {
+      held[parts.ofNode[id]] = 1;
+    }
+  }
+  for (Index body = 0; body < parts.count; ++body)
+  {
+    if (held[body])
+    {
+      continue;
+    }
+    const auto first = std::find(parts.ofCell.begin(), parts.ofCell.end(), body);
+    const auto size = std::count(parts.ofCell.begin(), parts.ofCell.end(), body);
+    const Index cell = first - parts.ofCell.begin();
+    throw Error(Error::Kind::Singular,
+      "Body " + std::to_string(body) + " (" + std::to_string(size) + " cells, the first is cell " +
+        std::to_string(cell) + " at node " + std::to_string(mesh.cell(cell)[0]) +
+        ") has no prescribed node, so nothing says where it goes. Prescribe at least one of its "
+        "nodes, or remove it from the grid.");
+  }
+}
+}

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Topology.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+const CellShape* volumeShape(const Mesh& mesh, Index cell)
+{
+  const CellShape* shape = cellShape(mesh.types[cell]);
+  return shape && shape->dimension == 3 ? shape : nullptr;
+}
+
+constexpr Index NoNode = std::numeric_limits<Index>::max();
+
+/// The different corner nodes of a face in the face's order; a collapsed hexahedron repeats some. Returns how many.
+int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, Index nodes[4])
+{
+  const FaceShape& f = shape.faces[face];
+  int size = 0;
+  for (int k = 0; k < f.size; ++k)
+  {
+    const Index node = mesh.cell(cell)[shape.cornerNode[f.corner[k]]];
+    if (std::find(nodes, nodes + size, node) == nodes + size)
+    {
+      nodes[size++] = node;
+    }
+  }
+  return size;
+}
+
+/// What two cells that share a face agree on: its corner nodes, ascending, then NoNode. Collapsed to an edge or a point,
+/// a face is none: its first entry is NoNode.
+std::array<Index, 4> faceKey(const Mesh& mesh, Index cell, const CellShape& shape, int face)
+{
+  std::array<Index, 4> key = { NoNode, NoNode, NoNode, NoNode };
+  if (faceNodes(mesh, cell, shape, face, key.data()) < 3)
+  {
+    key.fill(NoNode);
+  }
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+constexpr int MostFaces = 6;
+}
+
+Adjacency nodeToCells(const Mesh& mesh)
+{
+  Adjacency result;
+  result.offsets.assign(mesh.numberOfNodes() + 1, 0);
+  const auto eachCorner = [&mesh](auto&& visit)
+  {
+    std::vector<Index> last(mesh.numberOfNodes(), -1); // a collapsed cell repeats nodes
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      if (const CellShape* shape = volumeShape(mesh, c))
+      {
+        for (const Index* node = mesh.cell(c); node != mesh.cell(c) + shape->numberOfCorners;
+             ++node)
+        {
+          if (last[*node] != c)
+          {
+            last[*node] = c;
+            visit(c, *node);
+          }
+        }
+      }
+    }
+  };
+  eachCorner([&](Index, Index node) { ++result.offsets[node + 1]; });
+  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
+  result.values.resize(result.offsets.back());
+  std::vector<Index> next(result.offsets.begin(), result.offsets.end() - 1);
+  eachCorner([&](Index cell, Index node) { result.values[next[node]++] = cell; });
+  return result;
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
+{
+  // Bucket the faces by their lowest corner; equal faces meet in one bucket.
+  const Index nodes = mesh.numberOfNodes();
+  const Index cells = mesh.numberOfCells();
+  std::vector<Index> offsets(nodes + 1, 0);
+  const auto eachFace = [&mesh, cells](auto&& visit)
+  {
+    for (Index c = 0; c < cells; ++c)
+    {
+      if (const CellShape* shape = volumeShape(mesh, c))
+      {
+        for (int f = 0; f < shape->numberOfFaces; ++f)
+        {
+          Index lowest = mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[0]]];
+          for (int k = 1; k < shape->faces[f].size; ++k)
+          {
+            lowest = std::min(lowest, mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
+          }
+          visit(c, f, lowest);
+        }
+      }
+    }
+  };
+  eachFace([&](Index, int, Index lowest) { ++offsets[lowest + 1]; });
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<Index> faces(offsets.back());
+  {
+    std::vector<Index> next(offsets.begin(), offsets.end() - 1);
+    eachFace([&](Index c, int f, Index lowest) { faces[next[lowest]++] = c * MostFaces + f; });
+  }
+  monitor.check();
+
+  // Within a bucket, a face whose key comes once is on the boundary; the others are marked -1.
+  monitor.parallelFor(nodes, 4096,
+    [&](Index first, Index last)
+    {
+      std::vector<std::pair<std::array<Index, 4>, Index*>> keys;
+      for (Index n = first; n < last; ++n)
+      {
+        keys.clear();
+        for (Index* face = faces.data() + offsets[n]; face != faces.data() + offsets[n + 1]; ++face)
+        {
+          const Index cell = *face / MostFaces;
+          keys.emplace_back(
+            faceKey(mesh, cell, *volumeShape(mesh, cell), static_cast<int>(*face % MostFaces)),
+            face);
+        }
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t i = 0; i < keys.size();)
+        {
+          std::size_t end = i + 1;
+          while (end < keys.size() && keys[end].first == keys[i].first)
+          {
+            ++end;
+          }
+          const bool alone = end == i + 1 && keys[i].first[0] != NoNode;
+          for (; i < end; ++i)
+          {
+            if (!alone)
+            {
+              *keys[i].second = -1;
+            }
+          }
+        }
+      }
+    });
+
+  faces.erase(std::remove(faces.begin(), faces.end(), -1), faces.end());
+  std::sort(faces.begin(), faces.end());
+
+  BoundaryFaces result;
+  std::vector<std::uint8_t> onBoundary(
+    nodes, 0);                               // 1: as a corner, 2: in the middle of an edge or face
+  std::vector<std::array<Index, 5>> middles; // such nodes and their corners
+  result.offsets.reserve(faces.size() + 1);
+  result.cells.reserve(faces.size());
+  result.offsets.push_back(0);
+  for (Index face : faces)
+  {
+    const Index cell = face / MostFaces;
+    const CellShape& shape = *volumeShape(mesh, cell);
+    const FaceShape& f = shape.faces[face % MostFaces];
+    bool isOn[8] = {};
+    Index corners[4];
+    const int size = faceNodes(mesh, cell, shape, static_cast<int>(face % MostFaces), corners);
+    for (int k = 0; k < size; ++k)
+    {
+      result.connectivity.push_back(corners[k]);
+      onBoundary[corners[k]] = 1;
+    }
+    for (int k = 0; k < f.size; ++k)
+    {
+      isOn[f.corner[k]] = true;
+    }
+    // A mid-side or face node lies on the face where only the face's corners have a share in it.
+    for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k)
+    {
+      double N[8];
+      shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
+      bool inside = true;
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        inside = inside && (isOn[a] || N[a] == 0);
+      }
+      const Index node = mesh.cell(cell)[k];
+      if (!inside || onBoundary[node])
+      {
+        continue;
+      }
+      onBoundary[node] = 2;
+      middles.push_back({ node, NoNode, NoNode, NoNode, NoNode });
+      int corner = 0;
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        if (N[a] != 0)
+        {
+          middles.back()[++corner] = mesh.cell(cell)[shape.cornerNode[a]];
+        }
+      }
+    }
+    result.cells.push_back(cell);
+    result.sides.push_back(static_cast<std::uint8_t>(face % MostFaces));
+    result.offsets.push_back(static_cast<Index>(result.connectivity.size()));
+  }
+
+  std::sort(middles.begin(), middles.end());
+  auto middle = middles.begin();
+  result.between.offsets.push_back(0);
+  for (Index n = 0; n < nodes; ++n)
+  {
+    const bool isMiddle = middle != middles.end() && middle->front() == n;
+    if (onBoundary[n])
+    {
+      result.nodes.push_back(n);
+      if (onBoundary[n] == 2)
+      {
+        std::copy_if(middle->begin() + 1, middle->end(), std::back_inserter(result.between.values),
+          [](Index corner) { return corner != NoNode; });
+      }
+      result.between.offsets.push_back(static_cast<Index>(result.between.values.size()));
+    }
+    middle += isMiddle;
+  }
+  return result;
+}
+
+Bodies bodies(const Mesh& mesh)
+{
+  const Index nodes = mesh.numberOfNodes();
+  std::vector<Index> parent(nodes);
+  std::iota(parent.begin(), parent.end(), Index(0));
+  const auto root = [&parent](Index n)
+  {
+    while (parent[n] != n)
+    {
+      parent[n] = parent[parent[n]];
+      n = parent[n];
+    }
+    return n;
+  };
+
+  Bodies result;
+  result.ofCell.assign(mesh.numberOfCells(), -1);
+  result.ofNode.assign(nodes, -1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (const CellShape* shape = volumeShape(mesh, c))
+    {
+      Index low = root(mesh.cell(c)[0]);
+      for (int k = 1; k < shape->numberOfCorners; ++k)
+      {
+        if (parent[mesh.cell(c)[k]] == low) // nearly always, in a numbering with any order
+        {
+          continue;
+        }
+        const Index other = root(mesh.cell(c)[k]);
+        parent[std::max(low, other)] = std::min(low, other);
+        low = std::min(low, other);
+      }
+    }
+  }
+  // Numbered in the order of their first cell.
+  std::vector<Index> number(nodes, -1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (const CellShape* shape = volumeShape(mesh, c))
+    {
+      Index& body = number[root(mesh.cell(c)[0])];
+      if (body < 0)
+      {
+        body = result.count++;
+      }
+      result.ofCell[c] = body;
+      for (int k = 0; k < shape->numberOfCorners; ++k)
+      {
+        result.ofNode[mesh.cell(c)[k]] = body;
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::int8_t> orientation(const Mesh& mesh, const Bodies& bodies)
+{
+  const Index cells = mesh.numberOfCells();
+  constexpr int Shapes = static_cast<int>(Shape::Pyramid) + 1;
+  struct Sum
+  {
+    double volume = 0;
+    Index cells = 0;
+  };
+  std::vector<Sum> sums(bodies.count * Shapes);
+  const auto slot = [&](Index c, Shape shape) -> Sum&
+  { return sums[bodies.ofCell[c] * Shapes + static_cast<int>(shape)]; };
+  for (Index c = 0; c < cells; ++c)
+  {
+    if (const CellShape* shape = volumeShape(mesh, c))
+    {
+      double corners[8][3];
+      for (int k = 0; k < shape->numberOfCorners; ++k)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          corners[k][j] = mesh.points(mesh.cell(c)[shape->cornerNode[k]], j);
+        }
+      }
+      Sum& sum = slot(c, shape->shape);
+      sum.volume += signedVolume(shape->shape, corners);
+      ++sum.cells;
+    }
+  }
+  std::vector<std::int8_t> result(cells, 1);
+  for (Index c = 0; c < cells; ++c)
+  {
+    if (const CellShape* shape = volumeShape(mesh, c))
+    {
+      const Sum& sum = slot(c, shape->shape);
+      if (sum.volume < 0 && (sum.cells > 1 || shape->shape == Shape::Wedge))
+      {
+        result[c] = -1;
+      }
+    }
+  }
+  return result;
+}
+}

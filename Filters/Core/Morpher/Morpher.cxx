@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Morpher/Morpher.h"
+
+#include "Mesh/IndexLimits.h"
+#include "Support/BlockSum.h"
+#include "Support/Error.h"
+#include "Support/SubMonitor.h"
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 4096;
+
+void requireRows(const char* what, Index rows, Index expected)
+{
+  if (rows != expected)
+  {
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
+                std::to_string(expected) + " are expected.");
+  }
+}
+
+Points rowsOf(const Points& all, const std::vector<Index>& ids)
+{
+  Points some(static_cast<Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    some.row(static_cast<Index>(i)) = all.row(ids[i]);
+  }
+  return some;
+}
+
+/// Those of `ids` whose row of `some` is not finite.
+std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
+{
+  std::vector<Index> where;
+  for (Index i = 0; i < some.rows(); ++i)
+  {
+    if (!some.row(i).allFinite())
+    {
+      where.push_back(ids[i]);
+    }
+  }
+  return where;
+}
+
+/// The nodes that the partition does not name.
+std::vector<Index> outside(const NodePartition& partition, Index nodes)
+{
+  std::vector<bool> named(nodes);
+  for (const std::vector<Index>* ids : { &partition.prescribed, &partition.free })
+  {
+    for (Index n : *ids)
+    {
+      named[n] = true;
+    }
+  }
+  std::vector<Index> ids;
+  for (Index n = 0; n < nodes; ++n)
+  {
+    if (!named[n])
+    {
+      ids.push_back(n);
+    }
+  }
+  return ids;
+}
+}
+
+Morpher::~Morpher() = default;
+
+void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
+{
+  validate(rest);
+  requireIndexable(rest);
+  if (partition.prescribed.empty())
+  {
+    throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
+                                       "goes. Prescribe the boundary's nodes.");
+  }
+  this->prepared_ = false; // until everything below belongs together
+  this->rest_ = rest.points;
+  this->partition_ = partition;
+  this->outside_ = outside(partition, rest.points.rows());
+  this->followers_.prepare(rest, partition);
+  monitor.check();
+  if (!partition.free.empty())
+  {
+    SubMonitor whole(monitor, 0, 1);
+    this->doPrepare(rest, whole);
+  }
+  this->prepared_ = true;
+  monitor.progress(1);
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): for methods that keep it
+void Morpher::setReference(Points)
+{
+}
+
+void Morpher::requirePrepared() const
+{
+  if (!this->prepared_)
+  {
+    throw Error(
+      "The method is not prepared: call prepare() first, and again after one that failed.");
+  }
+}
+
+Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) const
+{
+  const std::vector<Index>& ids = this->partition_.prescribed;
+  Points displacement(static_cast<Index>(ids.size()), 3);
+  const Index bad = blockSum(displacement.rows(), monitor, Index(0),
+    [&](Index i)
+    {
+      displacement.row(i) = prescribed.row(i) - this->rest_.row(ids[i]);
+      return Index(!displacement.row(i).allFinite());
+    });
+  if (bad > 0)
+  {
+    throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(displacement, ids)) + ".");
+  }
+  return displacement;
+}
+
+template <typename Displacement>
+void Morpher::place(Index node, const Displacement& displacement, Points& result) const
+{
+  for (int j = 0; j < 3; ++j)
+  {
+    const double rest = this->rest_(node, j), d = displacement[j];
+    result(node, j) =
+      d != 0 ? rest + d : rest; // bit for bit where nothing moves: -0.0 + 0.0 would be 0.0
+  }
+}
+
+EvaluateReport Morpher::evaluate(
+  const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
+{
+  this->requirePrepared();
+  const std::vector<Index>& ids = this->partition_.prescribed;
+  requireRows(
+    "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
+
+  const Points displacement = this->displacementOf(prescribed, monitor);
+  Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
+  EvaluateReport report;
+  SubMonitor whole(monitor, 0, 1);
+  if (freeDisplacement.rows() > 0)
+  {
+    report = this->displace(displacement, freeDisplacement, whole);
+  }
+  if (blockSum(freeDisplacement.rows(), monitor, Index(0),
+        [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
+  {
+    throw Error("The positions found are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(freeDisplacement, this->partition_.free)) +
+                ". The motion, or the mesh, is too large to compute with: scale it down.");
+  }
+
+  // A new array only where the caller's does not fit: making its pages takes longer than filling them.
+  const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
+                        prescribed.data() < moved.data() + moved.size();
+  Points fresh;
+  Points& result = moved.rows() == this->rest_.rows() && !overlaps ? moved : fresh;
+  result.resize(this->rest_.rows(), 3);
+  if (this->followers_.empty())
+  {
+    monitor.parallelFor(freeDisplacement.rows(), Grain,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          this->place(this->partition_.free[i], freeDisplacement.row(i), result);
+        }
+      });
+    for (Index n : this->outside_)
+    {
+      result.row(n) = this->rest_.row(n);
+    }
+  }
+  else
+  {
+    Points all = Points::Zero(this->rest_.rows(), 3);
+    for (Index i = 0; i < freeDisplacement.rows(); ++i)
+    {
+      all.row(this->partition_.free[i]) = freeDisplacement.row(i);
+    }
+    for (Index i = 0; i < displacement.rows(); ++i)
+    {
+      all.row(ids[i]) = displacement.row(i);
+    }
+    this->followers_.apply(all);
+    for (Index n = 0; n < all.rows(); ++n)
+    {
+      this->place(n, all.row(n), result);
+    }
+  }
+  // Rest plus displacement may differ from the given position in the last bit.
+  for (Index i = 0; i < prescribed.rows(); ++i)
+  {
+    result.row(ids[i]) = prescribed.row(i);
+  }
+  if (&result == &fresh)
+  {
+    moved.swap(fresh);
+  }
+  monitor.progress(1);
+  return report;
+}
+
+EvaluateReport LinearMorpher::applyTranspose(
+  const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const
+{
+  this->requirePrepared();
+  requireRows("The gradient", gradient.rows(), this->restPoints().rows());
+  Points all = gradient;
+  if (!all.allFinite())
+  {
+    throw Error("The gradient has entries that are not finite (NaN or infinite).");
+  }
+  // Prescribed nodes go through no weights: what followers hand to them is theirs as well.
+  this->followers_.applyTranspose(all);
+  Points result = rowsOf(all, this->partition().prescribed);
+  EvaluateReport report;
+  if (!this->partition().free.empty())
+  {
+    SubMonitor whole(monitor, 0, 1);
+    report = this->displaceTranspose(rowsOf(all, this->partition().free), result, whole);
+  }
+  prescribed.swap(result);
+  monitor.progress(1);
+  return report;
+}
+}

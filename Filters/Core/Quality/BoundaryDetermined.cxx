@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/BoundaryDetermined.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/Topology.h"
+#include "Quality/PlaceOfNode.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <iterator>
+
+namespace morph
+{
+namespace
+{
+constexpr Index NodesToCheck = 4096; // whether it is cancelled
+
+std::vector<char> isPrescribed(const Mesh& mesh, const NodePartition& partition)
+{
+  std::vector<char> result(mesh.numberOfNodes(), 0);
+  for (Index node : partition.prescribed)
+  {
+    result[node] = 1;
+  }
+  return result;
+}
+
+/// Whether enough corners are prescribed for one tetrahedron at a corner to hang on a single free
+/// node, or on none.
+bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
+{
+  const Index* nodes = mesh.cell(c);
+  const int corners = cellShape(mesh.types[c])->numberOfCorners;
+  return std::count_if(nodes, nodes + corners, [&](Index n) { return prescribed[n] != 0; }) >= 3;
+}
+
+/// Whether no place of a single free node is right for all corners that hang on it alone.
+bool leavesNoPlace(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
+  const std::vector<char>& prescribed, const Points& points)
+{
+  const CellShape& shape = *cellShape(mesh.types[c]);
+  std::vector<HalfSpace> halfSpaces;
+  for (int k = 0; k < numberOfCorners(shape.shape); ++k)
+  {
+    const Index node = mesh.cell(c)[shape.cornerNode[k]];
+    if (!prescribed[node])
+    {
+      halfSpaces.clear();
+      addHalfSpaces(mesh, orientation, c, node, prescribed, points, halfSpaces);
+      if (halfSpaces.size() > 1 && !haveCommonPoint(halfSpaces))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+}
+
+std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const Points& points)
+{
+  const std::vector<char> prescribed = isPrescribed(mesh, partition);
+  std::vector<Index> result;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!isHeld(mesh, c, prescribed))
+    {
+      continue;
+    }
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    const Index* nodes = mesh.cell(c);
+    const auto inverted = [&](const WeightedTet& tet)
+    {
+      Index id[4];
+      for (int k = 0; k < 4; ++k)
+      {
+        id[k] = nodes[shape.cornerNode[tet.corner[k]]];
+        if (!prescribed[id[k]])
+        {
+          return false;
+        }
+      }
+      const Eigen::RowVector3d o = points.row(id[0]);
+      const Eigen::RowVector3d a = points.row(id[1]) - o, b = points.row(id[2]) - o,
+                               d = points.row(id[3]) - o;
+      return !(orientation[c] * a.dot(b.cross(d)) > 0);
+    };
+    const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
+    if (std::any_of(tets, tets + cornerTetrahedra(shape.shape), inverted) ||
+        leavesNoPlace(mesh, orientation, c, prescribed, points))
+    {
+      result.push_back(c);
+    }
+  }
+  return result;
+}
+
+std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor)
+{
+  const std::vector<char> prescribed = isPrescribed(mesh, partition);
+  const Adjacency around = nodeToCells(mesh);
+  std::vector<NodeWithoutPlace> result;
+  for (std::size_t i = 0; i < partition.free.size(); ++i)
+  {
+    if (i % NodesToCheck == 0)
+    {
+      monitor.check();
+    }
+    const Index node = partition.free[i];
+    const auto leaveNone = [&](const std::vector<Index>& cells)
+    {
+      std::vector<HalfSpace> halfSpaces;
+      for (Index c : cells)
+      {
+        addHalfSpaces(mesh, orientation, c, node, prescribed, points, halfSpaces);
+      }
+      return !haveCommonPoint(halfSpaces);
+    };
+    std::vector<Index> cells;
+    std::copy_if(around.begin(node), around.end(node), std::back_inserter(cells),
+      [&](Index c) { return isHeld(mesh, c, prescribed); });
+    if (!leaveNone(cells))
+    {
+      continue;
+    }
+    // As few as cannot all be valid.
+    for (std::size_t k = cells.size(); k-- > 0;)
+    {
+      std::vector<Index> others = cells;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      if (leaveNone(others))
+      {
+        cells.swap(others);
+      }
+    }
+    if (cells.size() > 1)
+    {
+      result.push_back({ node, cells });
+    }
+  }
+  return result;
+}
+}

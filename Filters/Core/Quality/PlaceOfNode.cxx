@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/PlaceOfNode.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <utility>
+
+namespace morph
+{
+void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
+  Index node, const std::vector<char>& isPrescribed, const Points& points,
+  std::vector<HalfSpace>& result)
+{
+  const CellShape& shape = *cellShape(mesh.types[c]);
+  const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
+  for (int t = 0; t < cornerTetrahedra(shape.shape); ++t)
+  {
+    Index id[4];
+    int own = -1, prescribed = 0;
+    for (int k = 0; k < 4; ++k)
+    {
+      id[k] = mesh.cell(c)[shape.cornerNode[tets[t].corner[k]]];
+      own = id[k] == node ? k : own;
+      prescribed += isPrescribed[id[k]] ? 1 : 0;
+    }
+    if (own < 0 || prescribed != 3)
+    {
+      continue;
+    }
+    // To the front, which turns the tetrahedron over unless it is there.
+    std::swap(id[0], id[own]);
+    if ((own == 0) != (orientation[c] > 0))
+    {
+      std::swap(id[1], id[2]);
+    }
+    result.push_back({ points.row(id[1]), points.row(id[2]), points.row(id[3]) });
+  }
+}
+}

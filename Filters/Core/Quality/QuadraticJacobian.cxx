@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/QuadraticJacobian.h"
+
+#include "Geometry/OrientationPredicate.h"
+#include "Quality/QuadraticMap.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace morph
+{
+namespace
+{
+using Vector = Eigen::Vector3d;
+using Part = BernsteinHalving::Part;
+
+constexpr int MostHalvings = 36;
+constexpr int MostParts = 2048;
+
+/// A cell's nodes, scaled, and its derivatives.
+struct Cell
+{
+  const QuadraticMap& map;
+  Vector x[QuadraticMap::MostNodes];
+  QuadraticMap::Derivatives derivatives;
+  bool isFinite;
+
+  Cell(const QuadraticMap& of, const Vector* nodes)
+    : map(of)
+  {
+    const int count = of.numberOfNodes();
+    this->isFinite =
+      std::all_of(nodes, nodes + count, [](const Vector& v) { return v.allFinite(); });
+    if (this->isFinite)
+    {
+      const double scale = exactScale(nodes, count);
+      std::transform(
+        nodes, nodes + count, this->x, [scale](const Vector& v) -> Vector { return v * scale; });
+      this->derivatives = of.derivatives(this->x);
+    }
+  }
+};
+
+/// The middle of an edge whose ends coincide: there the derivative along the edge, of degree two,
+/// is exactly 0.
+bool hasCollapsedEdge(const CellShape& shape, const Cell& cell, double (&middle)[3])
+{
+  for (int f = 0; f < shape.numberOfFaces; ++f)
+  {
+    const FaceShape& face = shape.faces[f];
+    for (int k = 0; k < face.size; ++k)
+    {
+      const int a = face.corner[k], b = face.corner[(k + 1) % face.size];
+      if (cell.x[a] == cell.x[b])
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          middle[j] = (cell.map.node(a)[j] + cell.map.node(b)[j]) / 2;
+        }
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+QuadraticProof prove(const CellShape& shape, const Cell& cell)
+{
+  QuadraticProof proof;
+  const BernsteinHalving& halving = cell.map.halving();
+  Part whole = halving.whole();
+  const double error = cell.map.determinant(cell.derivatives, MostHalvings, whole.c);
+  if (halving.minimum(whole) > error)
+  {
+    proof.certificate = Certificate::Certified;
+    return proof;
+  }
+  if (hasCollapsedEdge(shape, cell, proof.at))
+  {
+    proof.certificate = Certificate::Inverted;
+    return proof;
+  }
+  bool isOpen = false;
+  int examined = 0;
+  std::vector<Part> stack(1, whole);
+  stack.reserve(MostHalvings + 2);
+  while (!stack.empty())
+  {
+    Part& part = stack.back();
+    ++examined;
+    double at[3];
+    const double corner = halving.minimumCorner(part, at);
+    if (corner < -error)
+    {
+      proof.certificate = Certificate::Inverted;
+      std::copy(at, at + 3, proof.at);
+      return proof;
+    }
+    if (halving.minimum(part) > error)
+    {
+      stack.pop_back();
+      continue;
+    }
+    // Pieces of a part with a corner next to zero will not be certified either.
+    if (corner <= error || part.halvings == MostHalvings)
+    {
+      isOpen = true;
+      stack.pop_back();
+      continue;
+    }
+    if (examined + static_cast<int>(stack.size()) >= MostParts)
+    {
+      return proof;
+    }
+    Part high;
+    halving.halve(part, part, high);
+    // The more doubtful half comes next: an inverted cell is then found soon.
+    if (halving.minimum(part) < halving.minimum(high))
+    {
+      std::swap(part, high);
+    }
+    stack.push_back(high);
+  }
+  proof.certificate = isOpen ? Certificate::Undecided : Certificate::Certified;
+  return proof;
+}
+
+double normalisation(Shape shape)
+{
+  return shape == Shape::Hex ? 1 : shape == Shape::Wedge ? 2 / std::sqrt(3.) : std::sqrt(2.);
+}
+
+double normalisedDeterminant(const Cell& cell, const double (&at)[3])
+{
+  Eigen::Matrix3d jacobian = cell.map.jacobian(cell.derivatives, at);
+  for (int j = 0; j < 3; ++j)
+  {
+    const double length = jacobian.col(j).norm();
+    jacobian.col(j) /= length > 0 ? length : 1;
+  }
+  return jacobian.determinant();
+}
+
+double minimumAtNodes(const Cell& cell)
+{
+  double minimum = 1;
+  for (int i = 0; i < cell.map.numberOfNodes(); ++i)
+  {
+    minimum = std::min(minimum, normalisedDeterminant(cell, cell.map.node(i)));
+  }
+  return minimum;
+}
+}
+
+QuadraticProof proveQuadratic(std::uint8_t type, const Vector* x)
+{
+  const Cell cell(*QuadraticMap::find(type), x);
+  return cell.isFinite ? prove(*cellShape(type), cell) : QuadraticProof();
+}
+
+double quadraticScaledJacobian(std::uint8_t type, const Vector* x, double ofCorners)
+{
+  const Cell cell(*QuadraticMap::find(type), x);
+  if (!cell.isFinite)
+  {
+    return ofCorners;
+  }
+  const CellShape& shape = *cellShape(type);
+  const QuadraticProof proof = prove(shape, cell);
+  if (proof.certificate == Certificate::Undecided ||
+      (proof.certificate == Certificate::Certified && ofCorners > 0))
+  {
+    return ofCorners;
+  }
+  const double atNodes = normalisation(shape.shape) * minimumAtNodes(cell);
+  if (proof.certificate == Certificate::Certified)
+  {
+    return std::min(atNodes, 1.);
+  }
+  const double found = normalisation(shape.shape) * normalisedDeterminant(cell, proof.at);
+  return std::min({ 0., ofCorners, atNodes, found });
+}
+
+bool isStraightSided(std::uint8_t type, const Vector* x)
+{
+  const CellShape& shape = *cellShape(type);
+  for (int i = shape.numberOfCorners; i < shape.numberOfNodes; ++i)
+  {
+    double N[8];
+    shapeFunctions(shape.shape, shape.extraNodes[i - shape.numberOfCorners], N, nullptr);
+    for (int j = 0; j < 3; ++j)
+    {
+      // The corners that have a share have equal ones: 1/2, 1/4 or 1/8.
+      double sum = 0, share = 1;
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        if (N[a] == 0)
+        {
+          continue;
+        }
+        share = N[a];
+        const double before = sum, corner = x[a][j];
+        sum += corner;
+        // Only where no sum was rounded is the mean exact.
+        if (sum - before != corner || sum - corner != before)
+        {
+          return false;
+        }
+      }
+      if (sum * share != x[i][j])
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+}

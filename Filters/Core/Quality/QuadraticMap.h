@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Quality/BernsteinDomain.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// VTK's map from the parametric coordinates of a quadratic volume cell to space, and its Jacobian
+/// determinant, both in Bernstein form. Types: 24 to 27, 29 and 31 to 33.
+///
+/// Each of VTK's maps is a polynomial of degree two over the simplices of its domain, so the
+/// missing nodes of the full lattice are fixed combinations of the cell's own nodes. All these
+/// factors are multiples of 1/64, hence exact.
+/// - 20 and 24 nodes, wedge with 15: the middle of a square is half the sum of its mid-side nodes
+///   less a quarter of the sum of its corners; the hexahedron's middle is that of the square at
+///   half its height.
+/// - Wedge with 12: nodes at half the height are means.
+/// - Pyramid with 13: a hexahedron whose upper nodes are all the apex, by the functions of
+///   InterpolateFunctions() (as in VTK 9.2, where InterpolateDerivs() belongs to other
+///   functions). Its derivatives along r and s have the factor 1 - t, its determinant (1 - t)^2;
+///   both are divided out here, as the factors leave no sign.
+class QuadraticMap
+{
+public:
+  using Vector = Eigen::Vector3d;
+  static constexpr int MostNodes = 27, MostTerms = 20; ///< terms: of one derivative
+
+  /// Null for other types. Built once.
+  static const QuadraticMap* find(std::uint8_t type);
+
+  /// The derivatives along r, s and t at some cell.
+  struct Derivatives
+  {
+    Vector c[3][MostTerms]; ///< Bernstein coefficients times their multinomial coefficients
+    double largest[3];      ///< of the Bernstein coefficients' components
+    double error[3];        ///< a bound of the components' rounding errors
+  };
+  /// `x`: the nodes in VTK's order, scaled by exactScale() (OrientationPredicate.h).
+  Derivatives derivatives(const Vector* x) const;
+
+  /// The determinant's coefficients. Returns a bound of their errors, and of what subdivisions make
+  /// of them, up to `halvings` in a row.
+  double determinant(
+    const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const;
+
+  /// The derivatives at a parametric point, as the columns of a matrix. Of pyramids those along r
+  /// and s are without their factor 1 - t.
+  Eigen::Matrix3d jacobian(const Derivatives& derivatives, const double (&at)[3]) const;
+
+  const BernsteinHalving& halving() const { return this->halving_; }
+  int numberOfNodes() const { return this->nodes_; }
+  /// VTK's parametric coordinates of the nodes, the corners first.
+  const double (&node(int i) const)[3] { return this->place_[i]; }
+
+private:
+  explicit QuadraticMap(std::uint8_t type);
+
+  struct Weight
+  {
+    std::uint8_t node, reference; ///< it multiplies x[node] - x[reference]
+    double value;
+  };
+  struct Derivative
+  {
+    BernsteinTerms terms;
+    std::vector<Weight> weights; ///< of all terms, times their multinomial coefficients
+    std::vector<int> first;      ///< terms + 1
+    std::vector<double> inverseMultinomial;
+    double errorFactor; ///< times the longest difference
+  };
+  struct Rows;
+
+  void setDerivative(int coordinate, const Rows& rows);
+  void setProduct();
+
+  const BernsteinDomain* domain_;
+  bool hasApex_;
+  int nodes_;
+  double place_[MostNodes][3];
+  Derivative derivative_[3];
+  std::vector<std::uint8_t> areaTerm_;   ///< of the product of a term along r and one along s
+  std::vector<std::uint8_t> volumeTerm_; ///< of the product of that and a term along t
+  int areaTerms_, volumeTerms_;
+  std::vector<double> inverseMultinomial_; ///< of the determinant's terms
+  int roundings_; ///< in one coefficient of the determinant, besides the derivatives'
+  int roundingsOfHalving_;
+  BernsteinHalving halving_;
+};
+}

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/ScaledJacobian.h"
+
+#include "Mesh/CellShape.h"
+#include "Quality/QuadraticJacobian.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+using Vector = Eigen::Vector3d;
+
+constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+// The edges at each corner, in the order that makes the triple product positive: e + 1 for edge e, which goes from HexEdges[e][0] to
+// HexEdges[e][1], or -(e + 1) where it ends at the corner.
+constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 },
+  { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
+constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },
+  { -12, 9, -5 }, { -9, 10, -6 }, { -10, 11, -7 }, { -11, 12, -8 } };
+// The three neighbors of each corner, in that order.
+constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
+  { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
+constexpr int PyramidCorners[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
+  { 3, 0, 2, 4 } };
+
+/// Determinant of the three edges scaled to length 1; `collapsed` is set, and 0 returned, if one
+/// has no length.
+double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, bool& collapsed)
+{
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  if (la == 0 || lb == 0 || lc == 0)
+  {
+    collapsed = true;
+    return 0;
+  }
+  return (a / la).dot((b / lb).cross(c / lc));
+}
+
+template <int N>
+double leastCorner(const Vector* x, const int (&corners)[N][4], bool& collapsed)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const int(&c)[4] : corners)
+  {
+    least = std::min(least,
+      normalizedDeterminant(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]], x[c[3]] - x[c[0]], collapsed));
+  }
+  return least;
+}
+
+double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x3, bool& collapsed)
+{
+  const Vector e01 = x1 - x0, e02 = x2 - x0, e03 = x3 - x0;
+  const double l01 = e01.norm(), l02 = e02.norm(), l03 = e03.norm();
+  const double l12 = (x2 - x1).norm(), l13 = (x3 - x1).norm(), l23 = (x3 - x2).norm();
+  if (l01 == 0 || l02 == 0 || l03 == 0 || l12 == 0 || l13 == 0 || l23 == 0)
+  {
+    collapsed = true;
+    return 0;
+  }
+  const double longest =
+    std::max({ l01 * l02 * l03, l01 * l12 * l13, l02 * l12 * l23, l03 * l13 * l23 });
+  return std::sqrt(2.0) * e01.dot(e02.cross(e03)) / longest;
+}
+
+double hex(const Vector* x, bool& collapsed)
+{
+  const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
+  const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
+  const Vector t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
+  // The mean edges may vanish while every edge has a length: that is an inverted cell, not a
+  // collapsed one.
+  bool noMeanEdge = false;
+  double least = normalizedDeterminant(r, s, t, noMeanEdge);
+  // Each edge is at two corners: roots and divisions, most of the time, are taken once.
+  Vector direction[12];
+  for (int e = 0; e < 12; ++e)
+  {
+    const Vector edge = x[HexEdges[e][1]] - x[HexEdges[e][0]];
+    const double length = edge.norm();
+    collapsed = collapsed || length == 0;
+    direction[e] = edge / length;
+  }
+  const auto from = [&direction](int edge) -> Vector
+  { return edge > 0 ? direction[edge - 1] : Vector(-direction[-edge - 1]); };
+  for (const int(&c)[3] : HexCornerEdges)
+  {
+    least = std::min(least, from(c[0]).dot(from(c[1]).cross(from(c[2]))));
+  }
+  return least;
+}
+
+double pyramid(const Vector* x, bool& collapsed)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const int(&c)[4] : PyramidCorners)
+  {
+    least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
+  }
+  // Pyramids higher than the ideal one pass 1; like Verdict, count the excess as a defect.
+  const double value = std::sqrt(2.0) * least;
+  return value > 1 ? 2 - value : value;
+}
+
+double triangle(const Vector* x, bool& collapsed)
+{
+  const double a = (x[1] - x[0]).norm(), b = (x[2] - x[1]).norm(), c = (x[0] - x[2]).norm();
+  if (a == 0 || b == 0 || c == 0)
+  {
+    collapsed = true;
+    return 0;
+  }
+  const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  return 2 / std::sqrt(3.0) * twiceArea / std::max({ a * b, b * c, c * a });
+}
+
+double quad(const Vector* x, bool& collapsed)
+{
+  const Vector normal = (x[1] + x[2] - x[0] - x[3]).cross(x[2] + x[3] - x[0] - x[1]).normalized();
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 4; ++k)
+  {
+    const Vector next = x[(k + 1) % 4] - x[k], last = x[(k + 3) % 4] - x[k];
+    const double product = next.norm() * last.norm();
+    if (product == 0)
+    {
+      collapsed = true;
+      return 0;
+    }
+    least = std::min(least, normal.dot(next.cross(last)) / product);
+  }
+  return least;
+}
+
+double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
+{
+  collapsed = false;
+  // A comparison with NaN is false, so that the minimum over the corners would pass over it.
+  for (int k = 0; k < corners; ++k)
+  {
+    if (!x[k].allFinite())
+    {
+      return NotMeasured;
+    }
+  }
+  double value = NotMeasured;
+  switch (shape)
+  {
+    case Shape::Tri:
+      value = triangle(x, collapsed);
+      break;
+    case Shape::Quadrilateral:
+      value = quad(x, collapsed);
+      break;
+    case Shape::Tet:
+      value = tet(x[0], x[1], x[2], x[3], collapsed);
+      break;
+    case Shape::Hex:
+      value = hex(x, collapsed);
+      break;
+    case Shape::Wedge:
+      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCorners, collapsed);
+      break;
+    case Shape::Pyramid:
+      value = pyramid(x, collapsed);
+      break;
+    case Shape::Other:
+      break;
+  }
+  return collapsed ? 0 : value;
+}
+
+/// The scaled Jacobian inside a cell whose corners have `ofCorners`.
+double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh,
+  const ConstPoints& points, Index cell, double sign, double ofCorners)
+{
+  Vector x[MostNodesOfVolume];
+  for (int k = 0; k < shape.numberOfNodes; ++k)
+  {
+    x[k] = points.row(mesh.cell(cell)[k]).transpose();
+    x[k].z() *= sign;
+  }
+  // The corners of straight-sided tetrahedra and pyramids tell all of their inside.
+  const bool hasInside = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
+  return hasInside || !isStraightSided(type, x) ? quadraticScaledJacobian(type, x, ofCorners)
+                                                : ofCorners;
+}
+
+Quality measureCells(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
+  bool cornersOnly, Monitor& monitor)
+{
+  monitor.check();
+  const Index cells = mesh.numberOfCells();
+  int dimension = 0;
+  for (const std::uint8_t type : mesh.types)
+  {
+    const CellShape* shape = cellShape(type);
+    dimension = std::max(dimension, shape ? shape->dimension : 0);
+  }
+
+  Quality quality;
+  quality.scaledJacobian.assign(cells, NotMeasured);
+  std::vector<std::uint8_t> isCollapsed(cells, 0);
+  monitor.parallelFor(cells, 4096,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        const CellShape* shape = cellShape(mesh.types[c]);
+        if (!shape || shape->shape == Shape::Other || shape->dimension != dimension ||
+            (!skip.empty() && skip[c]))
+        {
+          continue;
+        }
+        // A cell written in the mirrored order is measured as its mirror image.
+        const double sign = orientation.empty() ? 1 : orientation[c];
+        Vector x[8];
+        for (int k = 0; k < shape->numberOfCorners; ++k)
+        {
+          x[k] = points.row(mesh.cell(c)[shape->cornerNode[k]]).transpose();
+          x[k].z() *= sign;
+        }
+        bool collapsed = false;
+        double value = measure(shape->shape, x, shape->numberOfCorners, collapsed);
+        if (!cornersOnly && isQuadraticVolume(*shape) && !collapsed)
+        {
+          value = measureInside(mesh.types[c], *shape, mesh, points, c, sign, value);
+        }
+        quality.scaledJacobian[c] = value;
+        isCollapsed[c] = collapsed;
+      }
+    });
+  monitor.check();
+
+  double sum = 0;
+  for (Index c = 0; c < cells; ++c)
+  {
+    const double value = quality.scaledJacobian[c];
+    if (std::isnan(value))
+    {
+      continue;
+    }
+    ++quality.measured;
+    sum += value;
+    if (quality.worstCell < 0 || value < quality.minimum)
+    {
+      quality.minimum = value;
+      quality.worstCell = c;
+    }
+    if (isCollapsed[c])
+    {
+      ++quality.degenerate;
+    }
+    else if (value <= 0)
+    {
+      ++quality.inverted;
+    }
+  }
+  if (quality.measured == 0)
+  {
+    quality.minimum = NotMeasured;
+    quality.mean = NotMeasured;
+  }
+  else
+  {
+    quality.mean = sum / static_cast<double>(quality.measured);
+  }
+  return quality;
+}
+}
+
+double scaledJacobian(std::uint8_t type, const double (*corners)[3])
+{
+  const CellShape* shape = cellShape(type);
+  if (!shape || shape->shape == Shape::Other)
+  {
+    return NotMeasured;
+  }
+  Vector x[8];
+  for (int k = 0; k < shape->numberOfCorners; ++k)
+  {
+    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
+  }
+  bool collapsed = false;
+  return measure(shape->shape, x, shape->numberOfCorners, collapsed);
+}
+
+Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
+  Monitor& monitor)
+{
+  return measureCells(mesh, points, orientation, skip, false, monitor);
+}
+
+Quality measureCorners(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
+  Monitor& monitor)
+{
+  return measureCells(mesh, points, orientation, skip, true, monitor);
+}
+
+std::vector<Index> invertedCells(const Quality& quality)
+{
+  std::vector<Index> result;
+  for (std::size_t c = 0; c < quality.scaledJacobian.size(); ++c)
+  {
+    if (quality.scaledJacobian[c] <= 0)
+    {
+      result.push_back(static_cast<Index>(c));
+    }
+  }
+  return result;
+}
+
+std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
+  const std::vector<std::int8_t>& orientation, Monitor& monitor)
+{
+  return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
+}
+}

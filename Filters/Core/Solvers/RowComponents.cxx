@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/RowComponents.h"
+
+#include "Support/BlockSum.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace morph
+{
+RowComponents rowComponents(const SparseMatrix& matrix)
+{
+  const int rows = static_cast<int>(matrix.rows());
+  std::vector<int> parent(rows);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int row)
+  {
+    while (parent[row] != row)
+    {
+      parent[row] = parent[parent[row]];
+      row = parent[row];
+    }
+    return row;
+  };
+  for (int row = 0; row < rows; ++row)
+  {
+    int low = root(row);
+    for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
+    {
+      const int column = matrix.innerIndexPtr()[k];
+      if (parent[column] == low) // nearly always, in an order that keeps neighbors near
+      {
+        continue;
+      }
+      const int other = root(column);
+      parent[std::max(low, other)] = std::min(low, other);
+      low = std::min(low, other);
+    }
+  }
+
+  RowComponents result;
+  std::vector<int>& number = result.ofRow;
+  number.resize(rows);
+  for (int row = 0; row < rows; ++row)
+  {
+    const int first = root(row); // the lowest row of its component
+    number[row] = first == row ? static_cast<int>(result.count++) : number[first];
+  }
+  if (result.count < 2)
+  {
+    number = {};
+  }
+  return result;
+}
+
+ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
+  const ThreeColumns& bNorm2, const ThreeColumns& norm2, ThreeColumnRows& solution,
+  ThreeColumnRows& residual, Monitor& monitor)
+{
+  const Index rows = b.rows();
+  const bool single = components.ofRow.empty();
+  std::vector<ThreeColumns> ofB(single ? 1 : components.count, bNorm2),
+    ofResidual(ofB.size(), norm2);
+  if (!single)
+  {
+    std::fill(ofB.begin(), ofB.end(), ThreeColumns::Zero());
+    std::fill(ofResidual.begin(), ofResidual.end(), ThreeColumns::Zero());
+    for (Index i = 0; i < rows; ++i)
+    {
+      ofB[components.ofRow[i]] += lift(b.row(i)).cwiseAbs2();
+      ofResidual[components.ofRow[i]] += residual[i].cwiseAbs2();
+    }
+  }
+  std::vector<Eigen::Array4i> drop(ofB.size());
+  bool any = false;
+  for (std::size_t c = 0; c < drop.size(); ++c)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      drop[c][j] = !(ofResidual[c][j] <= ofB[c][j]); // also where the residual is not finite
+      any = any || drop[c][j];
+    }
+  }
+  if (!any)
+  {
+    return norm2;
+  }
+  return blockSum(rows, monitor, ThreeColumns(ThreeColumns::Zero()),
+    [&](Index i)
+    {
+      const Eigen::Array4i& dropped = drop[components.of(i)];
+      for (int j = 0; j < 3; ++j)
+      {
+        if (dropped[j])
+        {
+          solution[i][j] = 0;
+          residual[i][j] = b(i, j);
+        }
+      }
+      return ThreeColumns(residual[i].cwiseAbs2());
+    });
+}
+}

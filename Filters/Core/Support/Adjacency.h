@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Types.h"
+
+#include <vector>
+
+namespace morph
+{
+/// A compressed list of lists: the entries of list i are values[offsets[i]] .. values[offsets[i + 1] - 1].
+struct Adjacency
+{
+  std::vector<Index> offsets;
+  std::vector<Index> values;
+
+  const Index* begin(Index i) const { return this->values.data() + this->offsets[i]; }
+  const Index* end(Index i) const { return this->values.data() + this->offsets[i + 1]; }
+};
+}

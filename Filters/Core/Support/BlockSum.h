@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Monitor.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace morph
+{
+/// `zero` + the sum of body(i) over i in [0, n), perhaps by several threads. Sums are taken over blocks of fixed
+/// length and then block by block, so the threads do not show in the last bit.
+template <typename Value, typename Body>
+Value blockSum(Index n, Monitor& monitor, const Value& zero, const Body& body)
+{
+  constexpr Index Block = 4096;
+  const Index blocks = (n + Block - 1) / Block;
+  std::vector<Value> part(blocks, zero);
+  monitor.parallelFor(blocks, 1,
+    [&](Index firstBlock, Index lastBlock)
+    {
+      for (Index b = firstBlock; b < lastBlock; ++b)
+      {
+        Value sum = zero;
+        const Index last = std::min(n, (b + 1) * Block);
+        for (Index i = b * Block; i < last; ++i)
+        {
+          sum += body(i);
+        }
+        part[b] = sum;
+      }
+    });
+  Value total = zero;
+  for (const Value& p : part)
+  {
+    total += p;
+  }
+  return total;
+}
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Monitor.h"
+
+#include <algorithm>
+
+namespace morph
+{
+/// A part of a longer computation: its progress from 0 to 1 is the whole's from `first` to `last`.
+/// It never runs backwards: what is less than was told before is not told.
+class SubMonitor : public Monitor
+{
+public:
+  SubMonitor(Monitor& whole, double first, double last)
+    : whole_(whole)
+    , first_(first)
+    , last_(last)
+  {
+  }
+
+  void progress(double fraction) override
+  {
+    if (fraction > this->told_)
+    {
+      this->told_ = std::min(fraction, 1.);
+      this->whole_.progress(this->first_ + this->told_ * (this->last_ - this->first_));
+    }
+  }
+  bool cancelled() override { return this->whole_.cancelled(); }
+  void warn(const std::string& message) override { this->whole_.warn(message); }
+  void parallelFor(
+    Index n, Index grain, const std::function<void(Index first, Index last)>& body) override
+  {
+    this->whole_.parallelFor(n, grain, body);
+  }
+
+private:
+  Monitor& whole_;
+  double first_, last_, told_ = 0;
+};
+}

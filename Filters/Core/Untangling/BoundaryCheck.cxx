@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/BoundaryCheck.h"
+
+#include "Boundary/FoldedFaces.h"
+
+#include <algorithm>
+
+namespace morph
+{
+namespace
+{
+void makeUnique(std::vector<Index>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+}
+
+std::vector<Index> ForbiddenCells::all() const
+{
+  std::vector<Index> cells = this->determined;
+  for (const NodeWithoutPlace& node : this->withoutPlace)
+  {
+    cells.insert(cells.end(), node.cells.begin(), node.cells.end());
+  }
+  cells.insert(cells.end(), this->folded.begin(), this->folded.end());
+  makeUnique(cells);
+  return cells;
+}
+
+BoundaryCheck::BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor)
+  : mesh_(mesh)
+  , partition_(partition)
+  , orientation_(orientation)
+  , faces_(faces)
+  , monitor_(monitor)
+  , geometry_(classify(mesh, faces, {}, monitor))
+  , isPrescribed_(mesh.numberOfNodes(), 0)
+{
+  for (Index node : partition.prescribed)
+  {
+    this->isPrescribed_[node] = 1;
+  }
+}
+
+ForbiddenCells BoundaryCheck::at(const Points& boundary) const
+{
+  this->monitor_.check();
+  Points points = this->mesh_.points;
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    points.row(this->partition_.prescribed[i]) = boundary.row(i);
+  }
+  ForbiddenCells result;
+  result.determined =
+    boundaryDeterminedInversions(this->mesh_, this->partition_, this->orientation_, points);
+  result.withoutPlace =
+    nodesWithoutPlace(this->mesh_, this->partition_, this->orientation_, points, this->monitor_);
+  for (Index f :
+    foldedFaces(this->mesh_.points, points, this->faces_, this->geometry_, this->isPrescribed_))
+  {
+    result.folded.push_back(this->faces_.cells[f]);
+  }
+  makeUnique(result.folded);
+  return result;
+}
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Boundary/Classification.h"
+#include "Mesh/Topology.h"
+#include "Quality/BoundaryDetermined.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// Cells that prescribed positions forbid to be valid, whatever the method.
+struct ForbiddenCells
+{
+  std::vector<Index> determined;              ///< see boundaryDeterminedInversions()
+  std::vector<NodeWithoutPlace> withoutPlace; ///< see nodesWithoutPlace()
+  std::vector<Index> folded; ///< behind prescribed faces that are folded, see foldedFaces()
+
+  /// All of these, ascending, each once.
+  std::vector<Index> all() const;
+};
+
+/// Looks for them in one mesh, for any positions of one set of prescribed nodes. Holds its
+/// arguments by reference.
+class BoundaryCheck
+{
+public:
+  /// `mesh`: before the motion; `faces`: its boundaryFaces(). Cost: classify()'s.
+  BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
+    const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor);
+
+  /// `boundary`: #prescribed x 3. Cost: passes over the cells and over the boundary's faces.
+  ForbiddenCells at(const Points& boundary) const;
+
+private:
+  const Mesh& mesh_;
+  const NodePartition& partition_;
+  const std::vector<std::int8_t>& orientation_;
+  const BoundaryFaces& faces_;
+  Monitor& monitor_;
+  Classification geometry_;
+  std::vector<char> isPrescribed_; ///< #nodes
+};
+}

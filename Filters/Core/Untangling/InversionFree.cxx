@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/InversionFree.h"
+
+#include "Quality/BoundaryDetermined.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Support/SubMonitor.h"
+#include "Untangling/Untangling.h"
+#include "Untangling/WorstCells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace morph
+{
+namespace
+{
+constexpr int RefreshSteps = 3;
+
+/// Of the volume cells, from node to node around them; 1 where there is none.
+double meanEdge(const Mesh& mesh)
+{
+  double sum = 0;
+  Index count = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    for (int f = 0; f < shape.numberOfFaces; ++f)
+    {
+      const FaceShape& face = shape.faces[f];
+      for (int k = 0; k < face.size; ++k)
+      {
+        const Index a = mesh.cell(c)[shape.cornerNode[face.corner[k]]];
+        const Index b = mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]];
+        sum += (mesh.points.row(a) - mesh.points.row(b)).norm();
+        ++count;
+      }
+    }
+  }
+  return sum > 0 ? sum / static_cast<double>(count) : 1;
+}
+}
+
+void InversionFree::setMethod(std::unique_ptr<Morpher> method)
+{
+  this->method_ = std::move(method);
+  this->start_ = Start::Method;
+}
+
+void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
+{
+  this->referenceMesh_ = rest;
+  if (this->reference_.rows() > 0)
+  {
+    this->referenceMesh_.points = this->reference_;
+    validate(this->referenceMesh_);
+  }
+  this->orientation_ = orientation(this->referenceMesh_, bodies(rest));
+  this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
+  this->referenceMesh_.points *= this->scale_;
+
+  SubMonitor first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
+    last(monitor, 0.5, 0.9);
+  this->boundary_ = boundaryFaces(this->referenceMesh_, first);
+  monitor.check();
+  this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
+  monitor.check();
+  this->femWarp_.prepare(rest, this->partition(), second);
+  try
+  {
+    this->hasSimplexLinear_ = false;
+    this->simplexLinear_.prepare(rest, this->partition(), third);
+    this->hasSimplexLinear_ = true;
+  }
+  catch (const Error& error)
+  {
+    if (error.kind() == Error::Kind::Cancelled)
+    {
+      throw;
+    }
+  }
+  if (this->method_)
+  {
+    this->method_->prepare(rest, this->partition(), last);
+  }
+  monitor.check();
+  const Points atRest = rest.points * this->scale_;
+  MeshEnergy energy(this->referenceMesh_, this->partition().free);
+  energy.setTargets(
+    targetShapes(this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
+  this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
+}
+
+Points InversionFree::moved(
+  const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const
+{
+  Points result;
+  report.iterations += method.evaluate(boundary, result, monitor).iterations;
+  return result * this->scale_;
+}
+
+Points InversionFree::betterGuess(
+  const Points& warped, const Points& boundary, Monitor& monitor) const
+{
+  // Who asks for a certain target wants its minimum.
+  if (this->hasSimplexLinear_ && this->target_ == Target::Stretched)
+  {
+    EvaluateReport ignored;
+    Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
+    if (this->leastScaledJacobian(simplex, monitor) > this->leastScaledJacobian(warped, monitor))
+    {
+      return simplex;
+    }
+  }
+  return warped;
+}
+
+void InversionFree::raiseQuality(
+  MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+{
+  monitor.progress(0.7);
+  for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
+  {
+    const Points guide = points;
+    energy.setTargets(
+      targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
+    stages.improve(points, RefreshSteps, monitor);
+  }
+  monitor.progress(0.8);
+  if (this->stiffening_ && this->target_ != Target::Initial)
+  {
+    const Points before = points;
+    stages.stiffen(points, monitor);
+    // It costs the average cell something: only worth it where the worst one gains.
+    const double least = this->leastScaledJacobian(before, monitor);
+    if (!(this->leastScaledJacobian(points, monitor) > least + gainFrom(least)))
+    {
+      points = before;
+    }
+    this->raiseWorst(points, monitor); // distortion is not the angles' measure
+  }
+  monitor.progress(0.95);
+}
+
+void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
+{
+  raiseWorstCells(
+    this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
+}
+
+double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
+{
+  // Nodes between corners follow only in the end.
+  return measureCorners(this->referenceMesh_, points, this->orientation_, {}, monitor).minimum;
+}
+
+InversionFree::Outcome InversionFree::improve(
+  Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
+{
+  monitor.check();
+  MeshEnergy energy(this->referenceMesh_, this->partition().free);
+  FoldoverStages stages(energy, this->minimizer_);
+  const TargetShapes targets =
+    targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
+  monitor.check();
+  SubMonitor untangle(monitor, 0.1, 0.7);
+  const Untangling::Result untangling = Untangling(
+    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
+                                          .run(targets, energy, stages, points, untangle);
+  Outcome outcome;
+  outcome.untangled = untangling.valid;
+  outcome.onFolds = untangling.onFolds;
+  if (untangling.valid)
+  {
+    this->raiseQuality(energy, stages, points, monitor);
+  }
+  outcome.effort = stages.effort();
+
+  const double known = this->leastScaledJacobian(alternative, monitor);
+  const double least = this->leastScaledJacobian(points, monitor);
+  if (known > 0 && !(least >= known))
+  {
+    points = alternative;
+    outcome.kept = outcome.untangled = true;
+    outcome.onFolds.clear();
+  }
+  return outcome;
+}
+
+EvaluateReport InversionFree::report(
+  const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const
+{
+  if (!determined.empty())
+  {
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
+      listIds(determined) +
+      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
+  }
+  std::vector<Index> onFolds;
+  std::set_difference(outcome.onFolds.begin(), outcome.onFolds.end(), determined.begin(),
+    determined.end(), std::back_inserter(onFolds));
+  if (!onFolds.empty())
+  {
+    monitor.warn("The boundary is folded: it turns over a face of cell ids " + listIds(onFolds) +
+                 ", which stay inverted. Mend the boundary there, or move it less.");
+  }
+  EvaluateReport report;
+  report.iterations = static_cast<int>(outcome.effort.steps);
+  report.counts = { { "NewtonSteps", outcome.effort.steps },
+    { "LinearIterations", outcome.effort.linearIterations },
+    { "EnergyEvaluations", outcome.effort.evaluations },
+    { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
+    { "FoldedBoundaryCells", static_cast<Index>(onFolds.size()) },
+    { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
+  return report;
+}
+
+EvaluateReport InversionFree::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  const NodePartition& partition = this->partition();
+  // Ideal shapes are not those at rest: they change the mesh without any motion.
+  if (this->validAtRest_ && this->target_ != Target::Ideal && (prescribed.array() == 0).all())
+  {
+    free.setZero();
+    Outcome nothing;
+    nothing.untangled = true;
+    return this->report(nothing, {}, monitor);
+  }
+  Points boundary(prescribed.rows(), 3), points = this->restPoints() * this->scale_;
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    const Index node = partition.prescribed[i];
+    boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
+    points.row(node) = boundary.row(i) * this->scale_;
+  }
+  const std::vector<Index> determined =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+
+  EvaluateReport guesses;
+  SubMonitor first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
+  if (this->start_ == Start::Method && this->method_)
+  {
+    points = this->moved(*this->method_, boundary, guesses, second);
+  }
+  else if (this->start_ == Start::FemWarp && this->validAtRest_)
+  {
+    points = warped;
+  }
+  const Points alternative = this->betterGuess(warped, boundary, third);
+  const Outcome outcome = this->improve(points, warped, alternative, monitor);
+  if (outcome.kept && this->stiffening_ && this->target_ != Target::Initial)
+  {
+    this->raiseWorst(points, monitor);
+  }
+  for (Index i = 0; i < free.rows(); ++i)
+  {
+    const Index node = partition.free[i];
+    free.row(i) = points.row(node) / this->scale_ - this->restPoints().row(node);
+  }
+  EvaluateReport report = this->report(outcome, determined, monitor);
+  report.iterations += guesses.iterations;
+  return report;
+}
+
+EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
+{
+  this->requirePrepared();
+  const NodePartition& partition = this->partition();
+  SubMonitor monitor(whole, 0, 1);
+  if (partition.free.empty())
+  {
+    return this->report({}, {}, monitor);
+  }
+  Points boundary(static_cast<Index>(partition.prescribed.size()), 3);
+  for (Index i = 0; i < boundary.rows(); ++i)
+  {
+    boundary.row(i) = moved.row(partition.prescribed[i]);
+  }
+  EvaluateReport guesses;
+  SubMonitor first(monitor, 0, 0.1);
+  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
+  const Points before = moved * this->scale_;
+  Points points = before;
+  const Outcome outcome = this->improve(points, warped, before, monitor);
+  const std::vector<Index> determined =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+
+  Points displacement = Points::Zero(moved.rows(), 3);
+  for (Index node : partition.prescribed)
+  {
+    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
+  }
+  for (Index node : partition.free)
+  {
+    moved.row(node) = points.row(node) / this->scale_;
+    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
+  }
+  this->followers_.apply(displacement);
+  for (Index node : partition.followers)
+  {
+    moved.row(node) = this->restPoints().row(node) + displacement.row(node);
+  }
+  monitor.progress(1);
+  return this->report(outcome, determined, monitor);
+}
+}

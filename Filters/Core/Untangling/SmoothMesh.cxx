@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/SmoothMesh.h"
+
+#include "Energies/MeshEnergy.h"
+#include "Energies/SmoothingTargets.h"
+#include "Energies/UntangleEnergy.h"
+#include "Mesh/CellPatch.h"
+#include "Mesh/HigherOrderNodes.h"
+#include "Mesh/SimplicialDecomposition.h"
+#include "Optimization/Minimizers.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/BlockSum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr double Margin = 0.05;     // of untangling
+constexpr Index StepsToValid = 100; // of untangling, before it looks whether that is enough
+constexpr int UntangleSteps = 20;   // for one of Newton's
+constexpr double Bad = 0.2;         // scaled Jacobian
+constexpr int Rings = 3;            // round bad cells
+constexpr double MostOfMesh = 0.25; // that is worth a patch, in free nodes
+constexpr int PatchSteps = 5;       // of Newton's method in a round
+constexpr int MostPatchRounds = 4;
+constexpr double LeastDecrease = 1e-6; // of the shape measure in a step
+constexpr double Barrier = 1e-10;      // regularisation: none, but for rounding
+
+double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
+  Monitor& monitor)
+{
+  return blockSum(mesh.numberOfCells(), monitor, 0.,
+    [&](Index c)
+    {
+      const CellShape& shape = *cellShape(mesh.types[c]);
+      double x[8][3];
+      for (int a = 0; a < numberOfCorners(shape.shape); ++a)
+      {
+        for (int j = 0; j < 3; ++j)
+        {
+          x[a][j] = points(mesh.cell(c)[shape.cornerNode[a]], j);
+        }
+      }
+      return numberOfCorners(shape.shape) > 0 ? orientation[c] * signedVolume(shape.shape, x) : 0;
+    });
+}
+
+/// Calls body(a, b) for the edges of each volume cell, once for each face on them.
+template <typename Body>
+void forEdges(const Mesh& mesh, const Body& body)
+{
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    for (int f = 0; f < shape.numberOfFaces; ++f)
+    {
+      const FaceShape& face = shape.faces[f];
+      for (int k = 0; k < face.size; ++k)
+      {
+        body(mesh.cell(c)[shape.cornerNode[face.corner[k]]],
+          mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]]);
+      }
+    }
+  }
+}
+
+/// At each node the mean length of its edges; 0 where it has none.
+std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
+{
+  std::vector<double> sum(mesh.numberOfNodes(), 0);
+  std::vector<Index> count(mesh.numberOfNodes(), 0);
+  forEdges(mesh,
+    [&](Index a, Index b)
+    {
+      const double length = (points.row(a) - points.row(b)).norm();
+      for (Index node : { a, b })
+      {
+        sum[node] += length;
+        ++count[node];
+      }
+    });
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    sum[n] /= static_cast<double>(std::max<Index>(1, count[n]));
+  }
+  return sum;
+}
+
+/// The power of two that brings edges to a length near 1, so that no number depends on the unit of length.
+double unitScale(const std::vector<double>& edgeLength)
+{
+  double sum = 0;
+  Index count = 0;
+  for (double length : edgeLength)
+  {
+    sum += length;
+    count += length > 0;
+  }
+  return sum > 0 ? std::exp2(-std::round(std::log2(sum / static_cast<double>(count)))) : 1;
+}
+
+class Smoother
+{
+public:
+  Smoother(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+    const std::vector<Index>& free, const SmoothingOptions& options, Monitor& monitor)
+    : mesh_(rest)
+    , orientation_(orientation)
+    , free_(free)
+    , options_(options)
+    , monitor_(monitor)
+    , targets_(smoothingTargets(rest, orientation, options.target, monitor))
+  {
+  }
+
+  SmoothingReport run(Points& points)
+  {
+    MeshEnergy energy(this->mesh_, this->free_);
+    this->prepare(energy);
+    if (!this->isValid(energy, points))
+    {
+      this->untangle(energy, points);
+      this->monitor_.progress(0.4);
+    }
+    if (this->isValid(energy, points))
+    {
+      this->edgeLength_ = edgeLengths(this->mesh_, points);
+      this->improvePatches(points);
+      this->monitor_.progress(0.5);
+      this->improve(energy, this->options_.iterationLimit, points);
+      this->report_.isValid = true;
+    }
+    this->report_.newtonSteps = this->newton_.steps;
+    this->report_.linearIterations = this->newton_.linearIterations;
+    this->report_.evaluations += this->newton_.evaluations;
+    return this->report_;
+  }
+
+private:
+  void prepare(MeshEnergy& energy) const
+  {
+    energy.setTargets(this->targets_);
+    FoldoverDensity density;
+    density.epsilon = Barrier;
+    energy.setDensity(density);
+  }
+
+  bool isValid(const MeshEnergy& energy, const Points& points)
+  {
+    ++this->report_.evaluations;
+    return energy.evaluate(points, this->monitor_).leastDeterminant > 0;
+  }
+
+  /// Until `energy` is finite: what is left to the margin the shape measure does better.
+  void untangle(const MeshEnergy& energy, Points& points)
+  {
+    // The boundary alone decides the volume: cells cannot be larger than it allows on average.
+    const double ratio =
+      volume(this->mesh_, this->orientation_, points, this->monitor_) /
+      volume(this->mesh_, this->orientation_, this->mesh_.points, this->monitor_);
+    const UntangleEnergy tangle(
+      this->mesh_, this->free_, this->targets_, Margin * (ratio > 0 ? ratio : 1));
+    MinimizerLimits limits;
+    limits.slowDecrease = 0;
+    MinimizerEffort effort;
+    const Index most = Index(UntangleSteps) * this->options_.iterationLimit;
+    while (effort.steps < most)
+    {
+      const Index goal = std::min(most, effort.steps + StepsToValid);
+      limits.steps = static_cast<int>(goal - effort.steps);
+      limitedMemoryBfgs(tangle, points, limits, effort, this->monitor_);
+      if (effort.steps < goal || this->isValid(energy, points))
+      {
+        break; // as far as it goes, or as needed
+      }
+    }
+    this->report_.untangleSteps = effort.steps;
+    this->report_.evaluations += effort.evaluations;
+  }
+
+  /// Newton's steps until one moves no node far or lowers the measure little. Returns whether it did lower it.
+  bool improve(const MeshEnergy& energy, int steps, Points& points)
+  {
+    BlockMatrix matrix;
+    MinimizerLimits limits;
+    limits.steps = 1;
+    double last = energy.value(points, this->monitor_).energy;
+    const double start = last;
+    for (int step = 0; step < steps; ++step)
+    {
+      const Points before = points;
+      const double now =
+        newton(energy, points, limits, matrix, this->newton_, this->monitor_).energy;
+      const bool isSettled =
+        last - now < LeastDecrease * now ||
+        this->mostMove(energy.free(), before, points) < this->options_.stopMove;
+      last = now;
+      if (isSettled)
+      {
+        break;
+      }
+    }
+    return start - last >= LeastDecrease * last;
+  }
+
+  double mostMove(const std::vector<Index>& free, const Points& before, const Points& after) const
+  {
+    double most = 0;
+    for (Index node : free)
+    {
+      const double length = this->edgeLength_[node];
+      most =
+        std::max(most, (after.row(node) - before.row(node)).norm() / (length > 0 ? length : 1));
+    }
+    return most;
+  }
+
+  void improvePatches(Points& points)
+  {
+    Adjacency around;
+    for (int round = 0; round < MostPatchRounds; ++round)
+    {
+      const std::vector<Index> bad = this->badCells(points);
+      if (bad.empty())
+      {
+        return;
+      }
+      if (around.offsets.empty())
+      {
+        around = nodeToCells(this->mesh_);
+      }
+      const std::vector<Index> patch =
+        cellPatch(this->mesh_, around, this->free_, bad, Rings).nodes;
+      if (patch.empty() ||
+          static_cast<double>(patch.size()) > MostOfMesh * static_cast<double>(this->free_.size()))
+      {
+        return;
+      }
+      MeshEnergy energy(this->mesh_, patch);
+      this->prepare(energy);
+      ++this->report_.patches;
+      if (!this->improve(energy, PatchSteps, points))
+      {
+        return;
+      }
+    }
+  }
+
+  std::vector<Index> badCells(const Points& points) const
+  {
+    const Quality quality =
+      measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
+    std::vector<Index> bad;
+    for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
+    {
+      if (quality.scaledJacobian[c] < Bad)
+      {
+        bad.push_back(c);
+      }
+    }
+    return bad;
+  }
+
+  const Mesh& mesh_;
+  const std::vector<std::int8_t>& orientation_;
+  const std::vector<Index>& free_;
+  const SmoothingOptions& options_;
+  Monitor& monitor_;
+  const TargetShapes targets_;
+  std::vector<double> edgeLength_;
+  MinimizerEffort newton_;
+  SmoothingReport report_;
+};
+
+bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& result,
+  const Points& start, Monitor& monitor)
+{
+  const Quality after = measureQuality(mesh, result, orientation, {}, monitor);
+  const Quality before = measureQuality(mesh, start, orientation, {}, monitor);
+  return after.inverted > before.inverted ||
+         (after.inverted == before.inverted && !(after.minimum >= before.minimum));
+}
+
+void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points)
+{
+  if (partition.followers.empty())
+  {
+    return;
+  }
+  HigherOrderNodes followers;
+  followers.prepare(rest, partition);
+  Points displacement = points - rest.points;
+  followers.apply(displacement);
+  for (Index node : partition.followers)
+  {
+    points.row(node) = rest.points.row(node) + displacement.row(node);
+  }
+}
+}
+
+SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const NodePartition& partition, const SmoothingOptions& options, Points& points, Monitor& monitor)
+{
+  const double scale = unitScale(edgeLengths(rest, rest.points));
+  Mesh mesh = rest;
+  mesh.points *= scale;
+  Points result = points * scale;
+  Smoother smoother(mesh, orientation, partition.free, options, monitor);
+  SmoothingReport report = smoother.run(result);
+  monitor.check();
+  result /= scale;
+  Points smoothed = points;
+  // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left alone.
+  for (Index node : partition.free)
+  {
+    smoothed.row(node) = result.row(node);
+  }
+  carryFollowers(rest, partition, smoothed);
+  report.wasKept = options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor);
+  if (!report.wasKept)
+  {
+    points.swap(smoothed);
+  }
+  return report;
+}
+}

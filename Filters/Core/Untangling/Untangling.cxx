@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/Untangling.h"
+
+#include "Boundary/FoldedFaces.h"
+#include "Mesh/CellPatch.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/SubMonitor.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace morph
+{
+namespace
+{
+constexpr int Rounds = 3;
+constexpr int Rings = 5; // of cells
+// Beside folds: of the whole mesh, since after a few only single places are tangled; of these places; and of what is round
+// folded faces, whose cells come right soon or not at all.
+constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
+}
+
+Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry)
+  : mesh_(mesh)
+  , orientation_(orientation)
+  , faces_(faces)
+  , geometry_(geometry)
+  , free_(partition.free)
+  , isFixed_(mesh.numberOfNodes(), 0)
+{
+  for (Index node : partition.prescribed)
+  {
+    this->isFixed_[node] = 1;
+  }
+}
+
+bool Untangling::Tangle::operator<(const Tangle& other) const
+{
+  return std::make_tuple(this->others, this->onFolds.size()) <
+         std::make_tuple(other.others, other.onFolds.size());
+}
+
+std::vector<Index> Untangling::behind(const std::vector<Index>& folded) const
+{
+  std::vector<Index> cells(folded.size());
+  std::transform(
+    folded.begin(), folded.end(), cells.begin(), [&](Index f) { return this->faces_.cells[f]; });
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+Untangling::Tangle Untangling::tangle(
+  const std::vector<Index>& behind, const Points& points, Monitor& monitor) const
+{
+  Tangle result;
+  // By corners: nodes between them follow only in the end.
+  for (Index c :
+    invertedCells(measureCorners(this->mesh_, points, this->orientation_, {}, monitor)))
+  {
+    if (std::binary_search(behind.begin(), behind.end(), c))
+    {
+      result.onFolds.push_back(c);
+    }
+    else
+    {
+      ++result.others;
+    }
+  }
+  return result;
+}
+
+bool Untangling::runNear(const std::vector<Index>& cells, const TargetShapes& targets,
+  FoldoverStages& stages, int most, Points& points, Monitor& monitor) const
+{
+  MeshEnergy energy(
+    this->mesh_, cellPatch(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, Rings).nodes);
+  energy.setTargets(targets);
+  FoldoverStages near(energy, stages.minimizer());
+  const bool done = near.untangle(points, monitor, most);
+  stages.include(near.effort());
+  return done;
+}
+
+bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages,
+  Points& points, Monitor& monitor) const
+{
+  for (int round = 0; round <= Rounds; ++round)
+  {
+    const double part = 1. / (Rounds + 1);
+    SubMonitor own(monitor, part * round, part * (round + 0.5));
+    SubMonitor whole(monitor, part * (round + 0.5), part * (round + 1));
+    const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
+    if (round > 0 && dropFolded(this->mesh_, this->isFixed_, points, targets) == 0)
+    {
+      return false;
+    }
+    if (this->runNear(tangled, targets, stages, StagesNear, points, own))
+    {
+      energy.setTargets(targets);
+      return stages.untangle(points, whole);
+    }
+  }
+  return false;
+}
+
+Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& energy,
+  FoldoverStages& stages, Points& points, Monitor& monitor) const
+{
+  const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
+                             this->geometry_, this->isFixed_),
+                           behind = this->behind(folded);
+  Points besides;
+  SubMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
+    last(monitor, 0.9, 1);
+  if (folded.empty())
+  {
+    energy.setTargets(targets);
+    if (stages.untangle(points, first))
+    {
+      return { true, {} };
+    }
+    besides = points;
+    TargetShapes others = targets;
+    this->runBesides(others, energy, stages, besides, second);
+  }
+  else
+  {
+    besides = points;
+    TargetShapes others = targets;
+    dropBehind(this->mesh_, this->faces_, folded, others);
+    energy.setTargets(others);
+    if (!stages.untangle(besides, first, StagesOfAll))
+    {
+      this->runBesides(others, energy, stages, besides, second);
+    }
+    points = besides;
+    if (this->runNear(behind, targets, stages, StagesWithFolds, points, third))
+    {
+      energy.setTargets(targets);
+      if (stages.untangle(points, last))
+      {
+        return { true, {} };
+      }
+    }
+  }
+  Tangle all = this->tangle(behind, points, monitor);
+  const Tangle fewer = this->tangle(behind, besides, monitor);
+  if (!(all < fewer))
+  {
+    points = besides;
+    all = fewer;
+  }
+  return { false, all.onFolds };
+}
+}
