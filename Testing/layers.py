@@ -5,7 +5,8 @@
 Usage: layers.py [--source FOLDER] [--write] [--try-wrong-includes]
 It fails, and names file and line, for an include that no arrow allows, a file in a folder that the table does not
 have, a header that does not exist, a folder without a README.md of at most ten lines, and arrows in a circle. It also
-fails where the picture in CONTRIBUTING.md, or a README's last line, is not what the table says.
+fails where the picture in CONTRIBUTING.md, or a README's last line, is not what the table says, and where the
+headers at the top of Filters/Morphing are not those of its public classes.
   --source FOLDER        the project (default: where this script lies)
   --write                writes the picture into CONTRIBUTING.md, and the last line of each README.md
   --try-wrong-includes   shows that each kind of wrong include is found, in a copy of Filters
@@ -158,6 +159,17 @@ def check_readmes(table, write):
             table.problems.append("Filters/%s holds fewer than two sources" % row)
 
 
+def check_classes(table):
+    """The headers at the top of Filters/Morphing are those of the classes that its CMakeLists.txt lists."""
+    folder = os.path.join(table.filters, "Morphing")
+    with open(os.path.join(folder, "CMakeLists.txt"), encoding="utf-8") as f:
+        classes = set(re.search(r"set\(classes\s([^)]*)\)", f.read()).group(1).split())
+    headers = {file[:-2] for file in os.listdir(folder) if file.endswith(".h")}
+    for name in sorted(classes ^ headers):
+        table.problems.append("Filters/Morphing/%s.h: %s" % (name, "no public class of CMakeLists.txt: "
+                              "move it to Private" if name in headers else "it is listed, but not there"))
+
+
 def picture(table):
     rows = [row for row in table.arrows if not row.endswith(".h")]
     width = max(len(row) for row in rows) + 5
@@ -196,6 +208,7 @@ def check(source, write=False):
     table = Table(source)
     check_includes(table)
     check_readmes(table, write)
+    check_classes(table)
     check_picture(table, source, write)
     return table.problems
 
@@ -216,6 +229,10 @@ def try_wrong_includes(source):
         "no folder": ("Core/Mesh/Mesh.cxx", '#include "Mesh.h"', 'lacks its folder'),
         "no such header": ("Core/Mesh/Mesh.cxx", '#include "Mesh/Nothing.h"',
                            'there is no "Mesh/Nothing.h"'),
+        "private parts of each other": ("Morphing/Private/Data/Output.cxx",
+                                        '#include "Private/Morph/Series.h"',
+                                        "Morphing/Private/Data may not include Morphing/Private/Morph"),
+        "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
         "a file in no folder": ("Core/Stray.h", "#pragma once", "its folder is no row"),
     }
     missed = []

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBoundaryDisplacement.h"
 
+#include "Private/Data/Surface.h"
+#include "Private/Displace/BoundaryModel.h"
+#include "Private/Displace/Choice.h"
+#include "Private/Displace/DisplacedSurface.h"
+#include "Private/Displace/Motion.h"
+#include "Private/Displace/Patches.h"
+#include "Private/Displace/Surroundings.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Property.h"
 #include "Support/Error.h"
-#include "vtkMorphBoundaryModel.h"
-#include "vtkMorphChoice.h"
-#include "vtkMorphDisplacedSurface.h"
-#include "vtkMorphExecution.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphMotion.h"
-#include "vtkMorphPatches.h"
-#include "vtkMorphProperty.h"
-#include "vtkMorphSpread.h"
-#include "vtkMorphSurface.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
@@ -31,20 +31,22 @@
 
 #include <algorithm>
 
+namespace filters = morph::filters;
+
 vtkStandardNewMacro(vtkBoundaryDisplacement);
 
-vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
-  vtkMorphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
-    vtkMorphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
-      vtkMorphSetNumberMacro(vtkBoundaryDisplacement, Distance)
-        vtkMorphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
+morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
+  morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
+    morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
+      morphSetNumberMacro(vtkBoundaryDisplacement, Distance)
+        morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
 
           void vtkBoundaryDisplacement::SetVector(double x, double y, double z)
 {
   const double values[3] = { x, y, z };
   for (int i = 0; i < 3; ++i)
   {
-    if (!vtkMorphProperty::Accepts(this, "Vector", values[i], this->Vector[i]))
+    if (!filters::Property::Accepts(this, "Vector", values[i], this->Vector[i]))
     {
       return;
     }
@@ -91,7 +93,7 @@ bool setStatus(std::set<std::string>& names, const std::string& name, bool statu
 }
 
 /// Diagonal of the bounding box of the boundary's nodes.
-double size(const vtkMorphBoundaryModel& model)
+double size(const filters::BoundaryModel& model)
 {
   const std::vector<morph::Index>& nodes = model.Faces().nodes;
   Eigen::RowVector3d low = model.Points().row(nodes.front()), high = low;
@@ -124,11 +126,11 @@ struct vtkBoundaryDisplacement::vtkInternals
   vtkSmartPointer<vtkAbstractTransform> Transform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
 
-  vtkMorphBoundaryModel Model;
+  filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
   ChoiceKey ChosenFrom;
-  vtkMorphChoice::Result Choice;
-  vtkMorphSpread Spread;
+  filters::Choice::Result Choice;
+  filters::Surroundings Spread;
 };
 
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
@@ -258,7 +260,7 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
 
 int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  // Any other type would make the executive run the filter block by block; see filters::Input.h.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataObject" : "vtkSelection");
   if (port == 1)
   {
@@ -276,10 +278,10 @@ int vtkBoundaryDisplacement::RequestInformation(
   {
     return 1;
   }
-  vtkMorphMonitor monitor(nullptr, this->NumberOfThreads);
+  filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
-    this->Classify(vtkMorphInput::RequireGridOrPolyData(input, "The input"), monitor);
+    this->Classify(filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
   }
   catch (const std::exception&)
   {
@@ -296,11 +298,11 @@ int vtkBoundaryDisplacement::RequestData(
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
-  vtkMorphMonitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
-    const int ranks = vtkMorphInput::RequireOneRankWithCells(vtkDataSet::SafeDownCast(data));
-    vtkPointSet* input = vtkMorphInput::RequireGridOrPolyData(data, "The input");
+    const int ranks = filters::Input::RequireOneRankWithCells(vtkDataSet::SafeDownCast(data));
+    vtkPointSet* input = filters::Input::RequireGridOrPolyData(data, "The input");
     if (ranks == 0 || input->GetNumberOfCells() > 0)
     {
       this->Displace(input, selection, output, monitor);
@@ -311,7 +313,7 @@ int vtkBoundaryDisplacement::RequestData(
     output->Initialize();
     this->ResetResults();
   };
-  vtkMorphExecution::Run(this, "displace this mesh's boundary", displace, clear);
+  filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningMacro(<< warning);
@@ -319,13 +321,13 @@ int vtkBoundaryDisplacement::RequestData(
   return 1;
 }
 
-void vtkBoundaryDisplacement::Classify(vtkPointSet* input, vtkMorphMonitor& monitor)
+void vtkBoundaryDisplacement::Classify(vtkPointSet* input, filters::Monitor& monitor)
 {
   vtkInternals& own = *this->Internals;
-  vtkMorphGeometry::Options options;
+  filters::Geometry::Options options;
   options.FeatureAngle = this->FeatureAngle;
   options.CornerAngle = this->CornerAngle;
-  options.SurfaceIdArray = vtkMorphInput::ArrayName(this->SurfaceIdArray);
+  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
   options.UseGeometryArrays = this->UseGeometryArrays;
   const int before = own.Model.ClassifyCount();
   own.Model.Update(input, options, monitor);
@@ -333,7 +335,7 @@ void vtkBoundaryDisplacement::Classify(vtkPointSet* input, vtkMorphMonitor& moni
   {
     own.Warnings = monitor.TakeWarnings();
     own.PatchList->RemoveAllArrays();
-    for (const std::string& name : vtkMorphPatches::Names(own.Model.Geometry()))
+    for (const std::string& name : filters::Patches::Names(own.Model.Geometry()))
     {
       own.PatchList->AddArray(name.c_str(), false);
     }
@@ -347,8 +349,8 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   key.InputVersion = own.Model.InputVersion();
   key.Moving = this->Moving;
   key.HeldPatches = own.HeldPatches;
-  vtkMorphChoice::Options options;
-  options.How = static_cast<vtkMorphChoice::By>(this->Moving);
+  filters::Choice::Options options;
+  options.How = static_cast<filters::Choice::By>(this->Moving);
   options.HeldPatches = own.HeldPatches;
   vtkSmartPointer<vtkExtractSelection> extractor = own.Extractor;
   if (this->Moving == MOVE_SELECTION)
@@ -373,14 +375,14 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   if (!(key == own.ChosenFrom))
   {
     own.ChosenFrom = ChoiceKey(); // should it throw
-    own.Choice = vtkMorphChoice::Choose(input, own.Model, options);
+    own.Choice = filters::Choice::Choose(input, own.Model, options);
     own.ChosenFrom = key;
     ++this->ChooseCount;
   }
 }
 
 void vtkBoundaryDisplacement::Displace(
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, vtkMorphMonitor& monitor)
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, filters::Monitor& monitor)
 {
   vtkInternals& own = *this->Internals;
   try
@@ -398,7 +400,7 @@ void vtkBoundaryDisplacement::Displace(
     monitor.warn(warning);
   }
   own.Warnings.clear();
-  vtkMorphSurface::WarnOfNone(own.Model.Faces(), monitor);
+  filters::Surface::WarnOfNone(own.Model.Faces(), monitor);
   if (own.Model.Faces().nodes.empty())
   {
     return;
@@ -406,25 +408,25 @@ void vtkBoundaryDisplacement::Displace(
   this->Choose(input, selection);
   monitor.check();
 
-  vtkMorphMotion::Options motion;
-  motion.How = static_cast<vtkMorphMotion::Kind>(this->Motion);
+  filters::Motion::Options motion;
+  motion.How = static_cast<filters::Motion::Kind>(this->Motion);
   motion.Transform = own.Transform;
   motion.Vector = { this->Vector[0], this->Vector[1], this->Vector[2] };
   motion.Distance = this->Distance;
-  motion.ArrayName = vtkMorphInput::ArrayName(this->DisplacementArray);
+  motion.ArrayName = filters::Input::ArrayName(this->DisplacementArray);
   motion.ScaleFactor = this->ScaleFactor;
-  const morph::Points targets = vtkMorphMotion::Targets(input, own.Model, own.Choice, motion);
+  const morph::Points targets = filters::Motion::Targets(input, own.Model, own.Choice, motion);
 
-  vtkMorphSpread::Options rest;
-  rest.How = static_cast<vtkMorphSpread::Kind>(this->Surroundings);
+  filters::Surroundings::Options rest;
+  rest.How = static_cast<filters::Surroundings::Kind>(this->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
   rest.Follow.unattached = static_cast<morph::Unattached>(this->UnattachedMotion);
   rest.Radius = this->FalloffRadius * size(own.Model);
   monitor.SetRange(0.5, 0.9);
-  const vtkMorphSpread::Result result =
+  const filters::Surroundings::Result result =
     own.Spread.Spread(own.Model, own.Choice, targets, rest, monitor);
   const std::vector<morph::Index> collapsed =
-    vtkMorphMotion::Collapsed(own.Model, own.Choice, result.Moved);
+    filters::Motion::Collapsed(own.Model, own.Choice, result.Moved);
   if (!collapsed.empty())
   {
     monitor.warn(
@@ -432,12 +434,12 @@ void vtkBoundaryDisplacement::Displace(
       "be valid: the output's cell ids " +
       morph::listIds(collapsed) + ". Is a scale zero?");
   }
-  vtkMorphDisplacedSurface::Write(own.Model, result, input, this->OutputPointsPrecision, output);
-  const auto count = [&result](vtkMorphSpread::Role role)
+  filters::DisplacedSurface::Write(own.Model, result, input, this->OutputPointsPrecision, output);
+  const auto count = [&result](filters::Surroundings::Role role)
   { return std::count(result.Roles.begin(), result.Roles.end(), role); };
-  this->MovingPoints = count(vtkMorphSpread::Moves);
-  this->HeldPoints = count(vtkMorphSpread::IsHeld);
-  this->FollowingPoints = count(vtkMorphSpread::Follows);
+  this->MovingPoints = count(filters::Surroundings::Moves);
+  this->HeldPoints = count(filters::Surroundings::IsHeld);
+  this->FollowingPoints = count(filters::Surroundings::Follows);
 }
 
 void vtkBoundaryDisplacement::ResetResults()

@@ -58,11 +58,18 @@
 
 #include <memory> // for std::unique_ptr
 
+namespace morph
+{
+namespace filters
+{
+class Monitor;
+}
+}
+
 class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkExtractSelection;
 class vtkImplicitFunction;
-class vtkMorphMonitor;
 class vtkPointSet;
 class vtkSelection;
 
@@ -341,10 +348,10 @@ private:
 
   void ResetResults();
   /// Finds the boundary and its geometry, and its patches' names.
-  void Classify(vtkPointSet* input, vtkMorphMonitor& monitor);
+  void Classify(vtkPointSet* input, morph::filters::Monitor& monitor);
   void Choose(vtkPointSet* input, vtkSelection* selection);
-  void Displace(
-    vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, vtkMorphMonitor& monitor);
+  void Displace(vtkPointSet* input, vtkSelection* selection, vtkPolyData* output,
+    morph::filters::Monitor& monitor);
 
   int Moving = MOVE_EVERYTHING;
   int Motion = TRANSFORM;

@@ -2,13 +2,13 @@
 #include "vtkClassifyBoundary.h"
 
 #include "Mesh/Topology.h"
-#include "vtkMorphExecution.h"
-#include "vtkMorphGeometry.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphProperty.h"
-#include "vtkMorphSurface.h"
+#include "Private/Data/Geometry.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Property.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -20,10 +20,12 @@
 
 #include <numeric>
 
+namespace filters = morph::filters;
+
 vtkStandardNewMacro(vtkClassifyBoundary);
 
-vtkMorphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
-  vtkMorphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
+morphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
+  morphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
 
     vtkClassifyBoundary::vtkClassifyBoundary()
 {
@@ -47,7 +49,7 @@ vtkPolyData* vtkClassifyBoundary::GetCurves()
 
 int vtkClassifyBoundary::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  // Any other type would make the executive run the filter block by block; see filters::Input.h.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -62,19 +64,19 @@ int vtkClassifyBoundary::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkMorphMonitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->NumberOfThreads);
   this->Clear(outputVector);
   const auto classify = [&]
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
-    grid = vtkMorphInput::RequireGrid(input, "The input");
+    const int ranksWithCells = filters::Input::RequireOneRankWithCells(grid);
+    grid = filters::Input::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {
       this->Classify(grid, outputVector, monitor);
     }
   };
-  vtkMorphExecution::Run(
+  filters::Execution::Run(
     this, "classify this mesh's boundary", classify, [&] { this->Clear(outputVector); });
   for (const std::string& warning : monitor.TakeWarnings())
   {
@@ -84,37 +86,37 @@ int vtkClassifyBoundary::RequestData(
 }
 
 void vtkClassifyBoundary::Classify(
-  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor)
+  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, filters::Monitor& monitor)
 {
-  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
-  vtkMorphInput::RequireVolumeCells(mesh);
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
+  filters::Input::RequireVolumeCells(mesh);
   monitor.progress(0.1);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
-  vtkMorphSurface::WarnOfNone(faces, monitor);
+  filters::Surface::WarnOfNone(faces, monitor);
 
-  vtkMorphGeometry::Options options;
+  filters::Geometry::Options options;
   options.FeatureAngle = this->FeatureAngle;
   options.CornerAngle = this->CornerAngle;
   options.FeaturesInside = this->FeaturesInside;
-  options.SurfaceIdArray = vtkMorphInput::ArrayName(this->SurfaceIdArray);
+  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
   options.UseGeometryArrays = this->UseGeometryArrays;
   monitor.SetRange(0.3, 0.8);
   const morph::Classification geometry =
-    vtkMorphGeometry::Classify(grid, mesh, faces, options, monitor);
+    filters::Geometry::Classify(grid, mesh, faces, options, monitor);
   monitor.check();
 
   auto* classified = vtkUnstructuredGrid::GetData(outputVector, 0);
   classified->ShallowCopy(grid);
   std::vector<morph::Index> all(mesh.numberOfNodes());
   std::iota(all.begin(), all.end(), morph::Index(0));
-  vtkMorphGeometry::AddPointArrays(geometry, all, classified->GetPointData());
+  filters::Geometry::AddPointArrays(geometry, all, classified->GetPointData());
 
   auto* surfaces = vtkPolyData::GetData(outputVector, 1);
-  const std::vector<morph::Index> faceOf = vtkMorphSurface::Write(grid, mesh, faces, surfaces);
-  vtkMorphGeometry::AddPointArrays(geometry, faces.nodes, surfaces->GetPointData());
-  vtkMorphGeometry::AddSurfaceIds(geometry, faceOf, surfaces);
+  const std::vector<morph::Index> faceOf = filters::Surface::Write(grid, mesh, faces, surfaces);
+  filters::Geometry::AddPointArrays(geometry, faces.nodes, surfaces->GetPointData());
+  filters::Geometry::AddSurfaceIds(geometry, faceOf, surfaces);
 
-  vtkMorphGeometry::WriteCurves(grid, geometry, vtkPolyData::GetData(outputVector, 2));
+  filters::Geometry::WriteCurves(grid, geometry, vtkPolyData::GetData(outputVector, 2));
   this->NumberOfVertices = static_cast<vtkIdType>(geometry.vertices.size());
   this->NumberOfCurves = static_cast<vtkIdType>(geometry.curves.size());
   this->NumberOfSurfaces = static_cast<vtkIdType>(geometry.surfaces.size());

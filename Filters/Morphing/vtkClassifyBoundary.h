@@ -47,7 +47,14 @@
 
 #include <vtkUnstructuredGridAlgorithm.h>
 
-class vtkMorphMonitor;
+namespace morph
+{
+namespace filters
+{
+class Monitor;
+}
+}
+
 class vtkPolyData;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkClassifyBoundary
@@ -148,8 +155,8 @@ private:
   vtkClassifyBoundary(const vtkClassifyBoundary&) = delete;
   void operator=(const vtkClassifyBoundary&) = delete;
 
-  void Classify(
-    vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
+  void Classify(vtkUnstructuredGrid* grid, vtkInformationVector* outputVector,
+    morph::filters::Monitor& monitor);
   void Clear(vtkInformationVector* outputVector);
 
   double FeatureAngle = 25;

@@ -3,22 +3,22 @@
 
 #include "Mesh/Topology.h"
 #include "Morpher/SubSteps.h"
+#include "Private/Compare/BoundarySeries.h"
+#include "Private/Compare/Comparison.h"
+#include "Private/Compare/PeakMemory.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
+#include "Private/Pipeline/Steps.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/SubMonitor.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
-#include "vtkMorphBoundarySeries.h"
-#include "vtkMorphComparison.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphPeakMemory.h"
-#include "vtkMorphPorts.h"
-#include "vtkMorphProperty.h"
-#include "vtkMorphRanks.h"
-#include "vtkMorphSteps.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -43,19 +43,21 @@
 #include <string>
 #include <vector>
 
+namespace filters = morph::filters;
+
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkCompareMorphMethods);
 
-vtkMorphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
-  vtkMorphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
-    vtkMorphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
-      vtkMorphSetNumberMacro(vtkCompareMorphMethods, RestTime)
+morphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
+  morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
+    morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
+      morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
 
         struct vtkCompareMorphMethods::vtkInternals
 {
-  vtkMorphPorts Ports;
-  vtkMorphSteps Steps;
+  filters::Ports Ports;
+  filters::Steps Steps;
   std::string BestMethod, BestStepping;
 
   explicit vtkInternals(vtkAlgorithm* filter)
@@ -156,7 +158,7 @@ private:
 
 vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   return static_cast<vtkIdType>(
     morph::invertedCells(mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), monitor)
       .size());
@@ -165,9 +167,9 @@ vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 /// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first
 /// step that it came from.
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
-  vtkMorphRun& run, morph::Monitor& monitor)
+  filters::MethodRun& run, morph::Monitor& monitor)
 {
-  const vtkMorphPeakMemory memory;
+  const filters::PeakMemory memory;
   std::set<std::string> told;
   const double number = static_cast<double>(times.size());
   for (std::size_t i = 0; i < times.size(); ++i)
@@ -192,7 +194,7 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
       run.Failure = messages.front();
       break;
     }
-    run.Steps.push_back(vtkMorphComparison::Measure(filter, times[i], percentile));
+    run.Steps.push_back(filters::Comparison::Measure(filter, times[i], percentile));
   }
   run.PeakMegabytes = memory.Megabytes();
 }
@@ -223,7 +225,7 @@ void vtkCompareMorphMethods::SetBoundaryData(vtkDataObject* boundary)
 
 int vtkCompareMorphMethods::FillInputPortInformation(int port, vtkInformation* info)
 {
-  return vtkMorphPorts::FillInformation(port, info);
+  return filters::Ports::FillInformation(port, info);
 }
 
 int vtkCompareMorphMethods::RequestInformation(
@@ -243,7 +245,7 @@ int vtkCompareMorphMethods::RequestUpdateExtent(
 {
   vtkInternals& kept = *this->Internals;
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
-  kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
+  kept.Steps = filters::Steps(this->NumberOfSteps, boundary);
   std::optional<double> asked;
   if (kept.Steps.FromBoundary())
   {
@@ -265,21 +267,21 @@ int vtkCompareMorphMethods::RequestData(
     kept.BestMethod.clear();
     kept.BestStepping.clear();
   };
-  if (vtkMorphRanks::Count(true) > 1)
+  if (filters::Ranks::Count(true) > 1)
   {
     reset();
     vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
     return 1;
   }
-  const vtkMorphPorts::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
       const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
       for (int step = 0; step < wanted; ++step)
       {
         monitor.check();
-        vtkPointSet* points = vtkMorphInput::RequireBoundary(
+        vtkPointSet* points = filters::Input::RequireBoundary(
           step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
         boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
         boundaries.back()->ShallowCopy(points);
@@ -304,7 +306,7 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, vtkInformationVector* outputVector,
-  vtkMorphMonitor& monitor)
+  filters::Monitor& monitor)
 {
   const std::pair<bool, Method> methods[] = { { this->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },
@@ -332,7 +334,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
 
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
-  vtkNew<vtkMorphBoundarySeries> source;
+  vtkNew<filters::BoundarySeries> source;
   source->SetBoundaries(kept.Steps.FromBoundary() ? times : std::vector<double>(), boundaries);
   vtkNew<vtkUnstructuredGrid> rest;
   rest->ShallowCopy(grid);
@@ -345,7 +347,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       " inverted or degenerate cells at rest. Methods are ranked by the steps up to which "
       "they have no more than that.");
   }
-  std::vector<vtkMorphRun> runs;
+  std::vector<filters::MethodRun> runs;
   const double number = static_cast<double>(chosen.size()) * (this->Absolute + this->Relative);
   for (const bool relative : { false, true })
   {
@@ -355,7 +357,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
     {
       const double done = static_cast<double>(runs.size());
       morph::SubMonitor part(monitor, done / number, (done + 1) / number);
-      vtkMorphRun run;
+      filters::MethodRun run;
       run.Method = method.Name;
       run.Stepping = relative ? "Relative" : "Absolute";
       run.BadAtRest = badAtRest;
@@ -369,18 +371,18 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
     }
   }
   if (std::all_of(
-        runs.begin(), runs.end(), [](const vtkMorphRun& run) { return run.Steps.empty(); }))
+        runs.begin(), runs.end(), [](const filters::MethodRun& run) { return run.Steps.empty(); }))
   {
     throw morph::Error(
       "No method gave a mesh. " + runs.front().Title() + ": " + runs.front().Failure);
   }
-  vtkMorphComparison::Rank(runs);
-  vtkMorphComparison::WriteSteps(runs, vtkTable::GetData(outputVector, 0));
-  vtkMorphComparison::WriteChart(runs, times, vtkTable::GetData(outputVector, 1));
-  vtkMorphComparison::WriteRanking(
+  filters::Comparison::Rank(runs);
+  filters::Comparison::WriteSteps(runs, vtkTable::GetData(outputVector, 0));
+  filters::Comparison::WriteChart(runs, times, vtkTable::GetData(outputVector, 1));
+  filters::Comparison::WriteRanking(
     runs, static_cast<int>(times.size()), vtkTable::GetData(outputVector, 2));
-  const auto best =
-    std::find_if(runs.begin(), runs.end(), [](const vtkMorphRun& run) { return run.Rank == 1; });
+  const auto best = std::find_if(
+    runs.begin(), runs.end(), [](const filters::MethodRun& run) { return run.Rank == 1; });
   kept.BestMethod = best->Method;
   kept.BestStepping = best->Stepping;
 }

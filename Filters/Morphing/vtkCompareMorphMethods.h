@@ -49,11 +49,18 @@
 #include <memory> // for std::unique_ptr
 #include <vector> // for the boundaries
 
+namespace morph
+{
+namespace filters
+{
+class Monitor;
+struct MethodRun;
+}
+}
+
 class vtkDataObject;
 class vtkMorphAlgorithm;
-class vtkMorphMonitor;
 class vtkUnstructuredGrid;
-struct vtkMorphRun;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkCompareMorphMethods : public vtkTableAlgorithm
 {
@@ -180,7 +187,7 @@ private:
   /// `boundaries`: one for each time of a boundary that varies, or the one.
   void Compare(vtkUnstructuredGrid* grid,
     const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
-    vtkInformationVector* outputVector, vtkMorphMonitor& monitor);
+    vtkInformationVector* outputVector, morph::filters::Monitor& monitor);
   void Configure(vtkMorphAlgorithm* filter) const;
 
   bool Smoothing = true;

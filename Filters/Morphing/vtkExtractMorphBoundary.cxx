@@ -2,11 +2,11 @@
 #include "vtkExtractMorphBoundary.h"
 
 #include "Mesh/Topology.h"
-#include "vtkMorphExecution.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphSurface.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -16,6 +16,8 @@
 
 #include <string>
 
+namespace filters = morph::filters;
+
 vtkStandardNewMacro(vtkExtractMorphBoundary);
 
 vtkExtractMorphBoundary::vtkExtractMorphBoundary() = default;
@@ -23,7 +25,7 @@ vtkExtractMorphBoundary::~vtkExtractMorphBoundary() = default;
 
 int vtkExtractMorphBoundary::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Any other type would make the executive run the filter block by block; see vtkMorphInput.h.
+  // Any other type would make the executive run the filter block by block; see filters::Input.h.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -33,18 +35,18 @@ int vtkExtractMorphBoundary::RequestData(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  vtkMorphMonitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->NumberOfThreads);
   const auto extract = [&]
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = vtkMorphInput::RequireOneRankWithCells(grid);
-    grid = vtkMorphInput::RequireGrid(input, "The input");
+    const int ranksWithCells = filters::Input::RequireOneRankWithCells(grid);
+    grid = filters::Input::RequireGrid(input, "The input");
     if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
     {
       this->Extract(grid, output, monitor);
     }
   };
-  vtkMorphExecution::Run(
+  filters::Execution::Run(
     this, "extract this mesh's boundary", extract, [&] { output->Initialize(); });
   for (const std::string& warning : monitor.TakeWarnings())
   {
@@ -54,16 +56,16 @@ int vtkExtractMorphBoundary::RequestData(
 }
 
 void vtkExtractMorphBoundary::Extract(
-  vtkUnstructuredGrid* grid, vtkPolyData* output, vtkMorphMonitor& monitor)
+  vtkUnstructuredGrid* grid, vtkPolyData* output, filters::Monitor& monitor)
 {
-  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
-  vtkMorphInput::RequireVolumeCells(mesh);
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
+  filters::Input::RequireVolumeCells(mesh);
   monitor.progress(0.2);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   monitor.progress(0.6);
   monitor.check();
-  vtkMorphSurface::WarnOfNone(faces, monitor);
-  vtkMorphSurface::Write(grid, mesh, faces, output);
+  filters::Surface::WarnOfNone(faces, monitor);
+  filters::Surface::Write(grid, mesh, faces, output);
 }
 
 void vtkExtractMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)

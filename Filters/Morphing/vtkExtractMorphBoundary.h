@@ -38,7 +38,14 @@
 
 #include <vtkPolyDataAlgorithm.h>
 
-class vtkMorphMonitor;
+namespace morph
+{
+namespace filters
+{
+class Monitor;
+}
+}
+
 class vtkUnstructuredGrid;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkExtractMorphBoundary : public vtkPolyDataAlgorithm
@@ -69,7 +76,7 @@ private:
   vtkExtractMorphBoundary(const vtkExtractMorphBoundary&) = delete;
   void operator=(const vtkExtractMorphBoundary&) = delete;
 
-  void Extract(vtkUnstructuredGrid* grid, vtkPolyData* output, vtkMorphMonitor& monitor);
+  void Extract(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::filters::Monitor& monitor);
 
   int NumberOfThreads = 0;
 };

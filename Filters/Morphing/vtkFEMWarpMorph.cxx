@@ -2,13 +2,13 @@
 #include "vtkFEMWarpMorph.h"
 
 #include "LinearMethods/FemWarp.h"
-#include "vtkMorphProperty.h"
+#include "Private/Pipeline/Property.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkFEMWarpMorph);
 
-vtkMorphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
+morphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
 
   vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
 vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;

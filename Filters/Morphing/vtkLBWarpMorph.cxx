@@ -2,13 +2,13 @@
 #include "vtkLBWarpMorph.h"
 
 #include "LinearMethods/LogBarrierWarp.h"
-#include "vtkMorphProperty.h"
+#include "Private/Pipeline/Property.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkLBWarpMorph);
 
-vtkMorphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
+morphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
 
   vtkLBWarpMorph::vtkLBWarpMorph() = default;
 vtkLBWarpMorph::~vtkLBWarpMorph() = default;

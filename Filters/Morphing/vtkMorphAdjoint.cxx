@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAdjoint.h"
 
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ports.h"
 #include "Support/Error.h"
 #include "vtkMorphAlgorithm.h"
-#include "vtkMorphDataCheck.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphPorts.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataArray.h>
@@ -23,6 +23,8 @@
 #include <algorithm>
 #include <string>
 #include <vector>
+
+namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkMorphAdjoint);
 
@@ -77,7 +79,7 @@ vtkDataArray* requireGradient(vtkPointSet* carrier, const std::string& name)
 }
 
 vtkMorphAdjoint::vtkMorphAdjoint()
-  : Ports(new vtkMorphPorts(this))
+  : Ports(new filters::Ports(this))
 {
   this->SetNumberOfInputPorts(3);
 }
@@ -129,7 +131,7 @@ vtkMTimeType vtkMorphAdjoint::GetMTime()
 
 int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
 {
-  return vtkMorphPorts::FillInformation(port, info);
+  return filters::Ports::FillInformation(port, info);
 }
 
 vtkTypeBool vtkMorphAdjoint::ProcessRequest(
@@ -137,13 +139,13 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
-    vtkMorphPorts::RequestInformation(inputVector, outputVector);
+    filters::Ports::RequestInformation(inputVector, outputVector);
     // After a boundary that does not vary the gradient may, with the steps of its morph.
     vtkInformation* output = outputVector->GetInformationObject(0);
     vtkInformation* gradient = inputVector[2]->GetInformationObject(0);
     if (gradient && !output->Has(vtkStreamingDemandDrivenPipeline::TIME_RANGE()))
     {
-      vtkMorphTime::CopySteps(gradient, output);
+      filters::Time::CopySteps(gradient, output);
     }
     return 1;
   }
@@ -151,7 +153,7 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   {
     vtkMorphAlgorithm* morph = this->FindMorph();
     return this->Ports->RequestUpdateExtent(morph ? morph->GetRestTime() : 0,
-      vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
+      filters::Ports::AskedTime(outputVector->GetInformationObject(0)), inputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
@@ -177,9 +179,9 @@ int vtkMorphAdjoint::RequestData(
   vtkMorphAlgorithm* morph = this->FindMorph();
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
-  const vtkMorphPorts::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
+  const filters::Ports::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
     [] {},
-    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
     { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
   return this->Ports->RequestData(task, inputVector, outputVector);
 }
@@ -190,21 +192,21 @@ vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
 }
 
 void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
-  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor)
+  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, filters::Monitor& monitor)
 {
   if (!morph)
   {
     throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
                        "the gradient on port 2 by a pipeline with that filter in it.");
   }
-  vtkPointSet* points = vtkMorphInput::RequireBoundary(boundary);
+  vtkPointSet* points = filters::Input::RequireBoundary(boundary);
   // The mesh was looked at before.
   vtkPointSet* holder =
-    carrier == rest ? rest : vtkMorphInput::RequirePointSet(carrier, "The gradient's data set");
-  vtkDataArray* gradient = requireGradient(holder, vtkMorphInput::ArrayName(this->GradientArray));
+    carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
+  vtkDataArray* gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
   // With a DisplacementArray the method does not look at them, and the output has them.
   if (const auto wrong =
-        vtkMorphDataCheck::Immoderate(vtkMorphMesh::FromPoints(points->GetPoints()));
+        filters::DataCheck::Immoderate(filters::GridMesh::FromPoints(points->GetPoints()));
       !wrong.empty())
   {
     throw morph::Error("The boundary has coordinates that are not finite (NaN or infinite), at its "

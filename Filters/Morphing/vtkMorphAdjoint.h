@@ -45,9 +45,16 @@
 
 #include <memory> // for std::unique_ptr
 
+namespace morph
+{
+namespace filters
+{
+class Monitor;
+class Ports;
+}
+}
+
 class vtkMorphAlgorithm;
-class vtkMorphMonitor;
-class vtkMorphPorts;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
@@ -118,9 +125,9 @@ private:
 
   vtkMorphAlgorithm* FindMorph();
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-    vtkDataObject* carrier, vtkPointSet* output, vtkMorphMonitor& monitor);
+    vtkDataObject* carrier, vtkPointSet* output, morph::filters::Monitor& monitor);
 
-  std::unique_ptr<vtkMorphPorts> Ports;
+  std::unique_ptr<morph::filters::Ports> Ports;
   vtkSmartPointer<vtkMorphAlgorithm> Morph;
   char* GradientArray = nullptr;
 };

@@ -3,28 +3,28 @@
 
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
+#include "Private/Data/BadCells.h"
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/Gradient.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Quality.h"
+#include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/Series.h"
+#include "Private/Morph/Validity.h"
+#include "Private/Pipeline/CrewMonitor.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
+#include "Private/Pipeline/Steps.h"
+#include "Private/Pipeline/Version.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/SmoothMesh.h"
-#include "vtkMorphBadCells.h"
-#include "vtkMorphBoundaryMatch.h"
-#include "vtkMorphCrewMonitor.h"
-#include "vtkMorphDataCheck.h"
-#include "vtkMorphExecution.h"
-#include "vtkMorphGradient.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphOutput.h"
-#include "vtkMorphPorts.h"
-#include "vtkMorphProperty.h"
-#include "vtkMorphQuality.h"
-#include "vtkMorphRanks.h"
-#include "vtkMorphSeries.h"
-#include "vtkMorphSteps.h"
-#include "vtkMorphValidity.h"
-#include "vtkMorphVersion.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
@@ -42,6 +42,8 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+
+namespace filters = morph::filters;
 
 namespace
 {
@@ -72,7 +74,7 @@ struct vtkMorphAlgorithm::vtkInternals
 {
   morph::Mesh Mesh;
   morph::BoundaryFaces Outer;              ///< of Mesh's cells
-  double Size = 0;                         ///< of Mesh; see vtkMorphMesh::Size
+  double Size = 0;                         ///< of Mesh; see filters::GridMesh::Size
   std::vector<std::int8_t> Orientation;    ///< of Mesh
   morph::Index Mirrored = 0;               ///< bodies of Mesh; see GetMirroredBodies()
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
@@ -80,16 +82,16 @@ struct vtkMorphAlgorithm::vtkInternals
   std::vector<morph::Count> Counts;  ///< as of the last execution
   std::string Status;                ///< as of the last execution
   morph::Index BoundaryInverted = 0; ///< cells for which the last execution has no result
-  vtkMorphPorts Ports;
+  filters::Ports Ports;
 
-  vtkMorphSteps Steps;
+  filters::Steps Steps;
   int Step = -1;         ///< asked for, of Steps
   int BoundaryStep = -1; ///< that the boundary is asked for
-  vtkMorphSeries Series;
+  filters::Series Series;
   vtkMTimeType OwnTime = 0;      ///< of the filter, for Series
   bool Varied = false;           ///< the boundary, for Series
   vtkMTimeType BoundaryTime = 0; ///< of the pipeline behind port 1, for Series where it varies
-  vtkMorphBoundaryMatch::Result Whole; ///< the whole motion, for Series where it does not
+  filters::BoundaryMatch::Result Whole; ///< the whole motion, for Series where it does not
 
   explicit vtkInternals(vtkAlgorithm* filter)
     : Ports(filter)
@@ -105,13 +107,14 @@ struct vtkMorphAlgorithm::vtkInternals
 
 void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  const bool sameCells = vtkMorphMesh::SameCells(grid, this->Mesh);
-  if (sameCells && vtkMorphMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  const bool sameCells = filters::GridMesh::SameCells(grid, this->Mesh);
+  if (sameCells && filters::GridMesh::SamePoints(grid, this->Mesh) &&
+      this->Mesh.numberOfCells() > 0)
   {
     return;
   }
-  morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
-  vtkMorphInput::RequireVolumeCells(mesh);
+  morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
+  filters::Input::RequireVolumeCells(mesh);
   const morph::Bodies bodies = morph::bodies(mesh);
   std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
   if (!sameCells)
@@ -120,9 +123,9 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
   }
   this->Morpher.reset();
   this->Series.Clear();
-  this->Mirrored = vtkMorphQuality::MirroredBodies(bodies, orientation);
+  this->Mirrored = filters::Quality::MirroredBodies(bodies, orientation);
   this->Orientation = std::move(orientation);
-  this->Size = vtkMorphMesh::Size(mesh);
+  this->Size = filters::GridMesh::Size(mesh);
   this->Mesh = std::move(mesh);
 }
 
@@ -138,10 +141,10 @@ void vtkMorphAlgorithm::vtkInternals::CheckSeries(vtkMTimeType own, vtkMTimeType
   this->BoundaryTime = boundary;
 }
 
-vtkMorphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
-  vtkMorphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
-    vtkMorphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
-      vtkMorphSetNumberMacro(vtkMorphAlgorithm, RestTime)
+morphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
+  morphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
+    morphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
+      morphSetNumberMacro(vtkMorphAlgorithm, RestTime)
 
         vtkMorphAlgorithm::vtkMorphAlgorithm()
   : Internals(new vtkInternals(this))
@@ -169,14 +172,14 @@ void vtkMorphAlgorithm::SetBoundaryData(vtkDataObject* boundary)
 
 int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  return vtkMorphPorts::FillInformation(port, info);
+  return filters::Ports::FillInformation(port, info);
 }
 
 int vtkMorphAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const int done = vtkMorphPorts::RequestInformation(inputVector, outputVector);
-  const vtkMorphSteps steps(this->NumberOfSteps, inputVector[1]->GetInformationObject(0));
+  const int done = filters::Ports::RequestInformation(inputVector, outputVector);
+  const filters::Steps steps(this->NumberOfSteps, inputVector[1]->GetInformationObject(0));
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     steps.Write(outputVector->GetInformationObject(port));
@@ -189,9 +192,9 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
 {
   vtkInternals& kept = *this->Internals;
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
-  vtkInformation* asked = vtkMorphPorts::Asked(request, outputVector);
-  std::optional<double> time = vtkMorphPorts::AskedTime(asked);
-  kept.Steps = vtkMorphSteps(this->NumberOfSteps, boundary);
+  vtkInformation* asked = filters::Ports::Asked(request, outputVector);
+  std::optional<double> time = filters::Ports::AskedTime(asked);
+  kept.Steps = filters::Steps(this->NumberOfSteps, boundary);
   kept.Step = kept.Steps.Asked(asked);
   kept.BoundaryStep = kept.Step;
   if (kept.IsSeries(this->Stepping))
@@ -223,7 +226,7 @@ int vtkMorphAlgorithm::RequestData(
   vtkInternals& kept = *this->Internals;
   std::string partial;
   // A process without cells has no series, and would not know which step to ask the boundary for.
-  if (kept.IsSeries(this->Stepping) && kept.Steps.FromBoundary() && vtkMorphRanks::Count(true) > 1)
+  if (kept.IsSeries(this->Stepping) && kept.Steps.FromBoundary() && filters::Ranks::Count(true) > 1)
   {
     this->ResetResults();
     vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
@@ -231,15 +234,15 @@ int vtkMorphAlgorithm::RequestData(
     this->WriteUndeformed(nullptr, "Failed", output);
     return 1;
   }
-  const vtkMorphPorts::Task task = { "morph this mesh", this->NumberOfThreads,
+  const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
     [&] { this->ResetResults(); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       try
       {
         partial = this->Morph(grid, boundary, output, badCells, monitor);
       }
-      catch (const vtkMorphValidity::Infeasible& infeasible)
+      catch (const filters::Validity::Infeasible& infeasible)
       {
         kept.BoundaryInverted = infeasible.Cells;
         throw;
@@ -267,12 +270,12 @@ void vtkMorphAlgorithm::WriteUndeformed(
   vtkDataObject* input, const char* status, vtkUnstructuredGrid* output)
 {
   // Who stops a drag midway, or makes a mistake, wants to see the mesh it began with.
-  if (vtkMorphVersion::AbortRequested(this))
+  if (filters::Version::AbortRequested(this))
   {
-    vtkMorphVersion::KeepAbortedOutput(this);
+    filters::Version::KeepAbortedOutput(this);
   }
   output->Initialize();
-  if (vtkMorphInput::IsReadable(input))
+  if (filters::Input::IsReadable(input))
   {
     output->ShallowCopy(input);
   }
@@ -282,18 +285,18 @@ void vtkMorphAlgorithm::WriteUndeformed(
     // What the error tells.
     this->BoundaryInvertedCells = static_cast<vtkIdType>(this->Internals->BoundaryInverted);
     this->Internals->Counts = { { "BoundaryDeterminedCells", this->Internals->BoundaryInverted } };
-    vtkMorphOutput::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
+    filters::Output::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
   }
-  vtkMorphOutput::AddField(output, "MorphStatus", status);
-  vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
-  vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
+  filters::Output::AddField(output, "MorphStatus", status);
+  filters::Output::AddField(output, "InvertedCells", this->InvertedCells);
+  filters::Output::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
 }
 
 std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor)
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
+  vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   kept.SetGrid(grid, monitor);
   this->MirroredBodies = static_cast<vtkIdType>(kept.Mirrored);
   if (kept.Mirrored > 0)
@@ -306,7 +309,7 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
                  ". They are morphed and measured as if they were not. Reverse their order of "
                  "nodes if a solver expects VTK's.");
   }
-  std::shared_ptr<const vtkMorphStepResult> result;
+  std::shared_ptr<const filters::StepResult> result;
   if (kept.IsSeries(this->Stepping))
   {
     result = this->MorphSeries(displaced, monitor);
@@ -315,7 +318,7 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   {
     monitor.SetRange(0, 0.9);
     const double part = kept.Steps.Any() ? kept.Steps.Fraction(kept.Step) : 1;
-    result = std::make_shared<vtkMorphStepResult>(this->MorphStep(
+    result = std::make_shared<filters::StepResult>(this->MorphStep(
       kept.Mesh, this->Match(displaced, part, monitor), this->Validity, 0, 0.9, monitor));
   }
   // Of a step that was kept, too; inverted cells on the way there are no news.
@@ -328,18 +331,18 @@ std::string vtkMorphAlgorithm::Morph(vtkUnstructuredGrid* grid, vtkDataObject* b
   return result->Valid.Error;
 }
 
-vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
-  vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const
+filters::BoundaryMatch::Result vtkMorphAlgorithm::Match(
+  vtkPointSet* displaced, double part, filters::Monitor& monitor) const
 {
   const vtkInternals& kept = *this->Internals;
-  vtkMorphBoundaryMatch::Options options;
-  options.BoundaryIdArray = vtkMorphInput::ArrayName(this->BoundaryIdArray);
-  options.DisplacementArray = vtkMorphInput::ArrayName(this->DisplacementArray);
+  filters::BoundaryMatch::Options options;
+  options.BoundaryIdArray = filters::Input::ArrayName(this->BoundaryIdArray);
+  options.DisplacementArray = filters::Input::ArrayName(this->DisplacementArray);
   options.ScaleFactor = this->ScaleFactor * part;
   options.MatchTolerance = this->MatchTolerance;
   options.HoldUnnamedBoundary = this->HoldUnnamedBoundary;
-  vtkMorphBoundaryMatch::Result match =
-    vtkMorphBoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
+  filters::BoundaryMatch::Result match =
+    filters::BoundaryMatch::Match(displaced, kept.Mesh, kept.Outer, kept.Size, options);
   for (const std::string& warning : match.Warnings)
   {
     monitor.warn(warning);
@@ -348,14 +351,14 @@ vtkMorphBoundaryMatch::Result vtkMorphAlgorithm::Match(
   return match;
 }
 
-std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
-  vtkPointSet* displaced, vtkMorphMonitor& monitor)
+std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::MorphSeries(
+  vtkPointSet* displaced, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   const bool varies = kept.Steps.FromBoundary();
   if (!varies)
   {
-    vtkMorphBoundaryMatch::Result whole = this->Match(displaced, 1, monitor);
+    filters::BoundaryMatch::Result whole = this->Match(displaced, 1, monitor);
     if (whole.Ids != kept.Whole.Ids || whole.Targets != kept.Whole.Targets)
     {
       kept.Series.Clear();
@@ -371,7 +374,7 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     ++step;
     if (varies && step != kept.BoundaryStep)
     {
-      displaced = vtkMorphInput::RequireBoundary(kept.Ports.Fetch(1, kept.Steps.Time(step)));
+      displaced = filters::Input::RequireBoundary(kept.Ports.Fetch(1, kept.Steps.Time(step)));
       kept.BoundaryStep = step;
     }
     morph::Mesh from = kept.Mesh;
@@ -382,15 +385,15 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
     const auto progress = [&](int n) { return 0.9 * (n - first) / (kept.Step - first); };
     try
     {
-      auto made = std::make_shared<vtkMorphStepResult>(
+      auto made = std::make_shared<filters::StepResult>(
         this->MorphStep(from, this->Match(displaced, kept.Steps.Fraction(step), monitor),
           this->Validity, progress(step - 1), progress(step), monitor));
       made->Valid.Measured = {}; // a series keeps meshes alone
       result = std::move(made);
     }
-    catch (const vtkMorphValidity::Infeasible& infeasible)
+    catch (const filters::Validity::Infeasible& infeasible)
     {
-      throw vtkMorphValidity::Infeasible(
+      throw filters::Validity::Infeasible(
         "Step " + std::to_string(step) + ": " + infeasible.what(), infeasible.Cells);
     }
     catch (const morph::Error& error)
@@ -410,15 +413,15 @@ std::shared_ptr<const vtkMorphStepResult> vtkMorphAlgorithm::MorphSeries(
   return result;
 }
 
-vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
-  const vtkMorphBoundaryMatch::Result& match, int validityMode, double first, double last,
-  vtkMorphMonitor& monitor)
+filters::StepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
+  const filters::BoundaryMatch::Result& match, int validityMode, double first, double last,
+  filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   const auto part = [&](double a, double b)
   { monitor.SetRange(first + a * (last - first), first + b * (last - first)); };
   const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
-  const vtkMorphValidity validity{ validityMode, this->MaximumSubSteps, from, kept.Mesh.points,
+  const filters::Validity validity{ validityMode, this->MaximumSubSteps, from, kept.Mesh.points,
     partition, kept.Orientation, match.Targets, kept.Outer,
     dynamic_cast<morph::InversionFree*>(this->CreateMorpher().get()) != nullptr,
     [this]
@@ -435,9 +438,9 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
   part(0.45, 0.75);
   this->SetEvaluateOptions(*kept.Morpher);
   const auto start = Clock::now();
-  vtkMorphStepResult result;
+  filters::StepResult result;
   const morph::EvaluateReport report = kept.Morpher->evaluate(match.Targets, result.Moved, monitor);
-  if (const auto wrong = vtkMorphDataCheck::Immoderate(result.Moved); !wrong.empty())
+  if (const auto wrong = filters::DataCheck::Immoderate(result.Moved); !wrong.empty())
   {
     throw morph::Error(
       "The method gave positions that are not finite or beyond 1e50, at node ids " +
@@ -468,7 +471,7 @@ vtkMorphStepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
 }
 
 void vtkMorphAlgorithm::Prepare(
-  const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor)
+  const morph::Mesh& from, const morph::NodePartition& partition, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   const std::string options = this->PrepareOptions();
@@ -493,8 +496,8 @@ void vtkMorphAlgorithm::Prepare(
   this->PrepareSeconds = secondsSince(start);
 }
 
-void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor)
+void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const filters::StepResult& result,
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   this->SolverIterations = result.Iterations;
@@ -505,12 +508,12 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
   this->PrescribedPoints = static_cast<vtkIdType>(result.Prescribed);
   this->UnmatchedPoints = static_cast<vtkIdType>(result.Unmatched);
 
-  vtkMorphOutput::Write(grid, kept.Mesh.points, result.Moved, this->OutputPointsPrecision, output);
+  filters::Output::Write(grid, kept.Mesh.points, result.Moved, this->OutputPointsPrecision, output);
   const bool known =
-    !result.Valid.Measured.scaledJacobian.empty() && vtkMorphQuality::IsThatOfComputed(output);
+    !result.Valid.Measured.scaledJacobian.empty() && filters::Quality::IsThatOfComputed(output);
   const morph::Quality quality =
     known ? result.Valid.Measured
-          : vtkMorphQuality::Measure(kept.Mesh, output, kept.Orientation, monitor);
+          : filters::Quality::Measure(kept.Mesh, output, kept.Orientation, monitor);
   if (kept.Status != "Inverted" && quality.inverted + quality.degenerate > 0)
   {
     // The mesh in double precision is valid, and what is written is not.
@@ -520,35 +523,35 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const vtkMorphStepResul
                  std::to_string(quality.inverted + quality.degenerate) +
                  " cells. Set OutputPointsPrecision to double.");
   }
-  vtkMorphQuality::Write(quality, output);
-  vtkMorphQuality::RemoveCertificate(output);
+  filters::Quality::Write(quality, output);
+  filters::Quality::RemoveCertificate(output);
   if (this->Certify)
   {
     const morph::CertificateReport report =
-      vtkMorphQuality::Certify(kept.Mesh, output, kept.Orientation, {}, monitor);
-    vtkMorphQuality::Write(report, output);
+      filters::Quality::Certify(kept.Mesh, output, kept.Orientation, {}, monitor);
+    filters::Quality::Write(report, output);
     this->CertifiedCells = static_cast<vtkIdType>(report.certified);
     this->UncertifiedCells = static_cast<vtkIdType>(report.inverted);
     this->UndecidedCells = static_cast<vtkIdType>(report.undecided);
   }
-  vtkMorphBadCells::Extract(quality, output, badCells);
+  filters::BadCells::Extract(quality, output, badCells);
   this->MinScaledJacobian = quality.minimum;
   this->MeanScaledJacobian = quality.mean;
   this->InvertedCells = quality.inverted;
   this->DegenerateCells = quality.degenerate;
   this->WorstCellId = quality.worstCell;
   this->BoundaryInvertedCells = static_cast<vtkIdType>(result.BoundaryInverted);
-  vtkMorphOutput::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
-  vtkMorphQuality::WriteMirroredBodies(kept.Mirrored, output);
-  vtkMorphOutput::AddField(output, "PrepareSeconds", this->PrepareSeconds);
-  vtkMorphOutput::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
-  vtkMorphOutput::AddField(output, "SolverIterations", this->SolverIterations);
+  filters::Output::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
+  filters::Quality::WriteMirroredBodies(kept.Mirrored, output);
+  filters::Output::AddField(output, "PrepareSeconds", this->PrepareSeconds);
+  filters::Output::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
+  filters::Output::AddField(output, "SolverIterations", this->SolverIterations);
   for (const morph::Count& count : kept.Counts)
   {
-    vtkMorphOutput::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
+    filters::Output::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
   }
-  vtkMorphOutput::AddField(output, "MorphStatus", this->GetMorphStatus());
-  vtkMorphOutput::AddField(output, "LargestValidStep", this->LargestValidStep);
+  filters::Output::AddField(output, "MorphStatus", this->GetMorphStatus());
+  filters::Output::AddField(output, "LargestValidStep", this->LargestValidStep);
 }
 
 const char* vtkMorphAlgorithm::GetMorphStatus() const
@@ -559,12 +562,12 @@ const char* vtkMorphAlgorithm::GetMorphStatus() const
 bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
 {
-  vtkMorphCrewMonitor monitor(this, this->NumberOfThreads);
-  const vtkMorphExecution::Outcome outcome = vtkMorphExecution::Run(
+  filters::CrewMonitor monitor(this, this->NumberOfThreads);
+  const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "apply the adjoint",
     [&]
     {
-      this->Transpose(vtkMorphInput::RequireGrid(rest, "The mesh"), boundary, gradient,
+      this->Transpose(filters::Input::RequireGrid(rest, "The mesh"), boundary, gradient,
         boundaryGradient, monitor);
     },
     [&] { boundaryGradient->Initialize(); });
@@ -572,11 +575,11 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
   {
     vtkWarningMacro(<< warning);
   }
-  return outcome != vtkMorphExecution::Outcome::Failed;
+  return outcome != filters::Execution::Outcome::Failed;
 }
 
 void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor)
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   if (this->Stepping == RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
@@ -584,10 +587,10 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
   }
-  const morph::Points nodes = vtkMorphGradient::Require(gradient, rest->GetNumberOfPoints());
-  vtkPointSet* displaced = vtkMorphInput::RequireBoundary(boundary);
+  const morph::Points nodes = filters::Gradient::Require(gradient, rest->GetNumberOfPoints());
+  vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   kept.SetGrid(rest, monitor);
-  const vtkMorphBoundaryMatch::Result match = this->Match(displaced, 1, monitor);
+  const filters::BoundaryMatch::Result match = this->Match(displaced, 1, monitor);
   monitor.SetRange(0.05, 0.5);
   this->Prepare(kept.Mesh, morph::partitionNodes(kept.Mesh, match.Ids), monitor);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(kept.Morpher.get());
@@ -607,7 +610,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   this->SetEvaluateOptions(*linear);
   morph::Points prescribed;
   linear->applyTranspose(nodes, prescribed, monitor);
-  vtkMorphGradient::Gather(this->ScaleFactor * prescribed, match.Sources,
+  filters::Gradient::Gather(this->ScaleFactor * prescribed, match.Sources,
     vtkPointSet::SafeDownCast(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 

@@ -91,17 +91,20 @@ namespace morph
 struct Mesh;
 struct NodePartition;
 class Morpher;
-}
-namespace vtkMorphBoundaryMatch
+namespace filters
+{
+class Monitor;
+struct StepResult;
+namespace BoundaryMatch
 {
 struct Result;
+}
+}
 }
 
 class vtkDataArray;
 class vtkDoubleArray;
-class vtkMorphMonitor;
 class vtkPointSet;
-struct vtkMorphStepResult;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphAlgorithm : public vtkUnstructuredGridAlgorithm
 {
@@ -469,24 +472,25 @@ private:
   void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
   /// ApplyTranspose() that throws.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    vtkDoubleArray* boundaryGradient, vtkMorphMonitor& monitor);
+    vtkDoubleArray* boundaryGradient, morph::filters::Monitor& monitor);
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor);
+    vtkUnstructuredGrid* badCells, morph::filters::Monitor& monitor);
   /// Finds which nodes of the mesh that is kept go where, in that part of their motion.
-  vtkMorphBoundaryMatch::Result Match(
-    vtkPointSet* displaced, double part, vtkMorphMonitor& monitor) const;
+  morph::filters::BoundaryMatch::Result Match(
+    vtkPointSet* displaced, double part, morph::filters::Monitor& monitor) const;
   /// The step that is asked for, or null where the boundary is first needed at another time.
-  std::shared_ptr<const vtkMorphStepResult> MorphSeries(
-    vtkPointSet* displaced, vtkMorphMonitor& monitor);
+  std::shared_ptr<const morph::filters::StepResult> MorphSeries(
+    vtkPointSet* displaced, morph::filters::Monitor& monitor);
   /// `first`, `last`: of the progress.
-  vtkMorphStepResult MorphStep(const morph::Mesh& from, const vtkMorphBoundaryMatch::Result& match,
-    int validityMode, double first, double last, vtkMorphMonitor& monitor);
+  morph::filters::StepResult MorphStep(const morph::Mesh& from,
+    const morph::filters::BoundaryMatch::Result& match, int validityMode, double first, double last,
+    morph::filters::Monitor& monitor);
   /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or others.
-  void Prepare(
-    const morph::Mesh& from, const morph::NodePartition& partition, vtkMorphMonitor& monitor);
-  void Write(vtkUnstructuredGrid* grid, const vtkMorphStepResult& result,
-    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkMorphMonitor& monitor);
+  void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
+    morph::filters::Monitor& monitor);
+  void Write(vtkUnstructuredGrid* grid, const morph::filters::StepResult& result,
+    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::filters::Monitor& monitor);
 
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;

@@ -6,17 +6,17 @@
 #include "BoundaryMorphing/SurfaceImprovement.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Mesh/Topology.h"
+#include "Private/Data/Geometry.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Surface.h"
+#include "Private/Morph/BoundaryMatch.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Property.h"
+#include "Private/Project/Target.h"
 #include "Support/Error.h"
-#include "vtkMorphBoundaryMatch.h"
-#include "vtkMorphGeometry.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphOutput.h"
-#include "vtkMorphPorts.h"
-#include "vtkMorphProperty.h"
-#include "vtkMorphSurface.h"
-#include "vtkMorphTarget.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -34,19 +34,21 @@
 #include <algorithm>
 #include <limits>
 
+namespace filters = morph::filters;
+
 vtkStandardNewMacro(vtkMorphBoundary);
 
-vtkMorphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
-  vtkMorphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
-    vtkMorphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
-      vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
-        vtkMorphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
-          vtkMorphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
-            vtkMorphSetNumberMacro(vtkMorphBoundary, RestTime)
+morphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
+  morphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
+    morphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
+      morphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
+        morphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
+          morphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
+            morphSetNumberMacro(vtkMorphBoundary, RestTime)
 
               struct vtkMorphBoundary::vtkInternals
 {
-  vtkMorphPorts Ports;
+  filters::Ports Ports;
 };
 
 namespace
@@ -54,10 +56,10 @@ namespace
 using morph::Index;
 
 /// The nodes of `match` whose geometry has at most `dimension`.
-vtkMorphBoundaryMatch::Result upTo(
-  const vtkMorphBoundaryMatch::Result& match, const morph::Classification& geometry, int dimension)
+filters::BoundaryMatch::Result upTo(
+  const filters::BoundaryMatch::Result& match, const morph::Classification& geometry, int dimension)
 {
-  vtkMorphBoundaryMatch::Result result;
+  filters::BoundaryMatch::Result result;
   std::vector<Index> rows;
   for (std::size_t i = 0; i < match.Ids.size(); ++i)
   {
@@ -151,9 +153,9 @@ std::vector<Index> writeQuality(
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers would color by a point array that is active.
   output->GetPointData()->SetActiveScalars(nullptr);
-  vtkMorphOutput::AddField(output, "MinScaledJacobian", quality.minimum);
-  vtkMorphOutput::AddField(output, "MeanScaledJacobian", quality.mean);
-  vtkMorphOutput::AddField(output, "FoldedFaces", static_cast<int>(quality.folded.size()));
+  filters::Output::AddField(output, "MinScaledJacobian", quality.minimum);
+  filters::Output::AddField(output, "MeanScaledJacobian", quality.mean);
+  filters::Output::AddField(output, "FoldedFaces", static_cast<int>(quality.folded.size()));
   return folded;
 }
 
@@ -167,7 +169,7 @@ void warnOfNodes(morph::Monitor& monitor, const std::vector<Index>& nodes, const
 }
 
 vtkMorphBoundary::vtkMorphBoundary()
-  : Internals(new vtkInternals{ vtkMorphPorts(this) })
+  : Internals(new vtkInternals{ filters::Ports(this) })
 {
   this->SetNumberOfInputPorts(3);
   this->ResetResults();
@@ -202,20 +204,20 @@ void vtkMorphBoundary::SetTargetData(vtkDataObject* target)
 
 int vtkMorphBoundary::FillInputPortInformation(int port, vtkInformation* info)
 {
-  return vtkMorphPorts::FillInformation(port, info);
+  return filters::Ports::FillInformation(port, info);
 }
 
 int vtkMorphBoundary::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return vtkMorphPorts::RequestInformation(inputVector, outputVector);
+  return filters::Ports::RequestInformation(inputVector, outputVector);
 }
 
 int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   return this->Internals->Ports.RequestUpdateExtent(
-    this->RestTime, vtkMorphPorts::AskedTime(outputVector->GetInformationObject(0)), inputVector);
+    this->RestTime, filters::Ports::AskedTime(outputVector->GetInformationObject(0)), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(
@@ -223,52 +225,52 @@ int vtkMorphBoundary::RequestData(
 {
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const vtkMorphPorts::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
+  const filters::Ports::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
     [&] { this->ResetResults(); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkMorphMonitor& monitor)
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     { this->Morph(grid, boundary, target, output, monitor); },
     [&](vtkDataObject*, const char*)
     {
-      vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
-      vtkMorphOutput::AddField(output, "FoldedFaces", static_cast<int>(this->FoldedFaces));
+      filters::Output::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
+      filters::Output::AddField(output, "FoldedFaces", static_cast<int>(this->FoldedFaces));
     } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
 
 void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  vtkDataObject* target, vtkPolyData* output, vtkMorphMonitor& monitor)
+  vtkDataObject* target, vtkPolyData* output, filters::Monitor& monitor)
 {
-  vtkPointSet* given = vtkMorphInput::RequireBoundary(boundary);
+  vtkPointSet* given = filters::Input::RequireBoundary(boundary);
   vtkPolyData* targetSurface =
-    target ? vtkMorphInput::RequirePolyData(target, "The target") : nullptr;
-  const morph::Mesh mesh = vtkMorphMesh::FromGrid(grid);
-  vtkMorphInput::RequireVolumeCells(mesh);
+    target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
+  filters::Input::RequireVolumeCells(mesh);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
-  vtkMorphSurface::WarnOfNone(faces, monitor);
+  filters::Surface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
-  vtkMorphGeometry::Options options;
+  filters::Geometry::Options options;
   options.FeatureAngle = this->FeatureAngle;
   options.CornerAngle = this->CornerAngle;
   options.FeaturesInside = this->FeaturesInside;
-  options.SurfaceIdArray = vtkMorphInput::ArrayName(this->SurfaceIdArray);
+  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
   options.UseGeometryArrays = this->UseGeometryArrays;
   const morph::Classification geometry =
-    vtkMorphGeometry::Classify(grid, mesh, faces, options, monitor);
+    filters::Geometry::Classify(grid, mesh, faces, options, monitor);
 
-  vtkMorphBoundaryMatch::Options matching;
-  matching.BoundaryIdArray = vtkMorphInput::ArrayName(this->BoundaryIdArray);
-  matching.DisplacementArray = vtkMorphInput::ArrayName(this->DisplacementArray);
+  filters::BoundaryMatch::Options matching;
+  matching.BoundaryIdArray = filters::Input::ArrayName(this->BoundaryIdArray);
+  matching.DisplacementArray = filters::Input::ArrayName(this->DisplacementArray);
   matching.ScaleFactor = this->ScaleFactor;
   matching.MatchTolerance = this->MatchTolerance;
   matching.HoldUnnamedBoundary = false;
-  const double size = vtkMorphMesh::Size(mesh);
-  const vtkMorphBoundaryMatch::Result named =
-    vtkMorphBoundaryMatch::Match(given, mesh, faces, size, matching);
+  const double size = filters::GridMesh::Size(mesh);
+  const filters::BoundaryMatch::Result named =
+    filters::BoundaryMatch::Match(given, mesh, faces, size, matching);
   for (const std::string& warning : named.Warnings)
   {
     monitor.warn(warning);
   }
-  const vtkMorphBoundaryMatch::Result match = upTo(named, geometry, this->PrescribedDimension);
+  const filters::BoundaryMatch::Result match = upTo(named, geometry, this->PrescribedDimension);
 
   morph::SurfaceMorphOptions how;
   how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
@@ -281,12 +283,12 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
 
   monitor.SetRange(0.2, 0.3);
   morph::morphCurves(geometry, how.unattached, motion, monitor);
-  std::unique_ptr<vtkMorphTarget> place;
+  std::unique_ptr<filters::Target> place;
   morph::ProjectionReport onCurves, onSurfaces;
   if (targetSurface)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<vtkMorphTarget>(targetSurface, this->FeatureAngle,
+    place = std::make_unique<filters::Target>(targetSurface, this->FeatureAngle,
       this->ProjectionAngle, this->ProjectionDistance * size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
@@ -308,16 +310,16 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   }
   monitor.SetRange(0.9, 1);
 
-  const bool isFloat = vtkMorphOutput::IsFloat(grid, this->OutputPointsPrecision);
+  const bool isFloat = filters::Output::IsFloat(grid, this->OutputPointsPrecision);
   morph::Points moved = motion.moved();
-  vtkMorphOutput::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
+  filters::Output::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
   if (isFloat)
   {
     moved = moved.cast<float>().cast<double>().eval();
   }
-  const std::vector<Index> faceOf = vtkMorphSurface::Write(grid, mesh, faces, output);
-  vtkMorphGeometry::AddPointArrays(geometry, faces.nodes, output->GetPointData());
-  vtkMorphGeometry::AddSurfaceIds(geometry, faceOf, output);
+  const std::vector<Index> faceOf = filters::Surface::Write(grid, mesh, faces, output);
+  filters::Geometry::AddPointArrays(geometry, faces.nodes, output->GetPointData());
+  filters::Geometry::AddSurfaceIds(geometry, faceOf, output);
   writeMotion(mesh.points, moved, faces.nodes, isFloat, output);
 
   const morph::FaceQuality quality = morph::faceQuality(mesh.points, moved, faces, geometry);
@@ -325,8 +327,8 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   this->MinScaledJacobian = quality.minimum;
   this->MeanScaledJacobian = quality.mean;
   this->FoldedFaces = static_cast<vtkIdType>(quality.folded.size());
-  vtkMorphOutput::AddField(output, "ProjectedPoints", static_cast<int>(this->ProjectedPoints));
-  vtkMorphOutput::AddField(output, "UnprojectedPoints", static_cast<int>(this->UnprojectedPoints));
+  filters::Output::AddField(output, "ProjectedPoints", static_cast<int>(this->ProjectedPoints));
+  filters::Output::AddField(output, "UnprojectedPoints", static_cast<int>(this->UnprojectedPoints));
   warnOfNodes(monitor, folded,
     "Faces of the moved boundary are folded, and no cell behind them can be valid: the output's "
     "cell ids ");
@@ -341,7 +343,8 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
 }
 
 void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
-  const morph::ProjectionReport& onSurfaces, const vtkMorphTarget& target, vtkMorphMonitor& monitor)
+  const morph::ProjectionReport& onSurfaces, const filters::Target& target,
+  filters::Monitor& monitor)
 {
   const auto both = [](const std::vector<Index>& a, const std::vector<Index>& b)
   { return static_cast<vtkIdType>(a.size()) + static_cast<vtkIdType>(b.size()); };

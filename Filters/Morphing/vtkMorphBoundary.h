@@ -63,11 +63,14 @@
 namespace morph
 {
 struct ProjectionReport;
+namespace filters
+{
+class Monitor;
+class Target;
+}
 }
 
 class vtkDataObject;
-class vtkMorphMonitor;
-class vtkMorphTarget;
 class vtkUnstructuredGrid;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphBoundary : public vtkPolyDataAlgorithm
@@ -261,10 +264,10 @@ private:
 
   void ResetResults();
   void ReportProjection(const morph::ProjectionReport& onCurves,
-    const morph::ProjectionReport& onSurfaces, const vtkMorphTarget& target,
-    vtkMorphMonitor& monitor);
+    const morph::ProjectionReport& onSurfaces, const morph::filters::Target& target,
+    morph::filters::Monitor& monitor);
   void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkDataObject* target,
-    vtkPolyData* output, vtkMorphMonitor& monitor);
+    vtkPolyData* output, morph::filters::Monitor& monitor);
 
   int PrescribedDimension = 1;
   int SurfaceMethod = WEIGHTED_RESIDUAL;

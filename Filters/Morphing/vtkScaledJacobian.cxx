@@ -3,13 +3,13 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
-#include "vtkMorphExecution.h"
-#include "vtkMorphInput.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphMonitor.h"
-#include "vtkMorphOutput.h"
-#include "vtkMorphQuality.h"
-#include "vtkMorphRanks.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Quality.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ranks.h"
 
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
@@ -29,6 +29,8 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+
+namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkScaledJacobian);
 
@@ -92,14 +94,14 @@ int vtkScaledJacobian::RequestData(
   clear();
   // On every process, before anything can fail there: one of several may well have no cells.
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  const bool isEmpty = vtkMorphRanks::Count(grid && grid->GetNumberOfCells() > 0) == 0;
-  const vtkMorphExecution::Outcome outcome = vtkMorphExecution::Run(
+  const bool isEmpty = filters::Ranks::Count(grid && grid->GetNumberOfCells() > 0) == 0;
+  const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "measure this mesh",
-    [&] { this->Measure(vtkMorphInput::RequireGrid(input, "The input"), output); }, clear);
-  if (outcome != vtkMorphExecution::Outcome::Done)
+    [&] { this->Measure(filters::Input::RequireGrid(input, "The input"), output); }, clear);
+  if (outcome != filters::Execution::Outcome::Done)
   {
-    vtkMorphOutput::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
-    vtkMorphOutput::AddField(output, "InvertedCells", this->InvertedCells);
+    filters::Output::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
+    filters::Output::AddField(output, "InvertedCells", this->InvertedCells);
   }
   else if (isEmpty)
   {
@@ -110,8 +112,9 @@ int vtkScaledJacobian::RequestData(
 
 void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 {
-  vtkMorphMonitor monitor(this, this->NumberOfThreads);
-  const morph::Mesh mesh = vtkMorphMesh::FromGrid(input, vtkMorphMesh::UnknownCells::Keep);
+  filters::Monitor monitor(this, this->NumberOfThreads);
+  const morph::Mesh mesh =
+    filters::GridMesh::FromGrid(input, filters::GridMesh::UnknownCells::Keep);
   const morph::Bodies bodies = morph::bodies(mesh);
   const std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
 
@@ -123,19 +126,20 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
     [&](std::uint8_t type) { return dimension[type] < highest; });
 
   output->ShallowCopy(input);
-  const morph::Quality quality = vtkMorphQuality::Measure(mesh, output, orientation, skip, monitor);
-  vtkMorphQuality::Write(quality, output);
-  vtkMorphQuality::RemoveCertificate(output);
+  const morph::Quality quality =
+    filters::Quality::Measure(mesh, output, orientation, skip, monitor);
+  filters::Quality::Write(quality, output);
+  filters::Quality::RemoveCertificate(output);
   if (this->Certify)
   {
-    const morph::CertificateReport report = vtkMorphQuality::Certify(mesh, output, orientation,
+    const morph::CertificateReport report = filters::Quality::Certify(mesh, output, orientation,
       highest == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
-    vtkMorphQuality::Write(report, output);
+    filters::Quality::Write(report, output);
     this->Keep(report);
   }
 
-  const vtkIdType mirrored = vtkMorphQuality::MirroredBodies(bodies, orientation);
-  vtkMorphQuality::WriteMirroredBodies(mirrored, output);
+  const vtkIdType mirrored = filters::Quality::MirroredBodies(bodies, orientation);
+  filters::Quality::WriteMirroredBodies(mirrored, output);
 
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
   std::array<vtkIdType, 256> unmeasured{};

@@ -2,7 +2,7 @@
 #include "vtkSimplexNaturalNeighborMorph.h"
 
 #include "LinearMethods/SimplexNaturalNeighbor.h"
-#include "vtkMorphProperty.h"
+#include "Private/Pipeline/Property.h"
 
 #include <vtkObjectFactory.h>
 
@@ -10,7 +10,7 @@
 
 vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
 
-vtkMorphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
+morphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
 
   vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
 vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSmoothingMorph.h"
 
+#include "Private/Pipeline/Property.h"
 #include "Untangling/Smoothing.h"
-#include "vtkMorphProperty.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkSmoothingMorph);
 
-vtkMorphSetNumberMacro(vtkSmoothingMorph, StopMove, 1e-12, 1.0)
+morphSetNumberMacro(vtkSmoothingMorph, StopMove, 1e-12, 1.0)
 
   vtkSmoothingMorph::vtkSmoothingMorph() = default;
 vtkSmoothingMorph::~vtkSmoothingMorph() = default;

@@ -2,7 +2,7 @@
 #include "ReadProblem.h"
 
 #include "Mesh/Topology.h"
-#include "vtkMorphMesh.h"
+#include "Private/Data/GridMesh.h"
 
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -37,12 +37,12 @@ Problem readProblem(const std::string& file)
 
   Problem problem;
   problem.name = file.substr(file.find_last_of('/') + 1);
-  problem.mesh = vtkMorphMesh::FromGrid(grid);
+  problem.mesh = morph::filters::GridMesh::FromGrid(grid);
   morph::Monitor monitor;
   problem.partition =
     morph::partitionNodes(problem.mesh, morph::boundaryFaces(problem.mesh, monitor).nodes);
-  problem.size = vtkMorphMesh::Size(problem.mesh);
-  const morph::Points moved = problem.mesh.points + vtkMorphMesh::FromVectors(motion);
+  problem.size = morph::filters::GridMesh::Size(problem.mesh);
+  const morph::Points moved = problem.mesh.points + morph::filters::GridMesh::FromVectors(motion);
   const std::vector<morph::Index>& prescribed = problem.partition.prescribed;
   problem.target.resize(static_cast<morph::Index>(prescribed.size()), 3);
   for (std::size_t i = 0; i < prescribed.size(); ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Threads.h"
 
-#include "vtkMorphCrewMonitor.h"
+#include "Private/Pipeline/CrewMonitor.h"
 
 #include <algorithm>
 #include <thread>
@@ -10,7 +10,7 @@ namespace benchmark
 {
 std::unique_ptr<morph::Monitor> makeMonitor(int threads)
 {
-  return std::make_unique<vtkMorphCrewMonitor>(nullptr, threads);
+  return std::make_unique<morph::filters::CrewMonitor>(nullptr, threads);
 }
 
 int numberOfCores()

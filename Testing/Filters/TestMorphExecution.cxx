@@ -2,11 +2,11 @@
 // Threads, progress, abort, and what becomes of exceptions.
 #include "TestGrids.h"
 
+#include "Private/Pipeline/CrewMonitor.h"
+#include "Private/Pipeline/Execution.h"
 #include "Support/Error.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
-#include "vtkMorphCrewMonitor.h"
-#include "vtkMorphExecution.h"
 #include "vtkScaledJacobian.h"
 
 #include <vtkCallbackCommand.h>
@@ -184,9 +184,9 @@ TEST(MorphExecution, WhateverIsThrownBecomesOneError)
   grids::Listener listener(filter);
   int cleared = 0;
   const auto run = [&](const std::function<void()>& work)
-  { return vtkMorphExecution::Run(filter, "test this", work, [&cleared] { ++cleared; }); };
+  { return morph::filters::Execution::Run(filter, "test this", work, [&cleared] { ++cleared; }); };
 
-  using Outcome = vtkMorphExecution::Outcome;
+  using Outcome = morph::filters::Execution::Outcome;
   EXPECT_EQ(run([] {}), Outcome::Done);
   EXPECT_EQ(cleared, 0);
   EXPECT_TRUE(listener.Errors.empty());
@@ -213,7 +213,7 @@ template <typename Monitor>
 class MorphMonitors : public testing::Test
 {
 };
-using BothMonitors = testing::Types<vtkMorphMonitor, vtkMorphCrewMonitor>;
+using BothMonitors = testing::Types<morph::filters::Monitor, morph::filters::CrewMonitor>;
 TYPED_TEST_SUITE(MorphMonitors, BothMonitors);
 
 TYPED_TEST(MorphMonitors, RangesCoverEverythingOnceAndKeepTheGrain)
@@ -294,7 +294,7 @@ TEST(MorphExecution, ResultsDoNotDependOnTheBackend)
 
 TEST(MorphCrewMonitor, ThousandsOfShortLoops)
 {
-  vtkMorphCrewMonitor monitor(nullptr, 2);
+  morph::filters::CrewMonitor monitor(nullptr, 2);
   std::vector<double> sum(1000, 0);
   for (int loop = 0; loop < 20000; ++loop)
   {
@@ -336,7 +336,7 @@ TEST(MorphMonitor, ProgressIsMappedAndNeverFalls)
   vtkNew<vtkFEMWarpMorph> filter;
   std::vector<double> values;
   OnProgress observer(filter, [&values](double value) { values.push_back(value); });
-  vtkMorphMonitor monitor(filter, 1);
+  morph::filters::Monitor monitor(filter, 1);
   monitor.SetRange(0, 0.5);
   monitor.progress(0.5);
   monitor.progress(0.1);
@@ -348,7 +348,7 @@ TEST(MorphMonitor, ProgressIsMappedAndNeverFalls)
 
 TEST(MorphMonitor, WarningsAreKeptOnce)
 {
-  vtkMorphMonitor monitor(nullptr, 1);
+  morph::filters::Monitor monitor(nullptr, 1);
   monitor.warn("a");
   monitor.warn("b");
   monitor.warn("a");

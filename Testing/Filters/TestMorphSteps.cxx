@@ -4,10 +4,10 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
+#include "Private/Morph/Series.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAlgorithm.h"
-#include "vtkMorphSeries.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkWeightedResidualMorph.h"
 
@@ -448,25 +448,27 @@ TEST(MorphSeries, AMillionStepsAreKeptInTimeLinearInTheirNumber)
 {
   // A walk over all that is kept, for each step, takes hours.
   constexpr int Steps = 1000000;
-  const auto step = std::make_shared<const vtkMorphStepResult>();
+  const auto step = std::make_shared<const morph::filters::StepResult>();
   for (const double megabytes : { 1000., 1e-3, 0. })
   {
-    vtkMorphSeries series;
+    morph::filters::Series series;
     for (int i = 0; i <= Steps; ++i)
     {
       series.Keep(i, step, megabytes);
     }
     EXPECT_EQ(series.LastUntil(Steps).first, Steps);
     const int kept = series.LastUntil(Steps / 2 + 1).first;
-    EXPECT_GE(kept, megabytes > 1 ? Steps / 2 + 1 : megabytes > 0 ? Steps / 2 - 2 * Steps / 1000 : -1);
+    EXPECT_GE(kept, megabytes > 1   ? Steps / 2 + 1
+                    : megabytes > 0 ? Steps / 2 - 2 * Steps / 1000
+                                    : -1);
   }
 }
 
 TEST(MorphSeries, WhatIsBetweenStridesIsKeptOnlyWhileItIsTheLast)
 {
-  auto step = std::make_shared<vtkMorphStepResult>();
+  auto step = std::make_shared<morph::filters::StepResult>();
   step->Moved.resize(1000, 3); // 24,000 bytes
-  vtkMorphSeries series;
+  morph::filters::Series series;
   for (int i = 0; i <= 9; ++i)
   {
     series.Keep(i, step, 0.072); // three of them

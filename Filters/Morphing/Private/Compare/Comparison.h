@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vtkType.h>
+
+#include <string>
+#include <vector>
+
+class vtkMorphAlgorithm;
+class vtkTable;
+
+namespace morph::filters
+{
+/// What vtkCompareMorphMethods finds out about one method in one stepping.
+struct MethodRun
+{
+  struct Step
+  {
+    double Time;
+    double Minimum, Mean, Low; ///< scaled Jacobians; Low: the percentile
+    vtkIdType Inverted, Degenerate, BoundaryInverted;
+    double PrepareSeconds, EvaluateSeconds;
+  };
+  std::string Method;
+  std::string Stepping;
+  std::vector<Step> Steps; ///< one for each that gave a mesh
+  std::string Failure;     ///< what ended the run before its last step
+  vtkIdType BadAtRest = 0; ///< inverted and degenerate cells of the mesh itself
+  double PeakMegabytes = 0;
+  int Rank = 0; ///< 1 is best
+
+  std::string Title() const;
+  /// How many steps from the first on have no more inverted and degenerate cells than the mesh at rest.
+  int ValidSteps() const;
+  /// Of the last of these; NaN where there is none.
+  double LastValidMinimum() const;
+  double Seconds() const;
+};
+
+namespace Comparison
+{
+/// What a filter has just computed. `percentile`: see vtkCompareMorphMethods.
+MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
+
+/// Gives every run its rank: by valid steps, then by the least scaled Jacobian at the last of them, to 0.01, then by
+/// seconds, then by order.
+void Rank(std::vector<MethodRun>& runs);
+
+/// A row for each run and step.
+void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output);
+/// A row for each of `times`, a column of least scaled Jacobians for each run.
+void WriteChart(
+  const std::vector<MethodRun>& runs, const std::vector<double>& times, vtkTable* output);
+/// A row for each run, best first. `steps`: how many there are.
+void WriteRanking(const std::vector<MethodRun>& runs, int steps, vtkTable* output);
+}
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Data/DataCheck.h"
+
+#include "Support/Error.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+
+void requireLengths(
+  vtkDataSetAttributes* data, vtkIdType count, const std::string& subject, const char* what)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array && array->GetNumberOfTuples() < count)
+    {
+      const char* name = array->GetName();
+      throw Error(subject + "'s " + what + " array '" + (name ? name : "(no name)") + "' has " +
+                  std::to_string(array->GetNumberOfTuples()) + " tuples for " +
+                  std::to_string(count) + " " + what +
+                  "s. Give it one for each, or remove the array.");
+    }
+  }
+}
+
+/// `first`: the id of the first of these cells in their data set.
+void requireCells(
+  vtkCellArray* cells, vtkIdType first, vtkIdType points, const std::string& subject)
+{
+  if (!cells || (cells->GetNumberOfCells() == 0 && cells->GetNumberOfConnectivityIds() == 0))
+  {
+    return;
+  }
+  if (!cells->IsValid())
+  {
+    throw Error(subject +
+                "'s cell offsets do not match its connectivity. Write the cells again, with "
+                "offsets that start at 0 and do not decrease.");
+  }
+  std::vector<Index> wrong;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    cells->GetCellAtId(c, ids);
+    const vtkIdType* begin = ids->GetPointer(0);
+    if (!std::all_of(begin, begin + ids->GetNumberOfIds(),
+          [points](vtkIdType id) { return id >= 0 && id < points; }))
+    {
+      wrong.push_back(first + c);
+    }
+  }
+  if (!wrong.empty())
+  {
+    throw Error(subject + " has cells that name points outside 0 to " + std::to_string(points - 1) +
+                ": cell ids " + morph::listIds(wrong) + ". Correct or remove these cells.");
+  }
+}
+
+void requireTypes(vtkUnstructuredGrid* grid, const std::string& subject)
+{
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  const vtkIdType count = types ? types->GetNumberOfValues() : 0;
+  if (grid->GetNumberOfCells() < 0)
+  {
+    throw Error(subject + "'s cells have no offsets, not even the first 0. Write the cells again.");
+  }
+  if (count < grid->GetNumberOfCells())
+  {
+    throw Error(subject + " has " + std::to_string(count) + " cell types for " +
+                std::to_string(grid->GetNumberOfCells()) + " cells. Give one for each.");
+  }
+}
+
+/// Bounds of what is finite, and the points beyond Largest.
+class Range
+{
+public:
+  void Add(Index point, int axis, double value)
+  {
+    const double size = std::abs(value);
+    if (size <= DataCheck::Largest)
+    {
+      this->Low[axis] = std::min(this->Low[axis], value);
+      this->High[axis] = std::max(this->High[axis], value);
+    }
+    else if (std::isfinite(value) && (this->Huge.empty() || this->Huge.back() != point))
+    {
+      this->Huge.push_back(point);
+    }
+  }
+  const std::vector<Index>& Beyond() const { return this->Huge; }
+  double LargestSide() const
+  {
+    double side = 0;
+    for (int j = 0; j < 3; ++j)
+    {
+      side = std::max(side, this->High[j] - this->Low[j]);
+    }
+    return side;
+  }
+
+private:
+  static constexpr double Infinity = std::numeric_limits<double>::infinity();
+  double Low[3] = { Infinity, Infinity, Infinity };
+  double High[3] = { -Infinity, -Infinity, -Infinity };
+  std::vector<Index> Huge;
+};
+
+template <typename Value>
+void addValues(const Value* values, vtkIdType points, Range& range)
+{
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      range.Add(i, j, static_cast<double>(values[3 * i + j]));
+    }
+  }
+}
+
+void requirePoints(vtkDataArray* points, const std::string& subject)
+{
+  if (points->GetNumberOfComponents() != 3)
+  {
+    throw Error(subject + "'s points have " + std::to_string(points->GetNumberOfComponents()) +
+                " coordinates; three are needed.");
+  }
+  Range range;
+  const vtkIdType count = points->GetNumberOfTuples();
+  if (auto* doubles = vtkDoubleArray::FastDownCast(points))
+  {
+    addValues(doubles->GetPointer(0), count, range);
+  }
+  else if (auto* floats = vtkFloatArray::FastDownCast(points))
+  {
+    addValues(floats->GetPointer(0), count, range);
+  }
+  else
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        range.Add(i, j, points->GetComponent(i, j));
+      }
+    }
+  }
+  if (!range.Beyond().empty())
+  {
+    throw Error(subject + " has coordinates above 1e50, at point ids " +
+                morph::listIds(range.Beyond()) + ". Use another unit, or correct them.");
+  }
+  DataCheck::RequireExtent(range.LargestSide(), subject.c_str());
+}
+}
+
+namespace DataCheck
+{
+void Require(vtkDataObject* data, const char* subject, Cells cells)
+{
+  auto* set = vtkPointSet::SafeDownCast(data);
+  if (!set)
+  {
+    return;
+  }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(set);
+  auto* surface = vtkPolyData::SafeDownCast(set);
+  if (grid)
+  {
+    requireTypes(grid, subject);
+  }
+  requireLengths(set->GetPointData(), set->GetNumberOfPoints(), subject, "point");
+  requireLengths(set->GetCellData(), set->GetNumberOfCells(), subject, "cell");
+  if (grid && cells == Cells::Here)
+  {
+    requireCells(grid->GetCells(), 0, grid->GetNumberOfPoints(), subject);
+  }
+  if (surface)
+  {
+    vtkIdType first = 0;
+    for (vtkCellArray* kind :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      requireCells(kind, first, surface->GetNumberOfPoints(), subject);
+      first += kind->GetNumberOfCells();
+    }
+  }
+  if (set->GetPoints())
+  {
+    requirePoints(set->GetPoints()->GetData(), subject);
+  }
+}
+
+bool IsModerate(const Eigen::RowVector3d& x)
+{
+  // Written so that a NaN is not.
+  return (x.array().abs() <= Largest).all();
+}
+
+std::vector<Index> Immoderate(const morph::Points& x)
+{
+  std::vector<Index> rows;
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    if (!IsModerate(x.row(i)))
+    {
+      rows.push_back(i);
+    }
+  }
+  return rows;
+}
+
+void RequireExtent(double size, const char* subject)
+{
+  if (size > 0 && size < Smallest)
+  {
+    std::ostringstream text;
+    text << subject << " is only " << size
+         << " long, less than 1e-50. Use another unit, or correct its coordinates.";
+    throw Error(text.str());
+  }
+}
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+class vtkDataArray;
+class vtkPoints;
+class vtkUnstructuredGrid;
+
+/// Between vtkUnstructuredGrid and morph::Mesh.
+namespace morph::filters::GridMesh
+{
+/// What to do with cells of a type the core does not know (polyhedra, Lagrange cells, ...).
+enum class UnknownCells
+{
+  Refuse, ///< throw morph::Error that names the type and the cells
+  Keep    ///< copy them; the core measures and morphs nothing in them
+};
+
+/// A copy of the grid's points (float, double or any other type) and cells. Throws morph::Error
+/// where morph::validate would: node ids that do not exist, coordinates that are not finite, wrong
+/// cell sizes. Cost: one pass over the grid; 24 bytes a point and 8 bytes a connectivity entry.
+morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
+
+/// `points` as double, #points x 3. A null pointer gives 0 x 3.
+morph::Points FromPoints(vtkPoints* points);
+
+/// The first three components of each tuple as double, #tuples x 3. The array needs at least three.
+morph::Points FromVectors(vtkDataArray* vectors);
+
+/// Diagonal of the bounding box of the nodes that volume cells use.
+double Size(const morph::Mesh& mesh);
+
+/// Whether the grid's cells (points) are, number by number, those `mesh` was copied from. Nothing
+/// is allocated; ends at the first difference.
+bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
+bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
+}

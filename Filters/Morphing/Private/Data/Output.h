@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+#include <vtkType.h>
+
+class vtkDataObject;
+class vtkPointSet;
+class vtkUnstructuredGrid;
+
+/// The moved mesh as every morphing filter writes it.
+namespace morph::filters::Output
+{
+/// Makes `output` a shallow copy of `input` with new points, #nodes x 3, and the point vectors
+/// `MorphDisplacement`, the points as written minus `rest`. `precision`:
+/// vtkAlgorithm::SINGLE_PRECISION and so on, for both arrays. Throws as RequireWritable() does.
+void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
+  int precision, vtkUnstructuredGrid* output);
+
+/// Whether points for `input` are written as float at this precision.
+bool IsFloat(vtkPointSet* input, int precision);
+
+/// Throws morph::Error where a row of `moved` is not finite or beyond what DataCheck
+/// allows, or, with `isFloat`, it or its difference from `rest` beyond what a float holds. Both
+/// #nodes x 3. `what`: whose positions they are.
+void RequireWritable(
+  const morph::Points& rest, const morph::Points& moved, bool isFloat, const char* what);
+
+/// Field data of one number or text; replaces an array of that name.
+void AddField(vtkDataObject* output, const char* name, double value);
+void AddField(vtkDataObject* output, const char* name, int value);
+void AddField(vtkDataObject* output, const char* name, vtkIdType value);
+void AddField(vtkDataObject* output, const char* name, const char* value);
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Data/Quality.h"
+
+#include "Private/Data/GridMesh.h"
+
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+template <typename Array, typename Value>
+void addField(vtkFieldData* fields, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fields->AddArray(array);
+}
+
+void skipGhosts(
+  const morph::Mesh& mesh, vtkUnstructuredGrid* output, std::vector<std::uint8_t>& skip)
+{
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    output->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!ghosts)
+  {
+    return;
+  }
+  skip.resize(mesh.numberOfCells(), 0);
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    skip[c] |= ghosts->GetValue(c) &
+               (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL);
+  }
+}
+
+/// Calls body with the grid's points, copied only where they are not double.
+template <typename Body>
+auto withPoints(vtkUnstructuredGrid* grid, Body&& body)
+{
+  vtkPoints* points = grid->GetPoints();
+  if (auto* doubles = points ? vtkDoubleArray::FastDownCast(points->GetData()) : nullptr)
+  {
+    return body(
+      Eigen::Map<const morph::Points>(doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3));
+  }
+  return body(GridMesh::FromPoints(points));
+}
+}
+
+namespace Quality
+{
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, morph::Monitor& monitor)
+{
+  return Measure(mesh, output, orientation, {}, monitor);
+}
+
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  morph::Monitor& monitor)
+{
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
+}
+
+morph::Index MirroredBodies(
+  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation)
+{
+  std::vector<bool> mirrored(bodies.count, false);
+  for (std::size_t c = 0; c < orientation.size(); ++c)
+  {
+    if (orientation[c] < 0)
+    {
+      mirrored[bodies.ofCell[c]] = true;
+    }
+  }
+  return std::count(mirrored.begin(), mirrored.end(), true);
+}
+
+void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output)
+{
+  addField<vtkIdTypeArray>(output->GetFieldData(), "MirroredBodies", count);
+}
+
+bool IsThatOfComputed(vtkUnstructuredGrid* output)
+{
+  return output->GetPoints()->GetDataType() == VTK_DOUBLE &&
+         !output->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName());
+}
+
+morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  morph::Monitor& monitor)
+{
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::certify(mesh, written, orientation, skip, monitor); });
+}
+
+void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("ScaledJacobian");
+  values->SetNumberOfValues(static_cast<vtkIdType>(quality.scaledJacobian.size()));
+  std::copy(quality.scaledJacobian.begin(), quality.scaledJacobian.end(), values->GetPointer(0));
+  output->GetCellData()->AddArray(values);
+  output->GetCellData()->SetActiveScalars("ScaledJacobian");
+  // Viewers prefer active point scalars to active cell scalars.
+  output->GetPointData()->SetActiveScalars(nullptr);
+
+  vtkFieldData* fields = output->GetFieldData();
+  addField<vtkDoubleArray>(fields, "MinScaledJacobian", quality.minimum);
+  addField<vtkDoubleArray>(fields, "MeanScaledJacobian", quality.mean);
+  addField<vtkIdTypeArray>(fields, "InvertedCells", quality.inverted);
+  addField<vtkIdTypeArray>(fields, "DegenerateCells", quality.degenerate);
+  addField<vtkIdTypeArray>(fields, "WorstCellId", quality.worstCell);
+}
+
+void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkSignedCharArray> values;
+  values->SetName("JacobianCertificate");
+  values->SetNumberOfValues(static_cast<vtkIdType>(report.cells.size()));
+  std::transform(report.cells.begin(), report.cells.end(), values->GetPointer(0),
+    [](morph::Certificate found) { return static_cast<signed char>(found); });
+  output->GetCellData()->AddArray(values);
+
+  vtkFieldData* fields = output->GetFieldData();
+  addField<vtkIdTypeArray>(fields, "CertifiedCells", report.certified);
+  addField<vtkIdTypeArray>(fields, "UncertifiedCells", report.inverted);
+  addField<vtkIdTypeArray>(fields, "UndecidedCells", report.undecided);
+}
+
+void RemoveCertificate(vtkUnstructuredGrid* output)
+{
+  output->GetCellData()->RemoveArray("JacobianCertificate");
+  for (const char* name : { "CertifiedCells", "UncertifiedCells", "UndecidedCells" })
+  {
+    output->GetFieldData()->RemoveArray(name);
+  }
+}
+}
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Data/Surface.h"
+
+#include "Private/Data/Faces.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <map>
+
+namespace morph::filters
+{
+namespace
+{
+/// The pieces of each face of each cell type, made when first asked for.
+class FacePieces
+{
+public:
+  /// Those of boundary face `face`.
+  const std::vector<Faces::Polygon>& Of(
+    const morph::Mesh& mesh, const morph::BoundaryFaces& faces, morph::Index face)
+  {
+    const morph::Index cell = faces.cells[face];
+    const morph::CellShape& shape = *morph::cellShape(mesh.types[cell]);
+    auto& pieces = this->ByType[mesh.types[cell]];
+    if (pieces.empty())
+    {
+      for (int f = 0; f < shape.numberOfFaces; ++f)
+      {
+        pieces.push_back(Faces::Pieces(shape, f));
+      }
+    }
+    return pieces[faces.sides[face]];
+  }
+
+private:
+  std::map<std::uint8_t, std::vector<std::vector<Faces::Polygon>>> ByType;
+};
+
+void writePoints(
+  vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nodes, vtkPolyData* output)
+{
+  const vtkIdType count = static_cast<vtkIdType>(nodes.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(grid->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName(Surface::IdName);
+  ids->SetNumberOfValues(count);
+  vtkNew<vtkDoubleArray> rest;
+  rest->SetName(Surface::RestName);
+  rest->SetNumberOfComponents(4);
+  rest->SetNumberOfTuples(count);
+  const char* components[] = { "X", "Y", "Z", "W" };
+  for (int j = 0; j < 4; ++j)
+  {
+    rest->SetComponentName(j, components[j]);
+  }
+
+  vtkPointData* from = grid->GetPointData();
+  vtkPointData* to = output->GetPointData();
+  to->CopyGlobalIdsOn();
+  to->CopyPedigreeIdsOn();
+  to->CopyAllocate(from, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double x[4] = { 0, 0, 0, 1 };
+    grid->GetPoint(nodes[i], x);
+    points->SetPoint(i, x);
+    ids->SetValue(i, nodes[i]);
+    rest->SetTypedTuple(i, x);
+    to->CopyData(from, nodes[i], i);
+  }
+  to->AddArray(ids);
+  to->AddArray(rest);
+  output->SetPoints(points);
+}
+
+std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, vtkPolyData* output)
+{
+  std::vector<vtkIdType> number(mesh.numberOfNodes(), -1);
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    number[faces.nodes[i]] = static_cast<vtkIdType>(i);
+  }
+  const std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkIdTypeArray> owners;
+  owners->SetName("MorphCellId");
+  vtkCellData* from = grid->GetCellData();
+  vtkCellData* to = output->GetCellData();
+  to->CopyGlobalIdsOff();
+  to->CopyAllocate(from, static_cast<vtkIdType>(faces.cells.size()));
+
+  std::vector<morph::Index> faceOf;
+  FacePieces pieces;
+  std::vector<vtkIdType> points;
+  for (std::size_t face = 0; face < faces.cells.size(); ++face)
+  {
+    const morph::Index owner = faces.cells[face];
+    for (const auto& polygon : pieces.Of(mesh, faces, static_cast<morph::Index>(face)))
+    {
+      points.clear();
+      for (int place : polygon)
+      {
+        points.push_back(number[mesh.cell(owner)[place]]);
+      }
+      // A collapsed cell repeats nodes.
+      points.erase(std::unique(points.begin(), points.end()), points.end());
+      if (points.size() > 1 && points.front() == points.back())
+      {
+        points.pop_back();
+      }
+      if (points.size() < 3)
+      {
+        continue;
+      }
+      if (orientation[owner] < 0)
+      {
+        std::reverse(points.begin(), points.end());
+      }
+      const vtkIdType cell =
+        polygons->InsertNextCell(static_cast<vtkIdType>(points.size()), points.data());
+      owners->InsertNextValue(owner);
+      faceOf.push_back(static_cast<morph::Index>(face));
+      to->CopyData(from, owner, cell);
+    }
+  }
+  to->AddArray(owners);
+  output->SetPolys(polygons);
+  return faceOf;
+}
+}
+
+namespace Surface
+{
+std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, vtkPolyData* output)
+{
+  writePoints(grid, faces.nodes, output);
+  return writePolygons(grid, mesh, faces, output);
+}
+
+void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor)
+{
+  if (faces.nodes.empty())
+  {
+    monitor.warn("The boundary is empty: every face of the input's cells belongs to two cells or "
+                 "more, as where each cell is there twice. Remove the cells that repeat others.");
+  }
+}
+}
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+/// The outer boundary of a grid as polygons that remember their nodes.
+namespace morph::filters::Surface
+{
+/// The point arrays that vtkExtractMorphBoundary writes.
+constexpr const char* IdName = "MorphPointId";
+/// Four components, X, Y, Z and 1: vtkTransformFilter, as ParaView's Transform runs it, takes every
+/// point array of three components for a vector and would rotate it.
+constexpr const char* RestName = "RestPosition";
+
+/// Fills `output` with faces.nodes as points, at rest, and the faces as polygons, as
+/// vtkExtractMorphBoundary describes them: point arrays of the grid, MorphPointId and RestPosition,
+/// cell arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. Returns for each
+/// polygon the number of its face: a face of a quadratic cell becomes several polygons.
+std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, vtkPolyData* output);
+
+/// Warns where a mesh has cells but no outer face, so that its boundary is empty.
+void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor);
+}

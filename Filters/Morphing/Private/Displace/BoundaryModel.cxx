@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/BoundaryModel.h"
+
+#include "Boundary/FaceAreas.h"
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Private/Pipeline/Input.h"
+#include "Support/Error.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+
+/// What the geometry of an input depends on beside its points and faces.
+std::string geometryKey(vtkPointSet* input, const Geometry::Options& options)
+{
+  std::ostringstream key;
+  key.precision(17);
+  key << input->GetClassName() << ' ' << options.FeatureAngle << ' ' << options.CornerAngle << ' '
+      << options.FeaturesInside << ' ' << options.UseGeometryArrays << ' '
+      << options.SurfaceIdArray;
+  const auto add = [&key](vtkAbstractArray* array) {
+    key << '\n' << array << ' ' << (array ? array->GetMTime() : 0);
+  };
+  if (!options.SurfaceIdArray.empty())
+  {
+    add(input->GetCellData()->GetAbstractArray(options.SurfaceIdArray.c_str()));
+  }
+  else if (options.UseGeometryArrays)
+  {
+    for (const char* name : { Geometry::DimensionName, Geometry::IdName, Geometry::ParameterName })
+    {
+      add(input->GetPointData()->GetAbstractArray(name));
+    }
+  }
+  return key.str();
+}
+
+/// An array that vtkExtractMorphBoundary wrote.
+vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int components)
+{
+  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+  if (!array || array->GetNumberOfComponents() < components ||
+      array->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw Error(
+      std::string("The input is a surface ") +
+      (array ? "whose point array " : "without the point array ") + name +
+      (array ? " has the wrong number of components or values" : "") +
+      ", so a morph could not tell which nodes of the mesh its points are. Give the volume "
+      "mesh itself, or its boundary from Extract Morph Boundary or Classify Boundary.");
+  }
+  return array;
+}
+
+/// Coordinates that cannot be computed with are refused; `what`: "coordinates".
+morph::Points moderatePoints(morph::Points points, const char* what)
+{
+  std::vector<Index> notFinite, huge;
+  for (const Index n : DataCheck::Immoderate(points))
+  {
+    (points.row(n).allFinite() ? huge : notFinite).push_back(n);
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(std::string("The input has ") + what +
+                " that are not finite (NaN or infinite), at its points " +
+                morph::listIds(notFinite) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error(std::string("The input has ") + what + " above 1e50, at its points " +
+                morph::listIds(huge) + ".");
+  }
+  return points;
+}
+
+morph::BoundaryFaces polygons(vtkPolyData* surface)
+{
+  morph::BoundaryFaces faces;
+  faces.offsets.push_back(0);
+  vtkNew<vtkIdList> corners;
+  std::vector<Index> wrong;
+  vtkCellArray* cells = surface->GetPolys();
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    cells->GetCellAtId(c, corners);
+    const vtkIdType* begin = corners->GetPointer(0);
+    faces.connectivity.insert(faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
+    faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+    if (corners->GetNumberOfIds() < 3)
+    {
+      wrong.push_back(surface->GetNumberOfVerts() + surface->GetNumberOfLines() + c);
+    }
+  }
+  if (faces.offsets.size() == 1)
+  {
+    throw Error(
+      "The input is a surface without polygons, so there is no boundary to move. Give the "
+      "volume mesh, or its boundary from Extract Morph Boundary or Classify Boundary.");
+  }
+  if (!wrong.empty())
+  {
+    throw Error("The input has polygons with fewer than three points: its cells " +
+                morph::listIds(wrong) + ". Remove them.");
+  }
+  faces.nodes = faces.connectivity;
+  std::sort(faces.nodes.begin(), faces.nodes.end());
+  faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
+  faces.between.offsets.assign(faces.nodes.size() + 1, 0);
+  return faces;
+}
+
+bool samePoints(const morph::Points& a, const morph::Points& b)
+{
+  return a.rows() == b.rows() && a == b; // Eigen reads past the end of the shorter one
+}
+
+bool sameFaces(const morph::BoundaryFaces& a, const morph::BoundaryFaces& b)
+{
+  return a.offsets == b.offsets && a.connectivity == b.connectivity;
+}
+}
+
+void BoundaryModel::Update(
+  vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor)
+{
+  const std::string key = geometryKey(input, options);
+  if (this->Kept.Input == input && this->Kept.InputTime == input->GetMTime() &&
+      this->Kept.GeometryKey == key)
+  {
+    return;
+  }
+  State next;
+  std::swap(next, this->Kept); // so that nothing is left after an error
+  next.Input = input;
+  next.InputTime = input->GetMTime();
+  next.InputVersion = ++this->Versions;
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    this->TakeGrid(grid, options, key, next, monitor);
+  }
+  else
+  {
+    this->TakeSurface(vtkPolyData::SafeDownCast(input), options, key, next, monitor);
+  }
+  next.GeometryKey = key;
+  this->Kept = std::move(next);
+}
+
+void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
+  const std::string& geometryKey, State& next, morph::Monitor& monitor)
+{
+  const bool sameMesh = next.Mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, next.Mesh) &&
+                        GridMesh::SamePoints(grid, next.Mesh);
+  if (!sameMesh)
+  {
+    next.Mesh = GridMesh::FromGrid(grid);
+    Input::RequireVolumeCells(next.Mesh);
+    const morph::Bodies bodies = morph::bodies(next.Mesh);
+    next.BodyOfNode = bodies.ofNode;
+    next.Faces = morph::boundaryFaces(next.Mesh, monitor);
+    const std::vector<std::int8_t> ofCell = morph::orientation(next.Mesh, bodies);
+    next.Orientation.clear();
+    for (Index cell : next.Faces.cells)
+    {
+      next.Orientation.push_back(ofCell[cell]);
+    }
+    monitor.check();
+  }
+  if (!sameMesh || next.GeometryKey != geometryKey)
+  {
+    next.Geometry = Geometry::Classify(grid, next.Mesh, next.Faces, options, monitor);
+    next.MotionVersion = ++this->Versions;
+    ++this->Classified;
+  }
+  next.Surface = vtkSmartPointer<vtkPolyData>::New();
+  next.FaceOfPolygon = Surface::Write(grid, next.Mesh, next.Faces, next.Surface);
+  next.NodeOfPoint = next.Faces.nodes;
+  Geometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
+  Geometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);
+}
+
+void BoundaryModel::TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
+  const std::string& geometryKey, State& next, morph::Monitor& monitor)
+{
+  morph::BoundaryFaces faces = polygons(surface);
+  requireExtracted(surface, Surface::IdName, 1);
+  morph::Points rest =
+    moderatePoints(GridMesh::FromVectors(requireExtracted(surface, Surface::RestName, 3)),
+      "values of RestPosition");
+  morph::Points points = moderatePoints(GridMesh::FromPoints(surface->GetPoints()), "coordinates");
+  const bool sameGeometry =
+    next.GeometryKey == geometryKey && sameFaces(next.Faces, faces) && samePoints(next.Rest, rest);
+  if (!sameGeometry)
+  {
+    next.Geometry = Geometry::Classify(surface, rest, faces, options, monitor);
+    next.Faces = std::move(faces);
+    next.Orientation.assign(next.Faces.offsets.size() - 1, 1);
+    next.Rest = std::move(rest);
+    next.BodyOfNode.assign(points.rows(), -1);
+    ++this->Classified;
+  }
+  if (!sameGeometry || !samePoints(next.Mesh.points, points))
+  {
+    next.MotionVersion = ++this->Versions;
+  }
+  next.Mesh = morph::Mesh();
+  next.Mesh.points = std::move(points);
+  next.Surface = vtkSmartPointer<vtkPolyData>::New();
+  next.Surface->ShallowCopy(surface);
+  next.NodeOfPoint.resize(surface->GetNumberOfPoints());
+  std::iota(next.NodeOfPoint.begin(), next.NodeOfPoint.end(), Index(0));
+  next.FaceOfPolygon.resize(next.Faces.offsets.size() - 1);
+  std::iota(next.FaceOfPolygon.begin(), next.FaceOfPolygon.end(), Index(0));
+  Geometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
+  if (next.FaceOfPolygon.size() == static_cast<std::size_t>(surface->GetNumberOfCells()))
+  {
+    Geometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);
+  }
+}
+
+morph::Points BoundaryModel::OutwardAreas(const morph::Points& points) const
+{
+  morph::Points areas = morph::faceAreas(points, this->Kept.Faces);
+  for (Index f = 0; f < areas.rows(); ++f)
+  {
+    areas.row(f) *= this->Kept.Orientation[f];
+  }
+  return areas;
+}
+
+vtkPolyData* BoundaryModel::Surface() const
+{
+  return this->Kept.Surface;
+}
+
+morph::Index BoundaryModel::FirstPolygon() const
+{
+  return this->Kept.Surface->GetNumberOfVerts() + this->Kept.Surface->GetNumberOfLines();
+}
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Topology.h"
+#include "Private/Data/Geometry.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+class vtkPointSet;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph::filters
+{
+/// The boundary of a mesh with its geometry, from a grid or from a surface that was extracted from one before, and
+/// kept while they stay the same. Nodes are the input's points.
+class BoundaryModel
+{
+public:
+  /// Takes the input over, a grid or polygonal data. What is kept is used again: all of it where the input was not
+  /// modified, and the geometry where the modified input has the same boundary and the same arrays that tell its
+  /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells, and for a
+  /// surface without polygons, MorphPointId or RestPosition; then nothing is kept.
+  void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor);
+
+  const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< where they are
+  /// Where they were: a surface's RestPosition, and a grid's own points.
+  const morph::Points& Rest() const
+  {
+    return this->Kept.Mesh.numberOfCells() > 0 ? this->Kept.Mesh.points : this->Kept.Rest;
+  }
+  const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
+  /// Of a surface: at its RestPosition.
+  const morph::Classification& Geometry() const { return this->Kept.Geometry; }
+  const std::vector<morph::Index>& BodyOfNode() const { return this->Kept.BodyOfNode; }
+  /// As morph::faceAreas() has them, but outwards where cells are wound inside out.
+  morph::Points OutwardAreas(const morph::Points& points) const;
+
+  /// The boundary as vtkClassifyBoundary writes it, where the input's points are, with the input's arrays.
+  vtkPolyData* Surface() const;
+  /// The node of each point of Surface(), ascending.
+  const std::vector<morph::Index>& NodeOfPoint() const { return this->Kept.NodeOfPoint; }
+  /// The face of each polygon of Surface(), and the cell id of the first polygon.
+  const std::vector<morph::Index>& FaceOfPolygon() const { return this->Kept.FaceOfPolygon; }
+  morph::Index FirstPolygon() const;
+
+  /// Changes with the input's content and with the options.
+  vtkIdType InputVersion() const { return this->Kept.InputVersion; }
+  /// Changes with Points(), Faces() and Geometry() alone.
+  vtkIdType MotionVersion() const { return this->Kept.MotionVersion; }
+  /// How often the geometry was found so far.
+  int ClassifyCount() const { return this->Classified; }
+
+private:
+  struct State
+  {
+    morph::Mesh Mesh; ///< of a surface: no cells
+    morph::BoundaryFaces Faces;
+    std::vector<std::int8_t> Orientation; ///< #faces
+    morph::Points Rest;                   ///< of a surface: what its geometry was found at
+    std::vector<morph::Index> BodyOfNode;
+    std::string GeometryKey;
+    morph::Classification Geometry;
+    vtkSmartPointer<vtkPolyData> Surface;
+    std::vector<morph::Index> NodeOfPoint, FaceOfPolygon;
+    const vtkPointSet* Input = nullptr; ///< compared, never used
+    vtkMTimeType InputTime = 0;
+    vtkIdType InputVersion = 0;
+    vtkIdType MotionVersion = 0;
+  };
+
+  void TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
+    const std::string& geometryKey, State& next, morph::Monitor& monitor);
+  void TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
+    const std::string& geometryKey, State& next, morph::Monitor& monitor);
+
+  State Kept;
+  int Classified = 0;
+  vtkIdType Versions = 0;
+};
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/Choice.h"
+
+#include "Private/Displace/Selection.h"
+#include "Support/Error.h"
+
+#include <vtkImplicitFunction.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+
+namespace morph::filters
+{
+namespace
+{
+using Choice::By;
+using Choice::Options;
+using morph::Error;
+using morph::Index;
+using Patches::Part;
+
+Part patches(const BoundaryModel& model, const Options& options)
+{
+  if (options.Patches.empty())
+  {
+    throw Error("No patch is chosen that is to move. Choose one in Patches (Apply once, and the "
+                "list has their names), or choose in another way what moves.");
+  }
+  return Patches::Find(model.Geometry(), options.Patches, "Patches");
+}
+
+std::vector<std::uint8_t> insideRegion(const BoundaryModel& model, vtkImplicitFunction* region)
+{
+  if (!region)
+  {
+    throw Error("No region is given in which nodes move: set Region, a box for instance.");
+  }
+  std::vector<std::uint8_t> isInside(model.Points().rows(), 0);
+  for (Index node : model.Faces().nodes)
+  {
+    const Eigen::RowVector3d x = model.Points().row(node);
+    isInside[node] = region->FunctionValue(x[0], x[1], x[2]) <= 0;
+  }
+  return isInside;
+}
+
+void addNodesBetween(const morph::BoundaryFaces& faces, std::vector<std::uint8_t>& isChosen)
+{
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index *begin = faces.between.begin(static_cast<Index>(i)),
+                *end = faces.between.end(static_cast<Index>(i));
+    if (begin != end && std::all_of(begin, end, [&](Index n) { return isChosen[n] != 0; }))
+    {
+      isChosen[faces.nodes[i]] = 1;
+    }
+  }
+}
+
+std::vector<std::uint8_t> facesWithin(
+  const morph::BoundaryFaces& faces, const std::vector<std::uint8_t>& isChosen)
+{
+  std::vector<std::uint8_t> isWithin(faces.offsets.size() - 1);
+  for (std::size_t f = 0; f < isWithin.size(); ++f)
+  {
+    isWithin[f] = std::all_of(faces.connectivity.begin() + faces.offsets[f],
+      faces.connectivity.begin() + faces.offsets[f + 1], [&](Index n) { return isChosen[n] != 0; });
+  }
+  return isWithin;
+}
+
+[[noreturn]] void refuseNone(By how)
+{
+  if (how == By::Selection)
+  {
+    throw Error("None of the selected points, or of the points of the selected cells, is on the "
+                "boundary of the input. Select something on its surface.");
+  }
+  throw Error("No node of the boundary is inside the region that is to move. Make it larger, or "
+              "move it to the boundary.");
+}
+}
+
+namespace Choice
+{
+Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options)
+{
+  const morph::BoundaryFaces& faces = model.Faces();
+  Part part;
+  switch (options.How)
+  {
+    case By::Patches:
+      part = patches(model, options);
+      break;
+    case By::Selection:
+      part.HasNode = Selection::Points(input, options.Selection, options.Extractor);
+      break;
+    case By::Region:
+      part.HasNode = insideRegion(model, options.Region);
+      break;
+    case By::Everything:
+      part.HasNode.assign(model.Points().rows(), 1);
+      break;
+  }
+  addNodesBetween(faces, part.HasNode);
+  const Part held = Patches::Find(model.Geometry(), options.HeldPatches, "HeldPatches");
+  Result result;
+  for (Index node : faces.nodes)
+  {
+    if (part.HasNode[node])
+    {
+      result.Moving.push_back(node);
+    }
+    else if (held.HasNode[node])
+    {
+      result.Held.push_back(node);
+    }
+  }
+  if (result.Moving.empty())
+  {
+    refuseNone(options.How);
+  }
+  result.IsMovingFace =
+    options.How == By::Patches ? std::move(part.HasFace) : facesWithin(faces, part.HasNode);
+  return result;
+}
+}
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/Motion.h"
+
+#include "Boundary/FaceAreas.h"
+#include "Private/Data/DataCheck.h"
+#include "Support/Error.h"
+
+#include <vtkAbstractTransform.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+using morph::Points;
+
+Points transformed(const Points& from, vtkAbstractTransform* transform)
+{
+  Points to = from;
+  for (Index i = 0; transform && i < to.rows(); ++i)
+  {
+    transform->TransformPoint(from.row(i).data(), to.row(i).data());
+  }
+  return to;
+}
+
+/// What keeps an array from being the displacements of so many points; empty where nothing does.
+std::string problem(vtkAbstractArray* any, vtkIdType points)
+{
+  if (!any)
+  {
+    return "which the input does not have as a point array";
+  }
+  if (!vtkDataArray::SafeDownCast(any))
+  {
+    return "which is not numeric";
+  }
+  if (any->GetNumberOfComponents() != 3)
+  {
+    return "which has " + std::to_string(any->GetNumberOfComponents()) +
+           " components; a displacement has three";
+  }
+  if (any->GetNumberOfTuples() != points)
+  {
+    return "which has " + std::to_string(any->GetNumberOfTuples()) + " values for the input's " +
+           std::to_string(points) + " points";
+  }
+  return {};
+}
+
+Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<Index>& nodes)
+{
+  if (name.empty())
+  {
+    throw Error("No array is named that holds the displacements: set DisplacementArray to a point "
+                "vector array of the input.");
+  }
+  vtkAbstractArray* any = input->GetPointData()->GetAbstractArray(name.c_str());
+  const std::string what = problem(any, input->GetNumberOfPoints());
+  if (!what.empty())
+  {
+    throw Error("DisplacementArray names '" + name + "', " + what + ".");
+  }
+  auto* array = vtkDataArray::SafeDownCast(any);
+  Points rows(static_cast<Index>(nodes.size()), 3);
+  for (Index i = 0; i < rows.rows(); ++i)
+  {
+    array->GetTuple(nodes[i], rows.row(i).data());
+  }
+  return rows;
+}
+
+Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
+  const Motion::Options& options, const Points& from)
+{
+  switch (options.How)
+  {
+    case Motion::Kind::Vector:
+      return from.rowwise() +
+             Eigen::RowVector3d(options.Vector[0], options.Vector[1], options.Vector[2]);
+    case Motion::Kind::AlongNormals:
+      return from + options.Distance * morph::nodeNormals(model.OutwardAreas(model.Points()),
+                                         model.Faces(), choice.IsMovingFace, choice.Moving);
+    case Motion::Kind::Array:
+      return from + arrayRows(input, options.ArrayName, choice.Moving);
+    case Motion::Kind::Transform:
+      break;
+  }
+  return transformed(from, options.Transform);
+}
+
+void requireModerate(const Points& targets, const std::vector<Index>& nodes, const char* property)
+{
+  std::vector<Index> notFinite, huge;
+  for (Index i = 0; i < targets.rows(); ++i)
+  {
+    if (!DataCheck::IsModerate(targets.row(i)))
+    {
+      (targets.row(i).allFinite() ? huge : notFinite).push_back(nodes[i]);
+    }
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(std::string(property) +
+                " moves nodes to places that are not finite (NaN or infinite): point ids " +
+                morph::listIds(notFinite) + " of the input.");
+  }
+  if (!huge.empty())
+  {
+    throw Error(std::string(property) + " moves nodes beyond 1e50: point ids " +
+                morph::listIds(huge) + " of the input. Move them less, or use another unit.");
+  }
+}
+}
+
+namespace Motion
+{
+Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
+  const Options& options)
+{
+  Points from(static_cast<Index>(choice.Moving.size()), 3);
+  for (Index i = 0; i < from.rows(); ++i)
+  {
+    from.row(i) = model.Points().row(choice.Moving[i]);
+  }
+  Points targets = wholeMotion(input, model, choice, options, from);
+  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray" };
+  requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
+  if (options.ScaleFactor == 0)
+  {
+    return from;
+  }
+  if (options.ScaleFactor != 1)
+  {
+    targets = from + options.ScaleFactor * (targets - from);
+    requireModerate(targets, choice.Moving, "ScaleFactor");
+  }
+  return targets;
+}
+
+std::vector<Index> Collapsed(
+  const BoundaryModel& model, const Choice::Result& choice, const Points& moved)
+{
+  const morph::BoundaryFaces& faces = model.Faces();
+  const Points before = morph::faceAreas(model.Points(), faces);
+  const Points after = morph::faceAreas(moved, faces);
+  const auto isCollapsed = [&](Index f)
+  {
+    const double area = before.row(f).norm();
+    return area > 0 && after.row(f).norm() <= 1e-12 * area &&
+           std::all_of(faces.connectivity.begin() + faces.offsets[f],
+             faces.connectivity.begin() + faces.offsets[f + 1],
+             [&](Index node)
+             { return std::binary_search(choice.Moving.begin(), choice.Moving.end(), node); });
+  };
+  std::vector<Index> cells;
+  for (std::size_t p = 0; p < model.FaceOfPolygon().size(); ++p)
+  {
+    if (isCollapsed(model.FaceOfPolygon()[p]))
+    {
+      cells.push_back(model.FirstPolygon() + static_cast<Index>(p));
+    }
+  }
+  return cells;
+}
+}
+}

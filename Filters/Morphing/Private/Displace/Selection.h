@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+class vtkDataSet;
+class vtkExtractSelection;
+class vtkSelection;
+
+/// What a selection selects.
+namespace morph::filters::Selection
+{
+/// For each point of `input` whether it is selected, or a cell that has it. `extractor`: evaluates the selection; its
+/// inputs are empty again afterwards. Throws morph::Error for a null or empty selection, for one of neither points nor
+/// cells or of both, and where the extractor fails. Cost: that of the extractor.
+std::vector<std::uint8_t> Points(
+  vtkDataSet* input, vtkSelection* selection, vtkExtractSelection* extractor);
+}

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/BoundaryMatch.h"
+
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Support/Error.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticPointLocator.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+using morph::Points;
+
+/// Which boundary point stands for which node, in the order of the boundary points; a node may come
+/// up again.
+using Pairs = std::vector<std::pair<Index, Index>>; // boundary point, node
+
+std::string quoted(const std::string& name)
+{
+  return "'" + name + "'";
+}
+
+std::string pointArrays(vtkPointSet* boundary)
+{
+  std::string names;
+  vtkPointData* data = boundary->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (const char* name = data->GetArrayName(i))
+    {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+  }
+  return names.empty() ? "it has no point arrays" : "its point arrays are " + names;
+}
+
+/// As messages show it: all digits of an id, few of a fraction.
+std::string text(double value)
+{
+  std::ostringstream stream;
+  stream << std::setprecision(std::floor(value) == value ? 15 : 6) << value;
+  return stream.str();
+}
+
+/// The boundary's point array of that name, with a number or vector for each of its points; null
+/// where there is none.
+vtkDataArray* findArray(vtkPointSet* boundary, const std::string& name)
+{
+  vtkAbstractArray* array = boundary->GetPointData()->GetAbstractArray(name.c_str());
+  if (!array)
+  {
+    return nullptr;
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  if (!numbers)
+  {
+    throw Error("The boundary's point array " + quoted(name) + " is not numeric (it is a " +
+                array->GetClassName() + "). Convert it to numbers, or rename it.");
+  }
+  // VTK does not see to it that arrays are as long as their data set.
+  if (array->GetNumberOfTuples() != boundary->GetNumberOfPoints())
+  {
+    throw Error("The boundary's point array " + quoted(name) + " has " +
+                std::to_string(array->GetNumberOfTuples()) + " tuples for " +
+                std::to_string(boundary->GetNumberOfPoints()) +
+                " points. Give it one for each, or remove the array.");
+  }
+  return numbers;
+}
+
+vtkDataArray* requireArray(
+  vtkPointSet* boundary, const std::string& name, const char* property, int components)
+{
+  vtkDataArray* array = findArray(boundary, name);
+  if (!array)
+  {
+    throw Error(std::string(property) + " names " + quoted(name) +
+                ", which the boundary does not have: " + pointArrays(boundary) + ".");
+  }
+  if (array->GetNumberOfComponents() != components)
+  {
+    throw Error("The boundary's point array " + quoted(name) + " has " +
+                std::to_string(array->GetNumberOfComponents()) + " components; " + property +
+                " needs " + std::to_string(components) + ".");
+  }
+  return array;
+}
+
+Pairs byIds(vtkDataArray* ids, Index nodes)
+{
+  const std::string name = quoted(ids->GetName());
+  if (ids->GetNumberOfComponents() != 1)
+  {
+    throw Error("The boundary's point array " + name + " has " +
+                std::to_string(ids->GetNumberOfComponents()) + " components; ids have one.");
+  }
+  Pairs pairs;
+  pairs.reserve(ids->GetNumberOfTuples());
+  std::vector<Index> outside, fractional; // boundary points
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    const double value = ids->GetComponent(i, 0);
+    if (!(std::floor(value) == value))
+    {
+      fractional.push_back(i);
+    }
+    else if (value < 0 || value >= static_cast<double>(nodes))
+    {
+      outside.push_back(i);
+    }
+    else
+    {
+      pairs.emplace_back(i, static_cast<Index>(value));
+    }
+  }
+  if (!fractional.empty())
+  {
+    throw Error("The boundary's point array " + name +
+                " holds values that are not whole numbers, at its points " +
+                morph::listIds(fractional) +
+                ". A filter has interpolated the ids: use one that keeps the points.");
+  }
+  if (!outside.empty())
+  {
+    throw Error("The boundary's point array " + name + " holds ids outside the grid's 0 to " +
+                std::to_string(nodes - 1) + ", " + text(ids->GetComponent(outside.front(), 0)) +
+                " for instance, at its points " + morph::listIds(outside) +
+                ". Make the boundary from this grid, with Extract Morph Boundary.");
+  }
+  return pairs;
+}
+
+Pairs byPosition(const Points& positions, const morph::Mesh& rest, const std::vector<Index>& outer,
+  double tolerance, Index& unmatched)
+{
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  // The locator only reads, and VTK has no constant arrays.
+  coordinates->SetArray(const_cast<double*>(rest.points.data()), rest.points.size(), 1);
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  vtkNew<vtkPolyData> nodes;
+  nodes->SetPoints(points);
+  vtkNew<vtkStaticPointLocator> locator;
+  locator->SetDataSet(nodes);
+  locator->BuildLocator();
+
+  Pairs pairs;
+  // The locator turns places into bucket numbers, and those far outside overflow.
+  const Eigen::AlignedBox3d box(
+    rest.points.colwise().minCoeff().transpose() - Eigen::Vector3d::Constant(tolerance),
+    rest.points.colwise().maxCoeff().transpose() + Eigen::Vector3d::Constant(tolerance));
+  std::vector<std::uint8_t> taken(rest.numberOfNodes(), 0);
+  for (Index i = 0; i < positions.rows(); ++i)
+  {
+    double distance2 = 0;
+    const vtkIdType closest =
+      box.contains(positions.row(i).transpose())
+        ? locator->FindClosestPointWithinRadius(tolerance, positions.row(i).data(), distance2)
+        : -1;
+    if (closest < 0)
+    {
+      ++unmatched;
+      continue;
+    }
+    pairs.emplace_back(i, closest);
+    taken[closest] = 1;
+  }
+
+  // Bodies that touch have a node each in the same place, but for rounding: an outer node that no
+  // point is closest to goes along with the nearest node that has one.
+  struct Companion
+  {
+    Index Node;
+    double Distance2;
+    Index Point;
+    bool operator<(const Companion& other) const
+    {
+      return std::tie(Node, Distance2, Point) < std::tie(other.Node, other.Distance2, other.Point);
+    }
+  };
+  std::vector<Companion> companions;
+  vtkNew<vtkIdList> near;
+  for (const auto& [point, closest] : pairs)
+  {
+    const auto center = rest.points.row(closest);
+    locator->FindPointsWithinRadius(tolerance, center.data(), near);
+    for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+    {
+      const Index node = near->GetId(k);
+      if (!taken[node] && std::binary_search(outer.begin(), outer.end(), node))
+      {
+        companions.push_back({ node, (rest.points.row(node) - center).squaredNorm(), point });
+      }
+    }
+  }
+  std::sort(companions.begin(), companions.end());
+  for (const Companion& companion : companions)
+  {
+    if (!taken[companion.Node])
+    {
+      taken[companion.Node] = 1;
+      pairs.emplace_back(companion.Point, companion.Node);
+    }
+  }
+  return pairs;
+}
+
+/// Ids that nothing verifies, and that may number the boundary instead of the grid, show by naming
+/// interior nodes.
+void warnOfInteriorNodes(vtkDataArray* ids, const Pairs& pairs, const std::vector<Index>& outer,
+  std::vector<std::string>& warnings)
+{
+  std::vector<Index> interior;
+  for (const auto& pair : pairs)
+  {
+    if (!std::binary_search(outer.begin(), outer.end(), pair.second))
+    {
+      interior.push_back(pair.second);
+    }
+  }
+  if (!interior.empty())
+  {
+    warnings.push_back(
+      "The boundary's '" + std::string(ids->GetName()) +
+      "' names nodes that are not on the grid's outer boundary: " + morph::listIds(interior) +
+      ". If it numbers the boundary's own points, make the boundary with Extract Morph Boundary "
+      "instead, whose ids are checked.");
+  }
+}
+
+Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mesh& rest,
+  const std::vector<Index>& outer, double tolerance, const BoundaryMatch::Options& options,
+  BoundaryMatch::Result& result)
+{
+  const Index nodes = rest.numberOfNodes();
+  if (!options.BoundaryIdArray.empty())
+  {
+    return byIds(requireArray(boundary, options.BoundaryIdArray, "BoundaryIdArray", 1), nodes);
+  }
+  if (vtkDataArray* ids = findArray(boundary, Surface::IdName))
+  {
+    return byIds(ids, nodes);
+  }
+  if (positions.rows() == nodes)
+  {
+    // A warped copy of the grid: its interior says nothing about the boundary.
+    Pairs pairs;
+    pairs.reserve(outer.size());
+    for (Index node : outer)
+    {
+      pairs.emplace_back(node, node);
+    }
+    return pairs;
+  }
+  if (vtkDataArray* ids = findArray(boundary, "PointIds"))
+  {
+    Pairs pairs = byIds(ids, nodes);
+    warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
+    return pairs;
+  }
+  if (vtkDataArray* ids = findArray(boundary, "vtkOriginalPointIds"))
+  {
+    Pairs pairs = byIds(ids, nodes);
+    warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
+    result.Warnings.emplace_back(
+      "The boundary's points are matched by 'vtkOriginalPointIds', which filters pass on even "
+      "where "
+      "it numbers the points of another data set. Extract Morph Boundary writes ids that can be "
+      "checked.");
+    return pairs;
+  }
+  if (!options.DisplacementArray.empty())
+  {
+    Pairs pairs = byPosition(positions, rest, outer, tolerance, result.Unmatched);
+    if (pairs.empty())
+    {
+      throw Error(
+        "None of the boundary's " + std::to_string(positions.rows()) +
+        " points is within MatchTolerance (" + text(options.MatchTolerance) +
+        " of the grid's size) of a node of the grid. Where a DisplacementArray is set, the points "
+        "have to be at rest.");
+    }
+    return pairs;
+  }
+  throw Error(
+    "Nothing says which nodes the boundary's " + std::to_string(positions.rows()) +
+    " points are (the grid has " + std::to_string(nodes) +
+    " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
+    pointArrays(boundary) +
+    ". Make the boundary with Extract Morph Boundary, or set BoundaryIdArray, or give rest "
+    "positions with a DisplacementArray.");
+}
+
+/// Ids that were made from another mesh, or went stale when a filter changed the points.
+void verifyRestPositions(
+  vtkPointSet* boundary, const Pairs& pairs, const morph::Mesh& rest, double tolerance)
+{
+  vtkDataArray* array = findArray(boundary, Surface::RestName);
+  if (!array)
+  {
+    return;
+  }
+  if (array->GetNumberOfComponents() < 3)
+  {
+    throw Error(
+      "The boundary's point array 'RestPosition' has " +
+      std::to_string(array->GetNumberOfComponents()) +
+      " components; a position has three. Rename it, or make the boundary with Extract Morph "
+      "Boundary.");
+  }
+  const Points expected = GridMesh::FromVectors(array);
+  std::vector<Index> stale;
+  for (const auto& [point, node] : pairs)
+  {
+    // Written so that a NaN disagrees.
+    if (!((expected.row(point) - rest.points.row(node)).norm() <= tolerance))
+    {
+      stale.push_back(node);
+    }
+  }
+  if (!stale.empty())
+  {
+    throw Error(
+      "The boundary's ids are stale: its 'RestPosition' disagrees with the grid at node ids " +
+      morph::listIds(stale) +
+      ". The boundary was made from another mesh, or a filter has interpolated its arrays. Apply "
+      "Extract Morph Boundary to this grid again.");
+  }
+}
+
+/// The positions asked for, ScaleFactor not yet applied.
+Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pairs& pairs,
+  const morph::Mesh& rest, const BoundaryMatch::Options& options)
+{
+  Points displacements;
+  if (!options.DisplacementArray.empty())
+  {
+    displacements = GridMesh::FromVectors(
+      requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
+  }
+  Points targets(static_cast<Index>(pairs.size()), 3);
+  std::vector<Index> notFinite, huge;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    const auto [point, node] = pairs[k];
+    const auto from = rest.points.row(node);
+    auto to = targets.row(static_cast<Index>(k));
+    to = positions.row(point);
+    if (displacements.rows() > 0)
+    {
+      to = from + displacements.row(point);
+    }
+    if (!to.allFinite())
+    {
+      notFinite.push_back(node);
+    }
+    else if (!DataCheck::IsModerate(to))
+    {
+      huge.push_back(node);
+    }
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(
+      "The boundary has coordinates or displacements that are not finite (NaN or infinite), "
+      "at node ids " +
+      morph::listIds(notFinite) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error("The boundary moves nodes beyond 1e50, at node ids " + morph::listIds(huge) +
+                ". Use another unit, or correct the displacements.");
+  }
+  return targets;
+}
+
+/// What a node has that is in no row of the targets.
+constexpr Index Held = -1, Unnamed = -2;
+
+/// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
+/// of which moves: those follow their cell, or edges would bend where corners alone are named.
+/// ScaleFactor does not matter, so that changing it does not prepare anew.
+void holdUnnamed(const morph::BoundaryFaces& outer, const morph::Mesh& rest, const Points& targets,
+  std::vector<Index>& row)
+{
+  const auto moves = [&](Index node)
+  { return row[node] >= 0 && targets.row(row[node]) != rest.points.row(node); };
+  for (std::size_t i = 0; i < outer.nodes.size(); ++i)
+  {
+    const Index node = outer.nodes[i], k = static_cast<Index>(i);
+    if (row[node] == Unnamed && std::none_of(outer.between.begin(k), outer.between.end(k), moves))
+    {
+      row[node] = Held;
+    }
+  }
+}
+}
+
+namespace BoundaryMatch
+{
+Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
+  double size, const Options& options)
+{
+  const Points positions = GridMesh::FromPoints(boundary->GetPoints());
+  if (positions.rows() == 0)
+  {
+    throw Error("The boundary has no points, so nothing says where the mesh goes.");
+  }
+  const double tolerance = options.MatchTolerance * size;
+
+  Result result;
+  const Pairs pairs = findNodes(boundary, positions, rest, outer.nodes, tolerance, options, result);
+  verifyRestPositions(boundary, pairs, rest, tolerance);
+  const Points targets = targetPositions(boundary, positions, pairs, rest, options);
+
+  std::vector<Index> row(rest.numberOfNodes(), Unnamed);
+  std::vector<Index> torn;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    Index& r = row[pairs[k].second];
+    if (r < 0)
+    {
+      r = static_cast<Index>(k);
+    }
+    else if ((targets.row(r) - targets.row(static_cast<Index>(k))).norm() > tolerance)
+    {
+      torn.push_back(pairs[k].second);
+    }
+  }
+  if (!torn.empty())
+  {
+    throw Error(
+      "The boundary names the same node more than once with different targets, at node ids " +
+      morph::listIds(torn) + ". Points that stand for one node have to move together.");
+  }
+
+  if (options.HoldUnnamedBoundary)
+  {
+    holdUnnamed(outer, rest, targets, row);
+  }
+
+  for (Index node = 0; node < rest.numberOfNodes(); ++node)
+  {
+    if (row[node] != Unnamed)
+    {
+      result.Ids.push_back(node);
+      result.Sources.push_back(row[node] < 0 ? -1 : pairs[row[node]].first);
+    }
+  }
+  const double scale = options.ScaleFactor;
+  std::vector<Index> huge;
+  result.Targets.resize(static_cast<Index>(result.Ids.size()), 3);
+  for (std::size_t k = 0; k < result.Ids.size(); ++k)
+  {
+    const auto from = rest.points.row(result.Ids[k]);
+    const Index r = row[result.Ids[k]];
+    auto to = result.Targets.row(static_cast<Index>(k));
+    // ScaleFactor 0 and 1 give the rest and the target positions bit for bit.
+    if (r < 0 || scale == 0)
+    {
+      to = from;
+    }
+    else if (scale == 1)
+    {
+      to = targets.row(r);
+    }
+    else
+    {
+      to = from + scale * (targets.row(r) - from);
+    }
+    if (!DataCheck::IsModerate(to))
+    {
+      huge.push_back(result.Ids[k]);
+    }
+  }
+  if (!huge.empty())
+  {
+    throw Error("ScaleFactor " + text(scale) + " moves nodes beyond 1e50, at node ids " +
+                morph::listIds(huge) + ". Lower it.");
+  }
+  if (result.Unmatched > 0)
+  {
+    result.Warnings.push_back(
+      std::to_string(result.Unmatched) + " of the boundary's " + std::to_string(positions.rows()) +
+      " points are not within MatchTolerance of a node of the grid and were left out.");
+  }
+  return result;
+}
+}
+}

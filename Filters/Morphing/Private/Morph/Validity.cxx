@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/Validity.h"
+
+#include "Mesh/CellShape.h"
+#include "Morpher/SubSteps.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Support/SubMonitor.h"
+#include "Untangling/BoundaryCheck.h"
+#include "Untangling/InversionFree.h"
+#include "vtkMorphAlgorithm.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace morph::filters
+{
+bool Validity::AsksForValidMesh() const
+{
+  return this->Mode >= vtkMorphAlgorithm::VALIDITY_SUB_STEP;
+}
+
+void Validity::RequireFeasible() const
+{
+  if (!this->AsksForValidMesh())
+  {
+    return;
+  }
+  morph::Points points = this->Mesh.points;
+  for (std::size_t i = 0; i < this->Partition.prescribed.size(); ++i)
+  {
+    points.row(this->Partition.prescribed[i]) = this->Targets.row(static_cast<morph::Index>(i));
+  }
+  const std::vector<morph::Index> determined =
+    morph::boundaryDeterminedInversions(this->Mesh, this->Partition, this->Orientation, points);
+  if (!determined.empty())
+  {
+    throw Infeasible(
+      "The boundary itself inverts " + std::to_string(determined.size()) +
+        " cells, at corners that no free node can mend, so no valid mesh exists: "
+        "cell ids " +
+        morph::listIds(determined) +
+        ". Move the boundary less there, leave some of its nodes free, or set Validity "
+        "to Report to see the mesh.",
+      static_cast<morph::Index>(determined.size()));
+  }
+}
+
+std::string Validity::Describe(const std::vector<morph::Index>& inverted,
+  const morph::Quality& quality, const morph::Points& points) const
+{
+  constexpr std::size_t Most = 10;
+  std::vector<morph::Index> worst = inverted;
+  std::stable_sort(worst.begin(), worst.end(),
+    [&](morph::Index a, morph::Index b)
+    { return quality.scaledJacobian[a] < quality.scaledJacobian[b]; });
+  worst.resize(std::min(worst.size(), Most));
+  std::ostringstream text;
+  for (morph::Index cell : worst)
+  {
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    const int corners = morph::cellShape(this->Mesh.types[cell])->numberOfCorners;
+    for (int k = 0; k < corners; ++k)
+    {
+      centre += points.row(this->Mesh.cell(cell)[k]) / corners;
+    }
+    text << "\n  cell " << cell << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
+         << "), scaled Jacobian " << quality.scaledJacobian[cell];
+  }
+  text << (inverted.size() > worst.size() ? "\n  ...\n" : "\n");
+  return text.str();
+}
+
+std::string Validity::Found(const morph::Quality& quality, const morph::Points& points) const
+{
+  const std::vector<morph::Index> inverted = morph::invertedCells(quality);
+  return std::to_string(inverted.size()) +
+         " cells are inverted or degenerate. The worst, with their centres:" +
+         this->Describe(inverted, quality, points);
+}
+
+bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
+{
+  morph::SubMonitor first(monitor, 0, 0.3), second(monitor, 0.3, 1);
+  morph::InversionFree repair;
+  repair.setReference(this->Reference);
+  repair.prepare(this->Mesh, this->Partition, first);
+  morph::Points repaired = moved;
+  repair.repair(repaired, second);
+  const auto bad = [&](const morph::Points& points)
+  { return morph::invertedCells(this->Mesh, points, this->Orientation, monitor).size(); };
+  const std::size_t left = bad(repaired);
+  if (left < bad(moved))
+  {
+    moved.swap(repaired);
+  }
+  return left == 0;
+}
+
+Validity::Outcome Validity::Remaining(
+  const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const
+{
+  Outcome outcome;
+  outcome.Measured = morph::measureQuality(this->Mesh, moved, this->Orientation, {}, monitor);
+  outcome.Status = "Inverted";
+  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  outcome.Error = "No valid mesh was found, and the result is the best that was: " +
+                  this->Found(outcome.Measured, moved) + reason;
+  return outcome;
+}
+
+Validity::Outcome Validity::SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
+  morph::Points& moved, morph::Monitor& monitor) const
+{
+  const std::vector<morph::Index> atRest =
+    morph::invertedCells(this->Mesh, this->Mesh.points, this->Orientation, monitor);
+  if (!atRest.empty())
+  {
+    const bool repaired = this->IsInversionFree || this->Mode == vtkMorphAlgorithm::VALIDITY_REPAIR;
+    return this->Remaining(moved,
+      "The undeformed mesh has inverted or degenerate cells, too, so there is no valid mesh to "
+      "take steps from: cell ids " +
+        morph::listIds(atRest) +
+        (repaired ? ". Mend the mesh or the boundary there, or leave more nodes free."
+                  : ". Repair it first, its boundary held, by Morph Inversion Free."),
+      monitor);
+  }
+  const morph::BoundaryPath path =
+    morph::straightPath(this->Mesh.points, this->Partition, this->Targets);
+  const morph::BoundaryCheck check(
+    this->Mesh, this->Partition, this->Orientation, this->Faces, monitor);
+  morph::SubStepLimits limits;
+  limits.attempts = this->MaximumSubSteps;
+  if (this->IsInversionFree || this->Mode == vtkMorphAlgorithm::VALIDITY_REPAIR)
+  {
+    // Its failures take several times as long as its successes.
+    limits.failures = 6;
+  }
+  limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
+  const morph::SubStepResult result = morph::followInSubSteps(
+    this->Mesh, this->Reference, this->Partition, this->Orientation, path, make, limits, monitor);
+  moved = result.moved;
+  Outcome outcome;
+  outcome.Status = "SubStepped";
+  outcome.LargestValidStep = result.reached;
+  outcome.SubSteps = result.attempts;
+  if (result.reached < 1)
+  {
+    std::ostringstream text;
+    text << "No valid mesh was found for the whole motion: " << result.attempts
+         << " steps came as far as " << result.reached
+         << " of it, and the result is the valid mesh there. "
+         << (result.isForbidden ? "The boundary then folds, or leaves no room to "
+                                : "The next step inverted ")
+         << result.inverted.size() << " cells, at the result's places:"
+         << this->Describe(result.inverted,
+              morph::measureQuality(this->Mesh, result.moved, this->Orientation, {}, monitor),
+              result.moved)
+         << (result.isForbidden
+                ? "Mend the boundary there, move it less, or give it another path by steps of its "
+                  "own."
+                : "Move the boundary less, or refine the mesh there.");
+    if (!result.isForbidden && !this->IsInversionFree &&
+        this->Mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
+    {
+      text << " Validity set to Repair often goes all the way where sub-steps stop.";
+    }
+    outcome.Status = "Partial";
+    outcome.Error = text.str();
+  }
+  return outcome;
+}
+
+Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
+{
+  Outcome outcome;
+  morph::Quality quality = morph::measureQuality(this->Mesh, moved, this->Orientation, {}, monitor);
+  if (morph::invertedCells(quality).empty())
+  {
+    outcome.Measured = std::move(quality);
+    return outcome;
+  }
+  if (this->AsksForValidMesh() && this->Mode != vtkMorphAlgorithm::VALIDITY_REFUSE &&
+      this->Partition.free.empty())
+  {
+    return this->Remaining(
+      moved, "Every node is prescribed, so the boundary alone decides.", monitor);
+  }
+  switch (this->Mode)
+  {
+    case vtkMorphAlgorithm::VALIDITY_SUB_STEP:
+      return this->SubStep(this->Make, moved, monitor);
+    case vtkMorphAlgorithm::VALIDITY_REPAIR:
+    {
+      morph::SubMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+      if (this->Repair(moved, first))
+      {
+        outcome.Status = "Repaired";
+        return outcome;
+      }
+      return this->SubStep([] { return std::make_unique<morph::InversionFree>(); }, moved, second);
+    }
+    case vtkMorphAlgorithm::VALIDITY_REFUSE:
+    {
+      const std::string text =
+        "The morph is refused: " + this->Found(quality, moved) +
+        (this->IsInversionFree
+            ? "Set Validity to Sub Step, or move the boundary less."
+            : "Set Validity to Repair or Sub Step, move the boundary less, or use Morph Inversion "
+              "Free.");
+      throw morph::Error(text);
+    }
+    case vtkMorphAlgorithm::VALIDITY_REPORT:
+      outcome.Warning =
+        this->Found(quality, moved) + "The output Bad cells holds them all. " +
+        (this->IsInversionFree
+            ? "Move the boundary less, or in relative steps; another InitialGuess or TargetShape "
+              "may do."
+            : "Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
+      break;
+    default:
+      break;
+  }
+  outcome.Measured = std::move(quality);
+  outcome.Status = "Inverted";
+  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  return outcome;
+}
+}

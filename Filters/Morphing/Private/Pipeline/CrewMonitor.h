@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Private/Pipeline/Monitor.h"
+
+#include <memory>
+
+namespace morph::filters
+{
+/// A monitor for iterative methods, with hundreds of short loops. Where the backend of vtkSMPTools is
+/// Sequential it has threads of its own, which start with the first loop and stay until it goes:
+/// STDThread starts its threads for each loop, which costs 70 microseconds and, on a mesh of 130,000
+/// nodes, a third of an evaluation. A backend that the user chose is used as it is.
+class CrewMonitor : public Monitor
+{
+public:
+  CrewMonitor(vtkAlgorithm* algorithm, int threads);
+  ~CrewMonitor() override;
+
+  /// As Monitor's; not to be called from within `body`.
+  void parallelFor(morph::Index n, morph::Index grain,
+    const std::function<void(morph::Index first, morph::Index last)>& body) override;
+
+private:
+  class Crew;
+  std::unique_ptr<Crew> Members;
+};
+}

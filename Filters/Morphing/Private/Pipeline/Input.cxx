@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Pipeline/Input.h"
+
+#include "Mesh/CellShape.h"
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Pipeline/Ranks.h"
+#include "Support/Error.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+
+namespace morph::filters
+{
+namespace
+{
+[[noreturn]] void refuse(vtkDataObject* input, const char* port, const char* needed)
+{
+  const std::string subject(port);
+  if (!input)
+  {
+    throw morph::Error(subject + " has no data; " + needed + " is needed.");
+  }
+  const std::string type = input->GetClassName();
+  if (vtkCompositeDataSet::SafeDownCast(input))
+  {
+    throw morph::Error(
+      subject + " is composite data (" + type +
+      "). Blocks that share an interface have to be one mesh: apply Merge Blocks first.");
+  }
+  throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
+}
+
+bool hasVolumeCells(vtkDataObject* data)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  vtkUnsignedCharArray* types = grid ? grid->GetCellTypesArray() : nullptr;
+  const vtkIdType cells =
+    types ? std::min(types->GetNumberOfValues(), grid->GetNumberOfCells()) : 0;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const morph::CellShape* shape = morph::cellShape(types->GetValue(cell));
+    if (shape && shape->dimension == 3)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+namespace Input
+{
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    DataCheck::Require(grid, port, DataCheck::Cells::InCore);
+    return grid;
+  }
+  refuse(input, port, "an unstructured grid (Append Datasets makes one of any data set)");
+}
+
+vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
+{
+  if (auto* points = vtkPointSet::SafeDownCast(input))
+  {
+    DataCheck::Require(points, port);
+    return points;
+  }
+  refuse(input, port, "a data set with points of its own (polygonal data or an unstructured grid)");
+}
+
+vtkPointSet* RequireBoundary(vtkDataObject* input)
+{
+  if (!input)
+  {
+    throw morph::Error(
+      "Boundary: nothing is connected, so there is nothing to follow. Connect Boundary "
+      "Displacement, or "
+      "Extract Morph Boundary followed by a filter that moves points, Transform for instance (in "
+      "ParaView's window: right-click this filter, Change Input).");
+  }
+  return RequirePointSet(input, "The boundary");
+}
+
+void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary)
+{
+  auto* points = vtkPointSet::SafeDownCast(input);
+  if (points && points->GetNumberOfCells() > 0 && !hasVolumeCells(input) &&
+      hasVolumeCells(boundary))
+  {
+    throw morph::Error("Input and Boundary are swapped: Boundary has volume cells and Input has "
+                       "none. Give the volume mesh as "
+                       "Input and its displaced boundary as Boundary.");
+  }
+}
+
+vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
+  {
+    DataCheck::Require(surface, port);
+    return surface;
+  }
+  refuse(input, port, "polygonal data (Extract Surface makes it)");
+}
+
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
+{
+  if (vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    return RequireGrid(input, port);
+  }
+  if (vtkPolyData::SafeDownCast(input))
+  {
+    return RequirePolyData(input, port);
+  }
+  refuse(input, port,
+    "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
+    "Extract Morph Boundary,");
+}
+
+bool IsReadable(vtkDataObject* data)
+{
+  try
+  {
+    GridMesh::FromGrid(RequireGrid(data, "The input"), GridMesh::UnknownCells::Keep);
+    return true;
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
+int RequireOneRankWithCells(vtkDataSet* grid)
+{
+  const int ranks = Ranks::Count(grid && grid->GetNumberOfCells() > 0);
+  if (ranks > 1)
+  {
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) +
+      " MPI ranks; a mesh is morphed on one rank only, because the cuts between the ranks' pieces "
+      "would be taken for a fixed boundary. Run on one rank, or bring the mesh to one.");
+  }
+  return ranks;
+}
+
+void RequireVolumeCells(const morph::Mesh& mesh)
+{
+  if (mesh.numberOfCells() == 0)
+  {
+    throw morph::Error("The input has no cells, so there is nothing to morph.");
+  }
+  if (std::none_of(mesh.types.begin(), mesh.types.end(),
+        [](std::uint8_t type) { return morph::cellShape(type)->dimension == 3; }))
+  {
+    throw morph::Error("None of the input's " + std::to_string(mesh.numberOfCells()) +
+                       " cells is a volume cell (the first is a " +
+                       morph::cellShape(mesh.types.front())->name +
+                       "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
+  }
+  DataCheck::RequireExtent(GridMesh::Size(mesh), "The input's volume mesh");
+}
+
+std::string ArrayName(const char* name)
+{
+  const std::string text = name ? name : "";
+  return text == "None" ? std::string() : text;
+}
+}
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Pipeline/Ports.h"
+
+#include "Private/Pipeline/CrewMonitor.h"
+#include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Input.h"
+#include "Support/Error.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
+#include <vtkDataObject.h>
+#include <vtkExecutive.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationIntegerVectorKey.h>
+#include <vtkInformationVector.h>
+#include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+namespace morph::filters
+{
+int Ports::FillInformation(int port, vtkInformation* info)
+{
+  // Any other type would make the executive run the filter block by block; see Input.h.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port > 0)
+  {
+    // RequestData names a boundary that is missing better than the executive does. ParaView's
+    // dialog lets users forget it, and asks for the time steps before they can mend that.
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int Ports::RequestInformation(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      Time::CopySteps(boundary, outputVector->GetInformationObject(port));
+    }
+  }
+  return 1;
+}
+
+vtkInformation* Ports::Asked(vtkInformation* request, vtkInformationVector* outputVector)
+{
+  const int port = request->Has(vtkExecutive::FROM_OUTPUT_PORT())
+                     ? request->Get(vtkExecutive::FROM_OUTPUT_PORT())
+                     : -1;
+  return outputVector->GetInformationObject(std::max(0, port));
+}
+
+std::optional<double> Ports::AskedTime(vtkInformation* output)
+{
+  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    return std::nullopt;
+  }
+  return output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+}
+
+int Ports::RequestUpdateExtent(
+  double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector)
+{
+  for (int port = 0; port < this->Filter->GetNumberOfInputPorts(); ++port)
+  {
+    // The executive asks all ports for the extent of port 0: too little of a larger image behind another.
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  if (vtkInformation* boundary = inputVector[1]->GetInformationObject(0))
+  {
+    this->Time.Request(restTime, boundaryTime, inputVector[0]->GetInformationObject(0), boundary);
+  }
+  return 1;
+}
+
+vtkDataObject* Ports::Fetch(int port, std::optional<double> time) const
+{
+  vtkInformation* info = this->Filter->GetExecutive()->GetInputInformation(port, 0);
+  Time::Ask(info, time);
+  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(port, 0);
+  auto* upstream =
+    vtkStreamingDemandDrivenPipeline::SafeDownCast(source->GetProducer()->GetExecutive());
+  if (!upstream || !upstream->Update(source->GetIndex()))
+  {
+    std::ostringstream text;
+    text << (port == 0 ? "The mesh" : "The boundary") << " could not be had";
+    if (time)
+    {
+      text << " at time " << *time;
+    }
+    text << ": the pipeline before it failed.";
+    throw morph::Error(text.str());
+  }
+  return vtkDataObject::GetData(info);
+}
+
+int Ports::RequestData(
+  const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const auto forOutputs = [outputVector](const auto& action)
+  {
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      action(vtkDataObject::GetData(outputVector, port));
+    }
+  };
+  task.Reset();
+  CrewMonitor monitor(this->Filter, task.NumberOfThreads);
+  vtkSmartPointer<vtkDataObject> input;
+  const auto work = [&]
+  {
+    vtkSmartPointer<vtkDataObject> given = vtkDataObject::GetData(inputVector[0]);
+    input = inputVector[1]->GetInformationObject(0)
+              ? this->Time.TakeRest(given,
+                  [this](int port, std::optional<double> time) { return this->Fetch(port, time); })
+              : given;
+    vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+    const int ranksWithCells = Input::RequireOneRankWithCells(grid);
+    Input::RequireNotSwapped(input, boundary);
+    grid = Input::RequireGrid(input, "The input");
+    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    {
+      task.Work(grid, boundary, monitor);
+    }
+  };
+  const auto clear = [&]
+  {
+    forOutputs([](vtkDataObject* output) { output->Initialize(); });
+    task.Reset();
+  };
+  const Execution::Outcome outcome = Execution::Run(this->Filter, task.Name, work, clear);
+  // With an error too: they may explain it.
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningWithObjectMacro(this->Filter, << warning);
+  }
+  if (outcome != Execution::Outcome::Done && task.Undone)
+  {
+    task.Undone(input, outcome == Execution::Outcome::Cancelled ? "Cancelled" : "Failed");
+  }
+  if (vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]))
+  {
+    forOutputs([boundary](vtkDataObject* output) { Time::CopyDataTime(boundary, output); });
+  }
+  return 1;
+}
+}

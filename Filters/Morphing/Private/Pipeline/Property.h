@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+class vtkObject;
+
+/// Setters of properties that are floating-point numbers. vtkSetMacro and vtkSetClampMacro take a
+/// NaN, in every VTK release.
+namespace morph::filters::Property
+{
+/// Whether `value` is finite and in [minimum, maximum]. If not, it raises an error of `filter` that
+/// names the property, the value, the range and `current`, the value that stays.
+bool Accepts(vtkObject* filter, const char* property, double value, double current, double minimum,
+  double maximum);
+/// As above, for any finite value.
+bool Accepts(vtkObject* filter, const char* property, double value, double current);
+}
+
+/// Defines a filter's Set`name`(double), declared in its header. After the name: the least and the
+/// greatest value, or nothing.
+#define morphSetNumberMacro(filter, name, ...)                                            \
+  void filter::Set##name(double value)                                                    \
+  {                                                                                       \
+    if (this->name != value &&                                                            \
+        morph::filters::Property::Accepts(this, #name, value, this->name, ##__VA_ARGS__)) \
+    {                                                                                     \
+      this->name = value;                                                                 \
+      this->Modified();                                                                   \
+    }                                                                                     \
+  }

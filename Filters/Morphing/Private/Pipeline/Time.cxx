@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Pipeline/Time.h"
+
+#include "Private/Pipeline/Ranks.h"
+
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
+
+namespace morph::filters
+{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+void Time::CopySteps(vtkInformation* boundary, vtkInformation* output)
+{
+  // The executive has copied port 0's; copying a key that is not there removes it.
+  output->CopyEntry(boundary, Pipeline::TIME_STEPS());
+  output->CopyEntry(boundary, Pipeline::TIME_RANGE());
+}
+
+void Time::CopyDataTime(vtkDataObject* boundary, vtkDataObject* output)
+{
+  output->GetInformation()->CopyEntry(boundary->GetInformation(), vtkDataObject::DATA_TIME_STEP());
+}
+
+void Time::Request(double restTime, std::optional<double> boundaryTime, vtkInformation* mesh,
+  vtkInformation* boundary)
+{
+  this->RestStep.reset();
+  if (const int count = mesh->Length(Pipeline::TIME_STEPS()))
+  {
+    const double* steps = mesh->Get(Pipeline::TIME_STEPS());
+    const double* after = std::upper_bound(steps, steps + count, restTime);
+    this->RestStep = after == steps ? steps[0] : after[-1];
+  }
+  else if (mesh->Length(Pipeline::TIME_RANGE()) == 2)
+  {
+    const double* range = mesh->Get(Pipeline::TIME_RANGE());
+    this->RestStep = std::min(std::max(restTime, range[0]), range[1]);
+  }
+  this->BoundaryTime = boundaryTime;
+  this->OnePort = mesh == boundary;
+  Ask(boundary, boundaryTime);
+  if (!this->OnePort || this->RestStep)
+  {
+    Ask(mesh, this->RestStep);
+  }
+}
+
+void Time::Ask(vtkInformation* input, std::optional<double> time)
+{
+  if (time)
+  {
+    input->Set(Pipeline::UPDATE_TIME_STEP(), *time);
+  }
+  else
+  {
+    input->Remove(Pipeline::UPDATE_TIME_STEP());
+  }
+}
+
+vtkSmartPointer<vtkDataObject> Time::TakeRest(vtkDataObject* mesh, const Fetch& fetch) const
+{
+  const auto isAtRest = [this](vtkDataObject* data)
+  {
+    vtkInformation* info = data ? data->GetInformation() : nullptr;
+    return !info || !info->Has(vtkDataObject::DATA_TIME_STEP()) ||
+           info->Get(vtkDataObject::DATA_TIME_STEP()) == *this->RestStep;
+  };
+  const bool overwritten = Ranks::Count(this->RestStep && !isAtRest(mesh)) > 0;
+  if (overwritten)
+  {
+    mesh = fetch(0, this->RestStep);
+  }
+  vtkSmartPointer<vtkDataObject> rest = mesh;
+  if (this->RestStep && mesh)
+  {
+    rest.TakeReference(mesh->NewInstance());
+    rest->ShallowCopy(mesh);
+  }
+  if (overwritten || (this->OnePort && this->RestStep))
+  {
+    fetch(1, this->BoundaryTime);
+  }
+  return rest;
+}
+}

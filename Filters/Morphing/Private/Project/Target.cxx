@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Project/Target.h"
+
+#include "Private/Data/GridMesh.h"
+#include "Support/Error.h"
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkGenericCell.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkStaticPointLocator.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Index;
+using Row = morph::ProjectionTarget::Row;
+
+vtkSmartPointer<vtkPoints> makePoints(const morph::Points& x)
+{
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(x.rows());
+  std::copy_n(x.data(), x.size(), coordinates->GetPointer(0));
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(coordinates);
+  return points;
+}
+
+/// For each point the one that stands for all within the rounding of single precision, in which STL
+/// files are written.
+std::vector<Index> mergedPoints(const morph::Points& x)
+{
+  if (x.rows() == 0)
+  {
+    return {};
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(makePoints(x));
+  vtkNew<vtkStaticPointLocator> locator;
+  locator->SetDataSet(data);
+  locator->BuildLocator();
+  std::vector<vtkIdType> merged(x.rows());
+  locator->MergePoints(1e-7 * data->GetLength(), merged.data());
+  return { merged.begin(), merged.end() };
+}
+
+/// The triangles of polygons and strips by merged points. Those without three different points are
+/// left out.
+morph::BoundaryFaces triangles(vtkPolyData* surface, const std::vector<Index>& merged)
+{
+  morph::BoundaryFaces faces;
+  faces.offsets.push_back(0);
+  const auto add = [&](Index a, Index b, Index c)
+  {
+    a = merged[a];
+    b = merged[b];
+    c = merged[c];
+    if (a != b && b != c && c != a)
+    {
+      faces.connectivity.insert(faces.connectivity.end(), { a, b, c });
+      faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+    }
+  };
+  vtkNew<vtkIdList> points;
+  vtkCellArray* polygons = surface->GetPolys();
+  for (vtkIdType c = 0; c < polygons->GetNumberOfCells(); ++c)
+  {
+    polygons->GetCellAtId(c, points);
+    for (vtkIdType k = 2; k < points->GetNumberOfIds(); ++k)
+    {
+      add(points->GetId(0), points->GetId(k - 1), points->GetId(k));
+    }
+  }
+  vtkCellArray* strips = surface->GetStrips();
+  for (vtkIdType c = 0; c < strips->GetNumberOfCells(); ++c)
+  {
+    strips->GetCellAtId(c, points);
+    for (vtkIdType k = 2; k < points->GetNumberOfIds(); ++k)
+    {
+      // Every other triangle of a strip is wound the other way.
+      add(points->GetId(k - 2), points->GetId(k - 1 + k % 2), points->GetId(k - k % 2));
+    }
+  }
+  faces.nodes = faces.connectivity;
+  std::sort(faces.nodes.begin(), faces.nodes.end());
+  faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
+  faces.between.offsets.assign(faces.nodes.size() + 1, 0);
+  return faces;
+}
+
+/// A locator over polygonal data made here. BuildCells: threads must not do it.
+void locate(vtkPolyData* data, vtkStaticCellLocator* locator)
+{
+  data->BuildCells();
+  locator->SetDataSet(data);
+  locator->BuildLocator();
+}
+
+/// The nearest cell within `radius`, or -1.
+vtkIdType nearest(
+  vtkStaticCellLocator* locator, const Row& x, double radius, vtkGenericCell* cell, Row& y)
+{
+  double from[3] = { x[0], x[1], x[2] }, to[3], distance2 = 0;
+  vtkIdType id = -1;
+  int part = 0, inside = 0;
+  if (!locator->FindClosestPointWithinRadius(from, radius, to, cell, id, part, distance2, inside))
+  {
+    return -1;
+  }
+  y = Row(to[0], to[1], to[2]);
+  return id;
+}
+
+/// Triangles that can be searched.
+class Triangles
+{
+public:
+  /// Those of `faces` listed in `some`.
+  Triangles(vtkPoints* points, const morph::Points& x, const morph::BoundaryFaces& faces,
+    const std::vector<Index>& some)
+    : Normals(static_cast<Index>(some.size()), 3)
+    , Centers(static_cast<Index>(some.size()), 3)
+    , Radii(some.size(), 0)
+  {
+    vtkNew<vtkCellArray> polygons;
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      const Index* nodes = faces.connectivity.data() + 3 * some[i];
+      const vtkIdType corners[3] = { nodes[0], nodes[1], nodes[2] };
+      polygons->InsertNextCell(3, corners);
+      const Index row = static_cast<Index>(i);
+      this->Normals.row(row) = morph::vectorArea(x, nodes, 3).normalized();
+      this->Centers.row(row) = (x.row(nodes[0]) + x.row(nodes[1]) + x.row(nodes[2])) / 3;
+      for (int k = 0; k < 3; ++k)
+      {
+        this->Radii[i] =
+          std::max(this->Radii[i], (x.row(nodes[k]) - this->Centers.row(row)).norm());
+      }
+      this->Largest = std::max(this->Largest, this->Radii[i]);
+    }
+    this->Data->SetPoints(points);
+    this->Data->SetPolys(polygons);
+    locate(this->Data, this->Locator);
+    this->CenterData->SetPoints(makePoints(this->Centers));
+    this->CenterLocator->SetDataSet(this->CenterData);
+    this->CenterLocator->BuildLocator();
+  }
+
+  vtkIdType Nearest(const Row& x, double radius, Row& y) const
+  {
+    vtkNew<vtkGenericCell> cell;
+    return nearest(this->Locator, x, radius, cell, y);
+  }
+
+  Row Normal(vtkIdType triangle) const { return this->Normals.row(triangle); }
+
+  /// Whether there is a triangle within `radius` that `fits`; `y` is then the nearest place on
+  /// those.
+  template <typename Fits>
+  bool NearestThat(const Row& x, double radius, const Fits& fits, Row& y) const
+  {
+    vtkNew<vtkIdList> near;
+    vtkNew<vtkGenericCell> cell;
+    // Not by the cell locator, whose search in a box takes time quadratic in what it finds.
+    this->CenterLocator->FindPointsWithinRadius(radius + this->Largest, x.data(), near);
+    near->Sort(); // of equally near triangles the first
+    double least = radius * radius;
+    bool found = false;
+    for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+    {
+      const vtkIdType triangle = near->GetId(k);
+      const double nearest = (x - this->Centers.row(triangle)).norm() - this->Radii[triangle];
+      if (nearest > std::sqrt(least) || !fits(triangle))
+      {
+        continue;
+      }
+      double from[3] = { x[0], x[1], x[2] }, to[3], coordinates[3], weights[3], distance2 = 0;
+      int part = 0;
+      this->Data->GetCell(triangle, cell);
+      if (cell->EvaluatePosition(from, to, part, coordinates, distance2, weights) >= 0 &&
+          (distance2 < least || (!found && distance2 <= least)))
+      {
+        least = distance2;
+        y = Row(to[0], to[1], to[2]);
+        found = true;
+      }
+    }
+    return found;
+  }
+
+private:
+  vtkNew<vtkPolyData> Data;
+  vtkNew<vtkStaticCellLocator> Locator;
+  vtkNew<vtkPolyData> CenterData;
+  vtkNew<vtkStaticPointLocator> CenterLocator;
+  morph::Points Normals;     ///< #triangles x 3, unit length; zero without area
+  morph::Points Centers;     ///< #triangles x 3
+  std::vector<double> Radii; ///< #triangles, of the spheres about the centers that hold them
+  double Largest = 0;
+};
+}
+
+struct Target::Implementation
+{
+  morph::Points X;
+  morph::BoundaryFaces Faces;
+  morph::Classification Geometry;
+  vtkSmartPointer<vtkPoints> Points;
+  std::unique_ptr<Triangles> All;
+  std::vector<std::unique_ptr<Triangles>>
+    Parts;                                 ///< by the target's surfaces, where one was asked for
+  std::vector<const Triangles*> OfSurface; ///< by the mesh's surfaces
+  vtkNew<vtkPolyData> Features;
+  vtkNew<vtkStaticCellLocator> FeatureLocator;
+  double Sign = 1;
+  double Cosine = 0;
+  double Reach = 0;
+
+  /// Adds one to the count of each of the target's surfaces within `distance` of `x`.
+  void Vote(const Row& x, double distance, std::vector<Index>& count) const
+  {
+    std::vector<Index> candidates;
+    Row y;
+    const auto collect = [&](vtkIdType triangle)
+    {
+      candidates.push_back(this->Geometry.surfaceOfFace[triangle]);
+      return false;
+    };
+    this->All->NearestThat(x, distance, collect, y);
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (Index s : candidates)
+    {
+      const auto belongs = [&](vtkIdType triangle)
+      { return this->Geometry.surfaceOfFace[triangle] == s; };
+      count[s] += this->All->NearestThat(x, distance, belongs, y);
+    }
+  }
+
+  const Triangles* Part(Index surface)
+  {
+    std::unique_ptr<Triangles>& part = this->Parts[surface];
+    if (!part)
+    {
+      part = std::make_unique<Triangles>(
+        this->Points, this->X, this->Faces, this->Geometry.surfaces[surface].faces);
+    }
+    return part.get();
+  }
+};
+
+Target::Target(vtkPolyData* surface, double featureAngle, double normalAngle, double reach,
+  morph::Monitor& monitor)
+  : Internals(new Implementation)
+{
+  Implementation& own = *this->Internals;
+  own.Cosine = std::cos(normalAngle * std::acos(-1.) / 180);
+  own.Reach = reach;
+  own.X = GridMesh::FromPoints(surface->GetPoints());
+  std::vector<Index> wrong;
+  for (Index i = 0; i < own.X.rows(); ++i)
+  {
+    if (!own.X.row(i).allFinite())
+    {
+      wrong.push_back(i);
+    }
+  }
+  if (!wrong.empty())
+  {
+    throw morph::Error("The target surface has coordinates that are not finite (NaN or infinite), "
+                       "at its points " +
+                       morph::listIds(wrong) + ".");
+  }
+  own.Faces = triangles(surface, mergedPoints(own.X));
+  std::vector<Index> all(own.Faces.offsets.size() - 1);
+  if (all.empty())
+  {
+    throw morph::Error("The target surface has no polygons to project onto (it has " +
+                       std::to_string(surface->GetNumberOfCells()) + " cells and " +
+                       std::to_string(own.X.rows()) + " points).");
+  }
+  std::iota(all.begin(), all.end(), Index(0));
+  own.Points = makePoints(own.X);
+  own.All = std::make_unique<Triangles>(own.Points, own.X, own.Faces, all);
+
+  morph::ClassificationOptions options;
+  options.featureAngle = featureAngle;
+  own.Geometry = morph::classify(own.X, own.Faces, options, monitor);
+  own.Parts.resize(own.Geometry.surfaces.size());
+  vtkNew<vtkCellArray> lines;
+  for (const morph::GeometryCurve& curve : own.Geometry.curves)
+  {
+    const std::size_t n = curve.nodes.size();
+    for (std::size_t i = 0; i + 1 < n + curve.loop; ++i)
+    {
+      const vtkIdType ends[2] = { curve.nodes[i], curve.nodes[(i + 1) % n] };
+      lines->InsertNextCell(2, ends);
+    }
+  }
+  own.Features->SetPoints(own.Points);
+  own.Features->SetLines(lines);
+  if (this->HasFeatures())
+  {
+    locate(own.Features, own.FeatureLocator);
+  }
+}
+
+Target::~Target() = default;
+
+void Target::Orient(const morph::Points& points, const morph::Points& normals)
+{
+  Implementation& own = *this->Internals;
+  std::vector<Index> voters;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    if (!normals.row(i).isZero(0))
+    {
+      voters.push_back(i);
+    }
+  }
+  Index agree = 0, disagree = 0;
+  Row y;
+  const std::size_t stride = 1 + voters.size() / 2000; // as good as all of them
+  for (std::size_t k = 0; k < voters.size(); k += stride)
+  {
+    const Index i = voters[k];
+    const vtkIdType triangle = own.All->Nearest(points.row(i), own.Reach, y);
+    const double cosine = triangle < 0 ? 0 : own.All->Normal(triangle).dot(normals.row(i));
+    agree += cosine > 0.5;
+    disagree += cosine < -0.5;
+  }
+  own.Sign = disagree > agree ? -1 : 1;
+}
+
+void Target::Assign(const morph::Classification& geometry, const morph::Points& moved)
+{
+  Implementation& own = *this->Internals;
+  const double size = (own.X.colwise().maxCoeff() - own.X.colwise().minCoeff()).norm();
+  own.OfSurface.assign(geometry.surfaces.size(), nullptr);
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    std::vector<Index> votes(own.Geometry.surfaces.size(), 0);
+    Index voters = 0;
+    for (Index node : geometry.surfaces[s].nodes)
+    {
+      if (geometry.dimension[node] < 2)
+      {
+        ++voters;
+        own.Vote(moved.row(node), 1e-3 * size, votes);
+      }
+    }
+    const auto best = std::max_element(votes.begin(), votes.end());
+    if (best != votes.end() && 2 * *best > voters &&
+        std::count(votes.begin(), votes.end(), *best) == 1)
+    {
+      own.OfSurface[s] = own.Part(best - votes.begin());
+    }
+  }
+}
+
+bool Target::HasFeatures() const
+{
+  return this->Internals->Features->GetNumberOfCells() > 0;
+}
+
+bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const
+{
+  const Implementation& own = *this->Internals;
+  const Triangles* assigned =
+    own.OfSurface.empty() ? nullptr : own.OfSurface[static_cast<std::size_t>(surface)];
+  const Triangles& place = assigned ? *assigned : *own.All;
+  const auto fits = [&](vtkIdType triangle)
+  { return normal.isZero(0) || own.Sign * place.Normal(triangle).dot(normal) >= own.Cosine; };
+  const vtkIdType first = place.Nearest(x, own.Reach, y);
+  if (first < 0 || fits(first))
+  {
+    return first >= 0;
+  }
+  // Another wall is nearer, or an edge where triangles meet: look further out among those that fit.
+  const double distance = (y - x).norm();
+  for (double radius = std::max(2 * distance, 1e-3 * own.Reach);; radius *= 2)
+  {
+    radius = std::min(radius, own.Reach);
+    if (place.NearestThat(x, radius, fits, y))
+    {
+      return true;
+    }
+    if (radius >= own.Reach)
+    {
+      return false;
+    }
+  }
+}
+
+bool Target::closestOnFeatures(const Row& x, Row& y) const
+{
+  const Implementation& own = *this->Internals;
+  vtkNew<vtkGenericCell> cell;
+  return this->HasFeatures() && nearest(own.FeatureLocator, x, own.Reach, cell, y) >= 0;
+}
+}
