@@ -3,7 +3,7 @@
 
 #include "Boundary/SurfaceLoops.h"
 #include "BoundaryMorphing/KnownMotion.h"
-#include "BoundaryMorphing/SurfaceSmoothing.h"
+#include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
 #include <algorithm>
 #include <optional>

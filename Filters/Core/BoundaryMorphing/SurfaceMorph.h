@@ -15,7 +15,7 @@ struct SurfaceMorphOptions
   enum class Method : std::uint8_t
   {
     WeightedResidual, ///< the paper's choice: SurfaceResidual.h
-    Smoothing         ///< SurfaceSmoothing.h
+    Smoothing         ///< SurfaceHarmonicExtension.h
   };
   Method method = Method::WeightedResidual;
   Index neighbors = 20; ///< of the weighted residual, at least 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryMorphing/SurfaceSmoothing.h"
+#include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
 #include "BoundaryMorphing/MotionFit.h"
 #include "Solvers/SparseSolver.h"
