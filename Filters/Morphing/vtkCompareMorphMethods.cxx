@@ -2,7 +2,7 @@
 #include "vtkCompareMorphMethods.h"
 
 #include "Mesh/Topology.h"
-#include "Morpher/SubSteps.h"
+#include "Morpher/IncrementalMorph.h"
 #include "Private/Compare/BoundarySeries.h"
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
@@ -15,7 +15,7 @@
 #include "Private/Pipeline/Steps.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/SubMonitor.h"
+#include "Support/ProgressRange.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"

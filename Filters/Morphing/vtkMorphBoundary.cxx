@@ -3,8 +3,8 @@
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/CurveMorph.h"
-#include "BoundaryMorphing/SurfaceImprovement.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
+#include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"

@@ -6,9 +6,9 @@
 #include "Threads.h"
 
 #include "LinearMethods/FemWarp.h"
-#include "LinearMethods/LogBarrierRow.h"
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/NodeWeights.h"
 
 #include <algorithm>
 

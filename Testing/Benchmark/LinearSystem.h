@@ -3,7 +3,7 @@
 
 #include "TwistedBrick.h"
 
-#include "Solvers/SparseRows.h"
+#include "Solvers/CsrMatrix.h"
 
 namespace benchmark
 {

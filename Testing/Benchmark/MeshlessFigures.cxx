@@ -7,7 +7,7 @@
 #include "Threads.h"
 
 #include "Geometry/SpatialOrder.h"
-#include "Interpolation/PrescribedSites.h"
+#include "Interpolation/InterpolationSites.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"

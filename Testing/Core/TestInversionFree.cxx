@@ -4,7 +4,7 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Morpher/SubSteps.h"
+#include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"

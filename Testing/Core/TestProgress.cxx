@@ -6,8 +6,8 @@
 
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
-#include "Morpher/SubSteps.h"
-#include "Support/SubMonitor.h"
+#include "Morpher/IncrementalMorph.h"
+#include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/Smoothing.h"
 

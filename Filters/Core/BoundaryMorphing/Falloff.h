@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Interpolation/PrescribedSites.h"
+#include "Interpolation/InterpolationSites.h"
 #include "Interpolation/WeightMatrix.h"
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"

@@ -2,7 +2,7 @@
 #include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
 #include "BoundaryMorphing/MotionFit.h"
-#include "Solvers/SparseSolver.h"
+#include "Solvers/SpdSolver.h"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Geometry/AffineFit.h"
-#include "Interpolation/PrescribedSites.h"
+#include "Interpolation/InterpolationSites.h"
 #include "Interpolation/WeightMatrix.h"
 #include "Support/Monitor.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Support/LaneFunctions.h"
+#include "Support/SimdMath.h"
 
 #include <limits>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Energies/CellGroups.h"
+#include "Energies/CellBatches.h"
 #include "Energies/FoldoverDensity.h"
-#include "Energies/TargetShapes.h"
+#include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Energies/CellGroupKernel.h"
+#include "Energies/CellBatchKernel.h"
 #include "Energies/MeshEnergy.h"
-#include "Support/VectorLoop.h"
+#include "Support/SimdDispatch.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Energies/TargetShapes.h"
+#include "Energies/TargetMatrices.h"
 
 namespace morph
 {

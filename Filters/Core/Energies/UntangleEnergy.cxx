@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/UntangleEnergy.h"
 
-#include "Energies/CellGroupKernel.h"
-#include "Energies/GroupSums.h"
-#include "Mesh/RowOrder.h"
+#include "Energies/BatchReductions.h"
+#include "Energies/CellBatchKernel.h"
+#include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/LU>
 

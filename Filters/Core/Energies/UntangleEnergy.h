@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Energies/CellGroups.h"
-#include "Energies/TargetShapes.h"
+#include "Energies/CellBatches.h"
+#include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
 
 #include <vector>

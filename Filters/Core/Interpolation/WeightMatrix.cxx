@@ -2,7 +2,7 @@
 #include "Interpolation/WeightMatrix.h"
 
 #include "Support/Error.h"
-#include "Support/VectorLoop.h"
+#include "Support/SimdDispatch.h"
 
 #include <algorithm>
 #include <limits>

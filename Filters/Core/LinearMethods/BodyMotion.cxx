@@ -2,7 +2,7 @@
 #include "LinearMethods/BodyMotion.h"
 
 #include "Geometry/AffineFit.h"
-#include "Geometry/PrincipalAxes.h"
+#include "Geometry/ThinSvd3.h"
 
 #include <Eigen/Geometry>
 

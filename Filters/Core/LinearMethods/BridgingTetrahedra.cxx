@@ -4,7 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
-#include "Support/BlockSum.h"
+#include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
 

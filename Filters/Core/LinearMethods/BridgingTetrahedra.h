@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Geometry/Delaunay.h"
-#include "Interpolation/PrescribedSites.h"
+#include "Interpolation/InterpolationSites.h"
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"
 

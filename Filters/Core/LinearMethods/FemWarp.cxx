@@ -3,9 +3,9 @@
 
 #include "LinearMethods/ElementStiffness.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/RowOrder.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
+#include "Mesh/UnknownOrdering.h"
 #include "Quality/ScaledJacobian.h"
 #include "Solvers/RowPlaces.h"
 #include "Support/Error.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/RowSystem.h"
+#include "LinearMethods/DirichletSystem.h"
 #include "Morpher/Morpher.h"
-#include "Solvers/SparseSolver.h"
+#include "Solvers/SpdSolver.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/LogBarrierRow.h"
+#include "LinearMethods/NodeWeights.h"
 #include "Mesh/Mesh.h"
-#include "Solvers/SparseRows.h"
+#include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 
 #include <vector>

@@ -2,8 +2,8 @@
 #include "LinearMethods/LogBarrierWarp.h"
 
 #include "LinearMethods/LogBarrierSystem.h"
-#include "Mesh/RowOrder.h"
 #include "Mesh/Topology.h"
+#include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
 
 #include <sstream>

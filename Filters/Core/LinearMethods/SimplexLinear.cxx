@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexLinear.h"
 
-#include "Interpolation/EnclosingTetrahedra.h"
+#include "Interpolation/PointLocation.h"
 #include "LinearMethods/BridgingTetrahedra.h"
-#include "Support/BlockSum.h"
 #include "Support/Error.h"
+#include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <sstream>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Geometry/Delaunay.h"
-#include "Interpolation/EnclosingTetrahedra.h"
+#include "Interpolation/InterpolationSites.h"
 #include "Interpolation/NaturalNeighbors.h"
-#include "Interpolation/PrescribedSites.h"
+#include "Interpolation/PointLocation.h"
 #include "Interpolation/WeightMatrix.h"
 #include "Morpher/Morpher.h"
 

@@ -2,9 +2,9 @@
 #include "Morpher/Morpher.h"
 
 #include "Mesh/IndexLimits.h"
-#include "Support/BlockSum.h"
 #include "Support/Error.h"
-#include "Support/SubMonitor.h"
+#include "Support/ProgressRange.h"
+#include "Support/ReproducibleSum.h"
 
 namespace morph
 {

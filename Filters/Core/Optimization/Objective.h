@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Optimization/BlockMatrix.h"
+#include "Optimization/BlockCsr3f.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 

@@ -6,7 +6,7 @@
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/BernsteinHex.h"
 #include "Quality/QuadraticJacobian.h"
-#include "Support/BlockSum.h"
+#include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
 

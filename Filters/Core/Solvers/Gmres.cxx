@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/Gmres.h"
 
-#include "Support/BlockSum.h"
+#include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solvers/IncompleteLU.h"
-#include "Solvers/ThreeColumns.h"
+#include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 
 namespace morph

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/ThreeColumns.h"
+#include "Solvers/MultiVector.h"
 
 namespace morph
 {

@@ -2,8 +2,8 @@
 #include "Solvers/Multigrid.h"
 
 #include "Solvers/RowPlaces.h"
-#include "Support/BlockSum.h"
 #include "Support/Error.h"
+#include "Support/ReproducibleSum.h"
 
 #include <Eigen/Eigenvalues>
 

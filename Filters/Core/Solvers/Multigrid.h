@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/SparseRows.h"
+#include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 

@@ -4,9 +4,9 @@
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/SubMonitor.h"
+#include "Support/ProgressRange.h"
+#include "Untangling/MinQualityAscent.h"
 #include "Untangling/Untangling.h"
-#include "Untangling/WorstCells.h"
 
 #include <algorithm>
 #include <cmath>

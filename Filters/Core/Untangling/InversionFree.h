@@ -3,11 +3,11 @@
 
 #include "Boundary/Classification.h"
 #include "Energies/MeshEnergy.h"
-#include "Energies/TargetShapes.h"
+#include "Energies/TargetMatrices.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Morpher/Morpher.h"
-#include "Untangling/FoldoverStages.h"
+#include "Untangling/FoldoverContinuation.h"
 
 #include <memory>
 
@@ -54,7 +54,7 @@ public:
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverStages::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the worst distortion in the end, and to raise the least scaled Jacobian (WorstCells.h); never for Initial.
+  /// Whether to lower the worst distortion in the end, and to raise the least scaled Jacobian (MinQualityAscent.h); never for Initial.
   /// Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
   /// How often the stretched targets are taken anew from the mesh as it has become. Default 2.

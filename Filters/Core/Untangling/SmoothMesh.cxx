@@ -4,12 +4,12 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/SmoothingTargets.h"
 #include "Energies/UntangleEnergy.h"
-#include "Mesh/CellPatch.h"
 #include "Mesh/HigherOrderNodes.h"
+#include "Mesh/KRing.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
-#include "Support/BlockSum.h"
+#include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "Untangling/Untangling.h"
 
 #include "Boundary/FoldedFaces.h"
-#include "Mesh/CellPatch.h"
+#include "Mesh/KRing.h"
 #include "Quality/ScaledJacobian.h"
-#include "Support/SubMonitor.h"
+#include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <tuple>

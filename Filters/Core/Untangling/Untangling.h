@@ -3,10 +3,10 @@
 
 #include "Boundary/Classification.h"
 #include "Energies/MeshEnergy.h"
-#include "Energies/TargetShapes.h"
+#include "Energies/TargetMatrices.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Topology.h"
-#include "Untangling/FoldoverStages.h"
+#include "Untangling/FoldoverContinuation.h"
 
 #include <cstdint>
 #include <vector>

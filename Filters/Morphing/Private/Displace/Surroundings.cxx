@@ -2,7 +2,7 @@
 #include "Private/Displace/Surroundings.h"
 
 #include "BoundaryMorphing/CurveMorph.h"
-#include "BoundaryMorphing/SurfaceImprovement.h"
+#include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Support/Error.h"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 #include "Private/Morph/Validity.h"
 
 #include "Mesh/CellShape.h"
-#include "Morpher/SubSteps.h"
+#include "Morpher/IncrementalMorph.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/SubMonitor.h"
+#include "Support/ProgressRange.h"
 #include "Untangling/BoundaryCheck.h"
 #include "Untangling/InversionFree.h"
 #include "vtkMorphAlgorithm.h"

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMorphing/SurfaceSmoothing.h"
+
+#include "Boundary/FaceQuality.h"
+#include "Mesh/GatherMap.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+constexpr double Poor = 0.2;       // scaled Jacobian
+constexpr double PartOfRest = 0.5; // of it at rest
+constexpr int Rings = 2;
+constexpr int Sweeps = 20;
+constexpr int MostHalvings = 8;
+constexpr double LeastDecrease = 1e-4; // of the sum, to be worth a step
+
+using Row = Eigen::RowVector3d;
+using Plane = Eigen::Matrix<double, 3, 2>; ///< two tangents, right-handed with the normal
+
+Plane tangents(const Row& normal)
+{
+  Plane plane;
+  plane.col(0) = normal.unitOrthogonal().transpose();
+  plane.col(1) = normal.cross(plane.col(0).transpose()).transpose();
+  return plane;
+}
+
+/// One corner of a face with its two neighbors there.
+struct Corner
+{
+  Index node[3];               ///< the corner, the next node, the one before
+  Eigen::Matrix2d restInverse; ///< of the two edges in the face's plane at rest
+  double area;                 ///< twice the triangle's at rest
+};
+
+class Improvement
+{
+public:
+  Improvement(const BoundaryFaces& faces, const Classification& geometry,
+    const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor)
+    : faces_(faces)
+    , geometry_(geometry)
+    , target_(target)
+    , motion_(motion)
+    , monitor_(monitor)
+    , position_(motion.moved())
+  {
+  }
+
+  SurfaceImprovement run()
+  {
+    const FaceQuality now = this->quality(this->position_);
+    const FaceQuality rest = this->quality(this->motion_.rest);
+    std::vector<Index> poor;
+    for (std::size_t f = 0; f < now.scaledJacobian.size(); ++f)
+    {
+      if (now.scaledJacobian[f] < Poor &&
+          now.scaledJacobian[f] < PartOfRest * rest.scaledJacobian[f])
+      {
+        poor.push_back(static_cast<Index>(f));
+      }
+    }
+    SurfaceImprovement result;
+    result.poor = static_cast<Index>(poor.size());
+    if (poor.empty())
+    {
+      return result;
+    }
+    this->makeCorners();
+    const std::vector<Index> patch = this->around(poor);
+    for (int sweep = 0; sweep < Sweeps; ++sweep)
+    {
+      this->normal_ =
+        surfaceNodeNormals(this->motion_.rest, this->position_, this->faces_, this->geometry_);
+      bool any = false;
+      for (Index node : patch)
+      {
+        any = this->improve(node) || any;
+      }
+      this->monitor_.check();
+      if (!any)
+      {
+        break;
+      }
+    }
+    result.moved = this->write(patch);
+    return result;
+  }
+
+private:
+  FaceQuality quality(const Points& points) const
+  {
+    return faceQuality(this->motion_.rest, points, this->faces_, this->geometry_);
+  }
+
+  void makeCorners()
+  {
+    for (std::size_t f = 0; f + 1 < this->faces_.offsets.size(); ++f)
+    {
+      const Index first = this->faces_.offsets[f], size = this->faces_.offsets[f + 1] - first;
+      const Index* nodes = this->faces_.connectivity.data() + first;
+      const Row area = vectorArea(this->motion_.rest, nodes, size);
+      if ((size != 3 && size != 4) || !(area.norm() > 0))
+      {
+        continue;
+      }
+      const Plane plane = tangents(area.normalized());
+      for (Index k = 0; k < size; ++k)
+      {
+        Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0 };
+        const Eigen::Matrix2d D = edges(corner, this->motion_.rest, plane);
+        corner.area = D.determinant();
+        if (corner.area > 0)
+        {
+          corner.restInverse = D.inverse();
+          this->corners_.push_back(corner);
+        }
+      }
+    }
+    this->cornersAt_ =
+      placesOfRows(static_cast<Index>(3 * this->corners_.size()), this->motion_.rest.rows(),
+        [this](Index place) { return this->corners_[place / 3].node[place % 3]; });
+    for (Index& corner : this->cornersAt_.values)
+    {
+      corner /= 3;
+    }
+  }
+
+  static Eigen::Matrix2d edges(const Corner& corner, const Points& points, const Plane& plane)
+  {
+    Eigen::Matrix2d D;
+    for (int k = 0; k < 2; ++k)
+    {
+      D.col(k) =
+        ((points.row(corner.node[k + 1]) - points.row(corner.node[0])) * plane).transpose();
+    }
+    return D;
+  }
+
+  /// Corners of faces within some rings of the poor ones that move, ascending.
+  std::vector<Index> around(const std::vector<Index>& poor) const
+  {
+    std::vector<std::uint8_t> near(this->motion_.rest.rows(), 0);
+    for (Index f : poor)
+    {
+      for (Index i = this->faces_.offsets[f]; i < this->faces_.offsets[f + 1]; ++i)
+      {
+        near[this->faces_.connectivity[i]] = 1;
+      }
+    }
+    for (int ring = 0; ring < Rings; ++ring)
+    {
+      const std::vector<std::uint8_t> before = near;
+      for (const Corner& corner : this->corners_)
+      {
+        const bool touches =
+          before[corner.node[0]] || before[corner.node[1]] || before[corner.node[2]];
+        for (Index node : corner.node)
+        {
+          near[node] = near[node] || touches;
+        }
+      }
+    }
+    std::vector<Index> patch;
+    for (Index node : this->faces_.nodes)
+    {
+      if (near[node] && this->motion_.state[node] == BoundaryMotion::OnSurface &&
+          this->cornersAt_.begin(node) != this->cornersAt_.end(node))
+      {
+        patch.push_back(node);
+      }
+    }
+    return patch;
+  }
+
+  struct Sum
+  {
+    double value = 0;
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+    double least = std::numeric_limits<double>::infinity(); ///< determinant
+  };
+
+  Sum sumAround(Index node, const Plane& plane, double delta) const
+  {
+    Sum sum;
+    for (const Index* c = this->cornersAt_.begin(node); c != this->cornersAt_.end(node); ++c)
+    {
+      const Corner& corner = this->corners_[*c];
+      const Eigen::Matrix2d J = edges(corner, this->position_, plane) * corner.restInverse;
+      const double d = J.determinant(), root = std::sqrt(d * d + delta * delta);
+      const double chi = d > 0 || delta == 0 ? (d + root) / 2 : delta * delta / (2 * (root - d));
+      sum.least = std::min(sum.least, d);
+      if (!(chi > 0))
+      {
+        sum.value = std::numeric_limits<double>::infinity();
+        return sum;
+      }
+      const double square = J.squaredNorm();
+      sum.value += corner.area * square / (2 * chi);
+      Eigen::Matrix2d cofactor;
+      cofactor << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
+      const Eigen::Matrix2d force = corner.area * (J / chi - square / (2 * chi * root) * cofactor) *
+                                    corner.restInverse.transpose();
+      sum.gradient += node == corner.node[1]   ? Eigen::Vector2d(force.col(0))
+                      : node == corner.node[2] ? Eigen::Vector2d(force.col(1))
+                                               : Eigen::Vector2d(-force.rowwise().sum());
+    }
+    return sum;
+  }
+
+  /// The Newton step in the tangent plane, by differences of the gradient; curvature is taken as positive.
+  Eigen::Vector2d step(Index node, const Plane& plane, double delta, const Sum& sum)
+  {
+    const Row place = this->position_.row(node);
+    double length = 0;
+    for (const Index* c = this->cornersAt_.begin(node); c != this->cornersAt_.end(node); ++c)
+    {
+      length = std::max(length, std::sqrt(this->corners_[*c].area));
+    }
+    const double h = 1e-6 * length;
+    Eigen::Matrix2d H;
+    for (int j = 0; j < 2; ++j)
+    {
+      this->position_.row(node) = place + h * plane.col(j).transpose();
+      H.col(j) = (this->sumAround(node, plane, delta).gradient - sum.gradient) / h;
+    }
+    this->position_.row(node) = place;
+    if (!H.allFinite())
+    {
+      return Eigen::Vector2d::Zero();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(
+      Eigen::Matrix2d(H + H.transpose()) / 2);
+    const Eigen::Vector2d curvature =
+      eigen.eigenvalues().cwiseAbs().cwiseMax(1e-3 * eigen.eigenvalues().cwiseAbs().maxCoeff());
+    if (!(curvature.minCoeff() > 0))
+    {
+      return Eigen::Vector2d::Zero();
+    }
+    return -eigen.eigenvectors() *
+           (eigen.eigenvectors().transpose() * sum.gradient).cwiseQuotient(curvature);
+  }
+
+  bool improve(Index node)
+  {
+    const Row normal = this->normal_.row(node), place = this->position_.row(node);
+    if (!(normal.norm() > 0))
+    {
+      return false;
+    }
+    const Plane plane = tangents(normal);
+    const double least = this->sumAround(node, plane, 1).least;
+    const double delta = least > 0 ? 0 : 2 * std::sqrt(1e-6 + 0.04 * least * least);
+    const Sum sum = this->sumAround(node, plane, delta);
+    Eigen::Vector2d way = this->step(node, plane, delta, sum);
+    for (int halving = 0; halving < MostHalvings; ++halving, way /= 2)
+    {
+      Row to = place + (plane * way).transpose();
+      if (this->target_ &&
+          !this->target_->closestOnSurface(this->geometry_.entity[node], Row(to), normal, to))
+      {
+        continue;
+      }
+      this->position_.row(node) = to;
+      if (this->sumAround(node, plane, delta).value < (1 - LeastDecrease) * sum.value)
+      {
+        return true;
+      }
+    }
+    this->position_.row(node) = place;
+    return false;
+  }
+
+  /// Hands the corners' new places to the motion, and takes the nodes between them along. Returns who moved.
+  std::vector<Index> write(const std::vector<Index>& patch)
+  {
+    const Points before = this->motion_.moved();
+    std::vector<Index> moved;
+    const auto move = [&](Index node, const Row& to)
+    {
+      this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
+      moved.push_back(node);
+    };
+    for (Index node : patch)
+    {
+      if (this->position_.row(node) != before.row(node))
+      {
+        move(node, this->position_.row(node));
+      }
+    }
+    const Points shift = this->position_ - before;
+    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i)
+    {
+      const Index k = static_cast<Index>(i), node = this->faces_.nodes[i];
+      const Index *first = this->faces_.between.begin(k), *last = this->faces_.between.end(k);
+      Row mean = Row::Zero();
+      std::for_each(first, last,
+        [&](Index corner) { mean += shift.row(corner) / static_cast<double>(last - first); });
+      if (this->motion_.state[node] != BoundaryMotion::OnSurface || mean.isZero(0))
+      {
+        continue;
+      }
+      Row to = before.row(node) + mean;
+      if (!this->target_ || this->target_->closestOnSurface(
+                              this->geometry_.entity[node], Row(to), this->normal_.row(node), to))
+      {
+        move(node, to);
+      }
+    }
+    std::sort(moved.begin(), moved.end());
+    return moved;
+  }
+
+  const BoundaryFaces& faces_;
+  const Classification& geometry_;
+  const ProjectionTarget* target_;
+  BoundaryMotion& motion_;
+  Monitor& monitor_;
+  Points position_; ///< #nodes x 3
+  Points normal_;
+  std::vector<Corner> corners_;
+  Adjacency cornersAt_; ///< #nodes: corners that use the node
+};
+}
+
+SurfaceImprovement improveSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+  const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor)
+{
+  return Improvement(faces, geometry, target, motion, monitor).run();
+}
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Energies/CellBatches.h"
+
+#include "Mesh/GatherMap.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+constexpr std::array<Shape, 4> Volumes = { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid };
+
+std::vector<Index> allCells(const Mesh& mesh)
+{
+  std::vector<Index> ids(mesh.numberOfCells());
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+/// Of a volume cell's corners; negative where none is free.
+Index leastRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  Index least = -1;
+  for (int a = 0; a < numberOfCorners(shape.shape); ++a)
+  {
+    const Index own = row[mesh.cell(cell)[shape.cornerNode[a]]];
+    least = own >= 0 && (least < 0 || own < least) ? own : least;
+  }
+  return least;
+}
+}
+
+CellGroups::CellGroups(const Mesh& mesh, const std::vector<Index>& free)
+  : CellGroups(mesh, free, allCells(mesh))
+{
+}
+
+CellGroups::CellGroups(
+  const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells)
+{
+  const auto rows = static_cast<Index>(free.size());
+  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
+  std::array<Group, Volumes.size()> open{};
+  const auto close = [&](Group& group)
+  {
+    if (group.cells > 0)
+    {
+      this->addPlaces(mesh, row, group);
+      this->groups_.push_back(group);
+      group.cells = 0;
+    }
+  };
+  // In the order of their least rows, so that what a row gathers is near in memory.
+  const Adjacency order = placesOfRows(
+    static_cast<Index>(cells.size()), rows, [&](Index i) { return leastRow(mesh, cells[i], row); });
+  for (Index i : order.values)
+  {
+    const Shape shape = cellShape(mesh.types[cells[i]])->shape;
+    Group& group = open[std::find(Volumes.begin(), Volumes.end(), shape) - Volumes.begin()];
+    group.shape = shape;
+    group.cell[group.cells++] = cells[i];
+    if (group.cells == LaneCount)
+    {
+      close(group);
+    }
+  }
+  std::for_each(open.begin(), open.end(), close);
+  this->uses_ =
+    placesOfRows(this->places(), rows, [this](Index place) { return this->row(place); });
+}
+
+void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group)
+{
+  std::fill(group.cell + group.cells, group.cell + LaneCount, group.cell[0]);
+  group.firstPlace = this->places();
+  const int corners = numberOfCorners(group.shape);
+  for (int a = 0; a < corners; ++a)
+  {
+    this->groupOf_.push_back(static_cast<std::int32_t>(this->size()));
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const Index c = group.cell[lane];
+      const Index node = mesh.cell(c)[cellShape(mesh.types[c])->cornerNode[a]];
+      this->node_.push_back(static_cast<std::int32_t>(node));
+      this->row_.push_back(lane < group.cells ? row[node] : -1);
+    }
+  }
+}
+
+bool CellGroups::moves(Index group, int lane, const int* corner) const
+{
+  return std::any_of(corner, corner + 4,
+    [&](int a) { return this->row(this->firstPlace(group) + a * LaneCount + lane) >= 0; });
+}
+
+void CellGroups::setTargets(const TargetShapes& targets)
+{
+  this->target_.clear();
+  for (Index index = 0; index < this->size(); ++index)
+  {
+    Group& group = this->groups_[index];
+    group.firstTarget = static_cast<Index>(this->target_.size());
+    const SimplicialDecomposition parts = simplicialDecomposition(group.shape);
+    this->target_.resize(this->target_.size() + parts.count, Tetrahedra{});
+    for (int lane = 0; lane < group.cells; ++lane)
+    {
+      const Index c = group.cell[lane], first = targets.start[c];
+      for (Index t = 0; t < targets.start[c + 1] - first; ++t)
+      {
+        const TargetShapes::Tetrahedron& from = targets.tetrahedra[first + t];
+        if (!(from.weight > 0 && this->moves(index, lane, parts.tets[t].corner)))
+        {
+          continue;
+        }
+        Tetrahedra& to = this->target_[group.firstTarget + t];
+        for (int i = 0; i < 9; ++i)
+        {
+          to.inverse[i][lane] = from.inverse[i];
+        }
+        to.weight[lane] = from.weight;
+        to.theta[lane] = from.theta;
+        to.stiffened[lane] = from.stiffened ? 1 : 0;
+      }
+    }
+  }
+}
+}

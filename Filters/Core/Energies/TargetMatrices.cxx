@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Energies/TargetMatrices.h"
+
+#include "Mesh/SimplicialDecomposition.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/ReproducibleSum.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 1024;
+constexpr double MostStretch = 20;
+constexpr double LeastQuality = 1e-3; // scaled Jacobian of a cell at rest that serves as a target
+constexpr double LeastVolume = 1e-3;  // of a tetrahedron to the mean in its cell
+
+using Corners = Eigen::Matrix<double, 3, 8>;
+using Lengths = Eigen::Vector3d; // along the three axes of a cell
+
+/// The edges of a shape along each axis, in the direction of the axis.
+struct Axes
+{
+  int count[3];
+  int edge[3][4][2];
+};
+
+const Axes* axesOf(Shape shape)
+{
+  static const Axes hex = { { 4, 4, 4 },
+    { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } }, { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } },
+      { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } } };
+  // The triangle's two axes are made one; its third edge counts with both.
+  static const Axes wedge = { { 3, 3, 3 },
+    { { { 0, 1 }, { 3, 4 }, { 1, 2 }, { 0, 0 } }, { { 0, 2 }, { 3, 5 }, { 4, 5 }, { 0, 0 } },
+      { { 0, 3 }, { 1, 4 }, { 2, 5 }, { 0, 0 } } } };
+  static const Axes pyramid = { { 2, 2, 4 },
+    { { { 0, 1 }, { 3, 2 }, { 0, 0 }, { 0, 0 } }, { { 0, 3 }, { 1, 2 }, { 0, 0 }, { 0, 0 } },
+      { { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } } } };
+  static const Axes tet = { { 2, 2, 2 },
+    { { { 0, 1 }, { 2, 3 }, { 0, 0 }, { 0, 0 } }, { { 0, 2 }, { 1, 3 }, { 0, 0 }, { 0, 0 } },
+      { { 0, 3 }, { 1, 2 }, { 0, 0 }, { 0, 0 } } } };
+  switch (shape)
+  {
+    case Shape::Hex:
+      return &hex;
+    case Shape::Wedge:
+      return &wedge;
+    case Shape::Pyramid:
+      return &pyramid;
+    case Shape::Tet:
+      return &tet;
+    default:
+      return nullptr;
+  }
+}
+
+/// Mean edge lengths along the axes; those of a wedge's triangles and all of a tetrahedron's are one.
+Lengths lengths(Shape shape, const Corners& x)
+{
+  const Axes& axes = *axesOf(shape);
+  Lengths result = Lengths::Zero();
+  for (int d = 0; d < 3; ++d)
+  {
+    for (int e = 0; e < axes.count[d]; ++e)
+    {
+      result[d] += (x.col(axes.edge[d][e][1]) - x.col(axes.edge[d][e][0])).norm() / axes.count[d];
+    }
+  }
+  if (shape == Shape::Wedge)
+  {
+    result[0] = result[1] = (result[0] + result[1]) / 2;
+  }
+  else if (shape == Shape::Tet)
+  {
+    result.setConstant(result.mean());
+  }
+  return result;
+}
+
+/// Mean edge vectors along the axes; a pyramid's third leads from the middle of its base to its apex.
+Eigen::Matrix3d frame(Shape shape, const Corners& x)
+{
+  const Axes& axes = *axesOf(shape);
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+  for (int d = 0; d < 3; ++d)
+  {
+    // A wedge's third triangle edges lie across both axes.
+    const int n = shape == Shape::Wedge && d < 2 ? 2 : axes.count[d];
+    for (int e = 0; e < n; ++e)
+    {
+      J.col(d) += (x.col(axes.edge[d][e][1]) - x.col(axes.edge[d][e][0])) / n;
+    }
+  }
+  return J;
+}
+
+/// Right-angled, or regular, with these lengths along the axes, in VTK's order.
+Corners idealShape(Shape shape, const Lengths& length)
+{
+  const double a = length[0], b = length[1], c = length[2];
+  Corners x = Corners::Zero();
+  switch (shape)
+  {
+    case Shape::Hex:
+      x << 0, a, a, 0, 0, a, a, 0, //
+        0, 0, b, b, 0, 0, b, b,    //
+        0, 0, 0, 0, c, c, c, c;
+      break;
+    case Shape::Wedge:
+      // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive decomposition.
+      x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2,          //
+        0, 0, a * std::sqrt(.75), 0, 0, a * std::sqrt(.75), //
+        0, 0, 0, c, c, c;
+      break;
+    case Shape::Pyramid:
+    {
+      const double height2 = c * c - (a * a + b * b) / 4;
+      x.leftCols<5>() << 0, a, a, 0, a / 2, //
+        0, 0, b, b, b / 2,                  //
+        0, 0, 0, 0, height2 > c * c / 16 ? std::sqrt(height2) : c / 4;
+      break;
+    }
+    default:
+      x.leftCols<4>() << 0, a, a / 2, a / 2,              //
+        0, 0, a * std::sqrt(.75), a * std::sqrt(1. / 12), //
+        0, 0, 0, a * std::sqrt(2. / 3);
+  }
+  return x;
+}
+
+Corners cornersOf(const Mesh& mesh, Index cell, const Points& points)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  Corners x;
+  for (int a = 0; a < shape.numberOfCorners; ++a)
+  {
+    x.col(a) = points.row(mesh.cell(cell)[shape.cornerNode[a]]).transpose();
+  }
+  return x;
+}
+
+Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
+{
+  Eigen::Matrix3d D;
+  for (int k = 0; k < 3; ++k)
+  {
+    D.col(k) = x.col(tet.corner[k + 1]) - x.col(tet.corner[0]);
+  }
+  return D;
+}
+
+/// Of a tetrahedron of the cell's decomposition.
+std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const int* corner = simplicialDecomposition(shape.shape).tets[tetrahedron].corner;
+  std::array<Index, 4> nodes;
+  std::transform(
+    corner, corner + 4, nodes.begin(), [&](int a) { return mesh.cell(cell)[shape.cornerNode[a]]; });
+  return nodes;
+}
+
+bool isVolume(const Mesh& mesh, Index cell)
+{
+  return numberOfCorners(cellShape(mesh.types[cell])->shape) > 0;
+}
+
+/// Whether the cells at rest may serve as targets.
+std::vector<char> validCells(
+  const Mesh& rest, const std::vector<std::int8_t>& orientation, Monitor& monitor)
+{
+  const Quality quality = measureCorners(rest, rest.points, orientation, {}, monitor);
+  std::vector<char> valid(rest.numberOfCells());
+  for (Index c = 0; c < rest.numberOfCells(); ++c)
+  {
+    valid[c] = quality.scaledJacobian[c] > LeastQuality;
+  }
+  return valid;
+}
+
+double meanVolume(const SimplicialDecomposition& parts, const Corners& x)
+{
+  double sum = 0;
+  for (int t = 0; t < parts.count; ++t)
+  {
+    sum += std::abs(edges(parts.tets[t], x).determinant()) / 6;
+  }
+  return sum / parts.count;
+}
+
+/// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or its own.
+Lengths lengthsAround(
+  const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
+{
+  const CellShape& shape = *cellShape(rest.types[cell]);
+  double sum = 0;
+  Index count = 0;
+  for (int a = 0; a < shape.numberOfCorners; ++a)
+  {
+    const Index node = rest.cell(cell)[shape.cornerNode[a]];
+    for (const Index* next = around.begin(node); next != around.end(node); ++next)
+    {
+      if (valid[*next])
+      {
+        sum +=
+          lengths(cellShape(rest.types[*next])->shape, cornersOf(rest, *next, rest.points)).mean();
+        ++count;
+      }
+    }
+  }
+  return count > 0 ? Lengths(Lengths::Constant(sum / static_cast<double>(count)))
+                   : lengths(shape.shape, cornersOf(rest, cell, rest.points));
+}
+
+Corners targetOf(Shape shape, const Corners& rest, const Corners& guide, double sign, Target target)
+{
+  if (target == Target::Ideal)
+  {
+    Corners x = idealShape(shape, lengths(shape, guide));
+    x.row(0) *= sign;
+    return x;
+  }
+  if (target == Target::Initial || shape == Shape::Tet)
+  {
+    return rest;
+  }
+  const Lengths ratio = lengths(shape, guide).cwiseQuotient(lengths(shape, rest));
+  const Eigen::Matrix3d J = frame(shape, rest);
+  return J * ratio.cwiseMax(1 / MostStretch).cwiseMin(MostStretch).asDiagonal() * J.inverse() *
+         rest;
+}
+}
+
+TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, Target target, Monitor& monitor)
+{
+  const Index cells = rest.numberOfCells();
+  TargetShapes result;
+  result.start.assign(cells + 1, 0);
+  for (Index c = 0; c < cells; ++c)
+  {
+    result.start[c + 1] =
+      result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
+  }
+  result.tetrahedra.resize(result.start.back());
+  const bool tetrahedraAlone = std::all_of(rest.types.begin(), rest.types.end(),
+    [](std::uint8_t type)
+    {
+      const Shape shape = cellShape(type)->shape;
+      return shape == Shape::Tet || numberOfCorners(shape) == 0;
+    });
+  const double theta = tetrahedraAlone ? 0.5 : 0.1;
+  const std::vector<char> valid = validCells(rest, orientation, monitor);
+  const bool allValid = [&]
+  {
+    for (Index c = 0; c < cells; ++c)
+    {
+      if (!valid[c] && isVolume(rest, c))
+      {
+        return false;
+      }
+    }
+    return true;
+  }();
+  const Adjacency around = allValid ? Adjacency() : nodeToCells(rest);
+
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        if (!isVolume(rest, c))
+        {
+          continue;
+        }
+        const Shape shape = cellShape(rest.types[c])->shape;
+        const double sign = orientation[c];
+        Corners x;
+        if (valid[c])
+        {
+          x = targetOf(
+            shape, cornersOf(rest, c, rest.points), cornersOf(rest, c, guide), sign, target);
+        }
+        else
+        {
+          x = idealShape(shape, lengthsAround(rest, around, valid, c));
+          x.row(0) *= sign;
+        }
+        const SimplicialDecomposition parts = simplicialDecomposition(shape);
+        const double least = LeastVolume * meanVolume(parts, x);
+        for (int t = 0; t < parts.count; ++t)
+        {
+          TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
+          tetrahedron = {};
+          const Eigen::Matrix3d D = edges(parts.tets[t], x);
+          const double volume = sign * D.determinant() / 6;
+          if (t >= cornerTetrahedra(shape) && !(volume > least))
+          {
+            continue;
+          }
+          Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
+          tetrahedron.theta = theta;
+          tetrahedron.stiffened = shape != Shape::Tet;
+          tetrahedron.weight = parts.tets[t].weight * volume;
+        }
+      }
+    });
+
+  const double total = blockSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
+    [&](Index t) { return result.tetrahedra[t].weight; });
+  const auto count = static_cast<double>(result.tetrahedra.size());
+  monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index t = first; t < last; ++t)
+      {
+        result.tetrahedra[t].weight *= count / total;
+      }
+    });
+  return result;
+}
+
+void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
+  TargetShapes& targets)
+{
+  for (Index f : folded)
+  {
+    const Index c = faces.cells[f];
+    const Index* first = faces.connectivity.data() + faces.offsets[f];
+    const Index* last = faces.connectivity.data() + faces.offsets[f + 1];
+    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    {
+      const std::array<Index, 4> nodes = nodesOf(mesh, c, t - targets.start[c]);
+      const auto onFace = std::count_if(nodes.begin(), nodes.end(),
+        [&](Index node) { return std::find(first, last, node) != last; });
+      if (onFace >= 3)
+      {
+        targets.tetrahedra[t].weight = 0;
+      }
+    }
+  }
+}
+
+namespace
+{
+bool isPositive(
+  const std::array<Index, 4>& node, const TargetShapes::Tetrahedron& target, const Points& points)
+{
+  Eigen::Matrix3d D;
+  for (int k = 0; k < 3; ++k)
+  {
+    D.col(k) = (points.row(node[k + 1]) - points.row(node[0])).transpose();
+  }
+  return (D * Eigen::Map<const Eigen::Matrix3d>(target.inverse)).determinant() > 0;
+}
+}
+
+std::vector<Index> tangledCells(const Mesh& mesh, const Points& points, const TargetShapes& targets)
+{
+  std::vector<Index> result;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    bool tangled = false;
+    for (Index t = targets.start[c]; t < targets.start[c + 1] && !tangled; ++t)
+    {
+      tangled = targets.tetrahedra[t].weight > 0 &&
+                !isPositive(nodesOf(mesh, c, t - targets.start[c]), targets.tetrahedra[t], points);
+    }
+    if (tangled)
+    {
+      result.push_back(c);
+    }
+  }
+  return result;
+}
+
+Index dropFolded(
+  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets)
+{
+  Index dropped = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    {
+      TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
+      const std::array<Index, 4> node = nodesOf(mesh, c, t - targets.start[c]);
+      if (tetrahedron.weight > 0 &&
+          std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) >= 2 &&
+          !isPositive(node, tetrahedron, points))
+      {
+        tetrahedron.weight = 0;
+        ++dropped;
+      }
+    }
+  }
+  return dropped;
+}
+}

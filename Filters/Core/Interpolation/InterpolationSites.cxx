@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interpolation/InterpolationSites.h"
+
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace morph
+{
+namespace
+{
+constexpr double RelativeTolerance = 1e-12; // of the diagonal
+
+/// Groups of nodes that are one site: a forest in which every node leads to the first of its group.
+class Groups
+{
+public:
+  explicit Groups(Index n)
+    : parent_(n)
+  {
+    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
+  }
+
+  Index first(Index i)
+  {
+    while (this->parent_[i] != i)
+    {
+      this->parent_[i] = this->parent_[this->parent_[i]];
+      i = this->parent_[i];
+    }
+    return i;
+  }
+
+  void join(Index i, Index j)
+  {
+    i = this->first(i);
+    j = this->first(j);
+    this->parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+private:
+  std::vector<Index> parent_;
+};
+
+/// Points by the cell of a regular grid they lie in, hashed: which cells are taken does not matter for the cost.
+class HashedGrid
+{
+public:
+  HashedGrid(const Eigen::RowVector3d& low, double cell, Index n)
+    : low_(low)
+    , cell_(cell)
+    , next_(n, -1)
+  {
+    std::size_t slots = 64;
+    while (slots < 2 * static_cast<std::size_t>(n))
+    {
+      slots *= 2;
+    }
+    this->head_.assign(slots, -1);
+  }
+
+  void insert(const Eigen::RowVector3d& x, Index i)
+  {
+    Index& head = this->head_[this->slot(this->cellOf(x))];
+    this->next_[i] = head;
+    head = i;
+  }
+
+  /// visit(i) for every point within `reach` of x in each coordinate, and perhaps for others.
+  template <typename Visit>
+  void near(const Eigen::RowVector3d& x, double reach, const Visit& visit) const
+  {
+    const Cell low = this->cellOf(x.array() - reach), high = this->cellOf(x.array() + reach);
+    for (std::int64_t a = low[0]; a <= high[0]; ++a)
+    {
+      for (std::int64_t b = low[1]; b <= high[1]; ++b)
+      {
+        for (std::int64_t c = low[2]; c <= high[2]; ++c)
+        {
+          for (Index i = this->head_[this->slot({ a, b, c })]; i >= 0; i = this->next_[i])
+          {
+            visit(i);
+          }
+        }
+      }
+    }
+  }
+
+private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  Cell cellOf(const Eigen::RowVector3d& x) const
+  {
+    Cell cell;
+    for (int j = 0; j < 3; ++j)
+    {
+      // Half a cell off: lattices then do not lie on the walls between cells.
+      cell[j] = static_cast<std::int64_t>(std::floor((x[j] - this->low_[j]) / this->cell_ + .5));
+    }
+    return cell;
+  }
+
+  std::size_t slot(const Cell& cell) const
+  {
+    std::uint64_t h = 0;
+    for (std::int64_t c : cell)
+    {
+      h = (h ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ull;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h) & (this->head_.size() - 1);
+  }
+
+  Eigen::RowVector3d low_;
+  double cell_;
+  std::vector<Index> head_, next_;
+};
+
+double diagonal(const Points& places)
+{
+  const double length = (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm();
+  const bool point = (places.rowwise() - places.row(0)).isZero(0);
+  const double square = length * length;
+  if (!point && !(square >= std::numeric_limits<double>::min() && std::isfinite(square)))
+  {
+    std::ostringstream text;
+    text << "The prescribed nodes extend over " << length
+         << ", whose square is no number. Scale the mesh to a reasonable unit.";
+    throw Error(text.str());
+  }
+  return length;
+}
+}
+
+PrescribedSites::PrescribedSites(const Points& points, const std::vector<Index>& ids)
+{
+  const Index n = static_cast<Index>(ids.size());
+  if (n == 0)
+  {
+    throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
+                                       "goes. Prescribe the boundary's nodes.");
+  }
+  Points places(n, 3);
+  for (Index i = 0; i < n; ++i)
+  {
+    places.row(i) = points.row(ids[i]).array() + 0.; // -0.0 becomes 0.0
+  }
+  const double extent = diagonal(places);
+  this->tolerance_ = RelativeTolerance * extent;
+
+  // Positions in canonical order, from here on.
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b)
+    {
+      const double *p = places.data() + 3 * a, *q = places.data() + 3 * b;
+      for (int j = 0; j < 3; ++j)
+      {
+        if (p[j] != q[j])
+        {
+          return p[j] < q[j];
+        }
+      }
+      return ids[a] < ids[b];
+    });
+
+  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far smaller than any
+  // mesh's edges.
+  const double cell = extent > 0 ? 1024 * this->tolerance_ : 1;
+  HashedGrid grid(places.colwise().minCoeff(), cell, n);
+  Groups groups(n);
+  for (Index i = 0; i < n; ++i)
+  {
+    const Eigen::RowVector3d x = places.row(order[i]);
+    const auto joinIfNear = [&](Index j)
+    {
+      if ((places.row(order[j]) - x).norm() <= this->tolerance_)
+      {
+        groups.join(i, j);
+      }
+    };
+    grid.near(x, this->tolerance_, joinIfNear);
+    // One of several at a place finds the others: all of them in the grid would make a pile quadratic.
+    if (i == 0 || (places.row(order[i - 1]).array() != x.array()).any())
+    {
+      grid.insert(x, i);
+    }
+  }
+
+  std::vector<Index> siteOfFirst(n, -1);
+  this->siteOf_.assign(n, -1);
+  Index sites = 0;
+  for (Index i = 0; i < n; ++i)
+  {
+    Index& site = siteOfFirst[groups.first(i)];
+    site = site < 0 ? sites++ : site;
+    this->siteOf_[order[i]] = site;
+  }
+
+  this->prescribed_.offsets.assign(sites + 1, 0);
+  for (Index site : this->siteOf_)
+  {
+    ++this->prescribed_.offsets[site + 1];
+  }
+  std::partial_sum(this->prescribed_.offsets.begin(), this->prescribed_.offsets.end(),
+    this->prescribed_.offsets.begin());
+  this->prescribed_.values.resize(n);
+  std::vector<Index> next(this->prescribed_.offsets.begin(), this->prescribed_.offsets.end() - 1);
+  for (Index i : order)
+  {
+    this->prescribed_.values[next[this->siteOf_[i]]++] = i;
+  }
+  this->coordinates_.resize(sites, 3);
+  for (Index s = 0; s < sites; ++s)
+  {
+    this->coordinates_.row(s) = places.row(*this->prescribed_.begin(s));
+  }
+}
+
+Points PrescribedSites::average(const Points& prescribed) const
+{
+  Points result(this->size(), 3);
+  for (Index s = 0; s < this->size(); ++s)
+  {
+    const Index *i = this->prescribed_.begin(s), *end = this->prescribed_.end(s);
+    Eigen::RowVector3d sum = prescribed.row(*i);
+    if (end - i > 1)
+    {
+      const double count = static_cast<double>(end - i);
+      for (++i; i != end; ++i)
+      {
+        sum += prescribed.row(*i);
+      }
+      sum /= count;
+    }
+    result.row(s) = sum;
+  }
+  return result;
+}
+
+void PrescribedSites::scatterTranspose(const Points& sites, Points& prescribed) const
+{
+  for (Index i = 0; i < static_cast<Index>(this->siteOf_.size()); ++i)
+  {
+    const Index s = this->siteOf_[i];
+    const Index count = this->prescribed_.end(s) - this->prescribed_.begin(s);
+    prescribed.row(i) += sites.row(s) / static_cast<double>(count);
+  }
+}
+
+std::size_t PrescribedSites::memory() const
+{
+  return sizeof(double) * this->coordinates_.size() +
+         sizeof(Index) * (this->prescribed_.offsets.size() + this->prescribed_.values.size() +
+                           this->siteOf_.size());
+}
+}

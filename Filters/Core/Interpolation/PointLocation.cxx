@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interpolation/PointLocation.h"
+
+#include "Geometry/SpatialOrder.h"
+#include "Support/Error.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+constexpr Index BlockLength = 256;
+constexpr double FlatVolume = 1e-13; // 6 V over the cube of the longest edge
+constexpr double InsideTolerance = EnclosingTetrahedra::InsideTolerance;
+constexpr double LinearPrecision = 1e-10; // of the sites' size
+constexpr std::size_t MostCandidates = 200;
+
+using Row = Eigen::RowVector3d;
+
+/// One tetrahedron as a coordinate system.
+class Frame
+{
+public:
+  Frame(const Delaunay& delaunay, int id)
+  {
+    const auto& sites = delaunay.tetrahedra()[id].sites;
+    this->origin_ = delaunay.sites().row(sites[0]);
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      this->edges_.col(k) = (delaunay.sites().row(sites[k + 1]) - this->origin_).transpose();
+      longest = std::max(longest, this->edges_.col(k).squaredNorm());
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto difference = this->edges_.col(k) - this->edges_.col((k + 1) % 3);
+      longest = std::max(longest, difference.squaredNorm());
+    }
+    const double determinant = this->edges_.determinant();
+    this->flat_ = !(std::abs(determinant) > FlatVolume * longest * std::sqrt(longest));
+    if (!this->flat_)
+    {
+      this->inverse_ = this->edges_.inverse();
+    }
+  }
+
+  bool flat() const { return this->flat_; }
+
+  Eigen::RowVector4d coordinates(const Row& x) const
+  {
+    const Eigen::Vector3d d = (x - this->origin_).transpose();
+    Eigen::Vector3d b = this->inverse_ * d;
+    b += this->inverse_ * (d - this->edges_ * b); // needles lose digits in the first product
+    return Eigen::RowVector4d(1 - b[0] - b[1] - b[2], b[0], b[1], b[2]);
+  }
+
+private:
+  Row origin_;
+  Eigen::Matrix3d edges_, inverse_;
+  bool flat_;
+};
+
+struct Place
+{
+  int tetrahedron = Delaunay::Outside;
+  Eigen::RowVector4d barycentric;
+};
+
+double residual(const Delaunay& delaunay, const Place& at, const Row& x)
+{
+  Row sum = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    sum += at.barycentric[k] * delaunay.sites().row(delaunay.tetrahedra()[at.tetrahedron].sites[k]);
+  }
+  return (sum - x).norm();
+}
+
+/// The best of the tetrahedra around `start` that are not flat: through flat ones and over two more rings.
+Place bestAround(const Delaunay& delaunay, const Row& x, int start)
+{
+  Place best;
+  std::vector<int> candidates{ start };
+  std::vector<int> rings{ 0 };
+  for (std::size_t i = 0; i < candidates.size() && candidates.size() < MostCandidates; ++i)
+  {
+    const Frame frame(delaunay, candidates[i]);
+    if (!frame.flat())
+    {
+      const Eigen::RowVector4d b = frame.coordinates(x);
+      if (b.allFinite() &&
+          (best.tetrahedron == Delaunay::Outside || b.minCoeff() > best.barycentric.minCoeff()))
+      {
+        best = { candidates[i], b };
+      }
+    }
+    const int ring = rings[i] + (frame.flat() ? 0 : 1);
+    for (int next : delaunay.tetrahedra()[candidates[i]].neighbors)
+    {
+      if (next != Delaunay::Outside && ring <= 2 &&
+          std::find(candidates.begin(), candidates.end(), next) == candidates.end())
+      {
+        candidates.push_back(next);
+        rings.push_back(ring);
+      }
+    }
+  }
+  return best;
+}
+
+/// As bestAround(), where the tetrahedron `found`, whose frame is at hand, does not do by itself.
+Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
+{
+  if (!frame.flat())
+  {
+    const Eigen::RowVector4d b = frame.coordinates(x);
+    if (b.minCoeff() >= -InsideTolerance)
+    {
+      return { found, b };
+    }
+  }
+  return bestAround(delaunay, x, found);
+}
+}
+
+EnclosingTetrahedra enclosingTetrahedra(
+  const Delaunay& delaunay, const Points& points, const std::vector<Index>& ids, Monitor& monitor)
+{
+  // spatialOrder gives node ids; the rows are wanted.
+  std::vector<Index> rowOf(points.rows(), -1);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    rowOf[ids[i]] = static_cast<Index>(i);
+  }
+  const std::vector<Index> order = spatialOrder(points, ids);
+  const Points& sites = delaunay.sites();
+  const double size = (sites.colwise().maxCoeff() - sites.colwise().minCoeff()).norm();
+  monitor.check();
+
+  const Index n = static_cast<Index>(ids.size());
+  EnclosingTetrahedra result;
+  result.tetrahedron.resize(n);
+  result.barycentric.resize(n, 4);
+  std::vector<char> state(n, 0); // 1: outside, 2: not found
+  monitor.parallelFor((n + BlockLength - 1) / BlockLength, 1,
+    [&](Index firstBlock, Index lastBlock)
+    {
+      for (Index block = firstBlock; block < lastBlock; ++block)
+      {
+        const Index first = block * BlockLength;
+        int here = delaunay.startNear(points.row(order[first]) - delaunay.origin());
+        Frame frame(delaunay, here);
+        for (Index i = first; i < std::min(n, first + BlockLength); ++i)
+        {
+          const Row x = points.row(order[i]) - delaunay.origin();
+          const Index row = rowOf[order[i]];
+          const int found = delaunay.locate(x, here);
+          if (found != here) // several nodes lie in one tetrahedron
+          {
+            here = found;
+            frame = Frame(delaunay, here);
+          }
+          const Place at = place(delaunay, x, here, frame);
+          if (at.tetrahedron == Delaunay::Outside ||
+              residual(delaunay, at, x) > LinearPrecision * size)
+          {
+            state[row] = 2;
+            continue;
+          }
+          state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
+          result.tetrahedron[row] = at.tetrahedron;
+          result.barycentric.row(row) = at.barycentric;
+        }
+      }
+    });
+  monitor.check();
+
+  std::vector<Index> lost;
+  for (Index i = 0; i < n; ++i)
+  {
+    if (state[i] == 1)
+    {
+      result.extrapolated.push_back(ids[i]);
+    }
+    else if (state[i] == 2)
+    {
+      lost.push_back(ids[i]);
+    }
+  }
+  if (!lost.empty())
+  {
+    throw Error(Error::Kind::Singular, "All tetrahedra between prescribed nodes near node ids " +
+                                         listIds(lost) +
+                                         " are flat, so they cannot say where the node goes. "
+                                         "Prescribe nodes on all sides of it, or choose FEMWARP.");
+  }
+  return result;
+}
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/DirichletSystem.h"
+
+#include "Mesh/UnknownOrdering.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 4096;
+}
+
+void requireTolerance(double tolerance)
+{
+  if (!(tolerance > 0 && tolerance < 1))
+  {
+    std::ostringstream text;
+    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
+    throw Error(text.str());
+  }
+}
+
+Points rowPositions(const Points& points, const std::vector<Index>& rows)
+{
+  Points positions(static_cast<Index>(rows.size()), 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+  {
+    positions.row(i) = points.row(rows[i]);
+  }
+  return positions;
+}
+
+AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
+  const RowComponents& components, const SparseMatrix& coupling)
+  : components_(components)
+  , coupled_(components.count)
+{
+  for (Index row = 0; row < coupling.rows(); ++row)
+  {
+    std::vector<int>& columns = this->coupled_[components.of(row)];
+    for (SparseMatrix::InnerIterator entry(coupling, row); entry; ++entry)
+    {
+      columns.push_back(static_cast<int>(entry.col()));
+    }
+  }
+  for (std::vector<int>& columns : this->coupled_)
+  {
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    columns.shrink_to_fit();
+    Points places(static_cast<Index>(columns.size()), 3);
+    for (Index i = 0; i < places.rows(); ++i)
+    {
+      places.row(i) = points.row(partition.prescribed[columns[i]]);
+    }
+    this->leastSquares_.emplace_back(places);
+  }
+}
+
+std::vector<AffineFit> AffineGuess::fits(const Points& prescribed) const
+{
+  std::vector<AffineFit> result;
+  result.reserve(this->coupled_.size());
+  for (std::size_t c = 0; c < this->coupled_.size(); ++c)
+  {
+    const std::vector<int>& columns = this->coupled_[c];
+    Points displacement(static_cast<Index>(columns.size()), 3);
+    for (Index i = 0; i < displacement.rows(); ++i)
+    {
+      displacement.row(i) = prescribed.row(columns[i]);
+    }
+    result.push_back(this->leastSquares_[c].fit(displacement));
+  }
+  return result;
+}
+
+std::size_t AffineGuess::memory() const
+{
+  std::size_t bytes = sizeof(int) * this->components_.ofRow.size();
+  for (const std::vector<int>& columns : this->coupled_)
+  {
+    bytes += sizeof(AffineLeastSquares) + (sizeof(int) + 3 * sizeof(double)) * columns.size();
+  }
+  return bytes;
+}
+
+void startSystem(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
+  const SparseMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Monitor& monitor)
+{
+  const std::vector<AffineFit> fits = guess.fits(prescribed);
+  const Index n = static_cast<Index>(rows.size());
+  rhs.resize(n, 3);
+  x.resize(n, 3);
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        x.row(i) = fits[guess.component(i)].displacement(points.row(rows[i]));
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (SparseMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+        {
+          sum -= entry.value() * prescribed.row(entry.col());
+        }
+        rhs.row(i) = sum;
+      }
+    });
+}
+
+Points toRows(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
+{
+  Points result(free.rows(), 3);
+  for (Index i = 0; i < free.rows(); ++i)
+  {
+    result.row(i) = free.row(placeInFree(rows, partition.free, i));
+  }
+  return result;
+}
+
+void fromRows(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
+  Points& free, Monitor& monitor)
+{
+  monitor.parallelFor(x.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        free.row(placeInFree(rows, partition.free, i)) = x.row(i);
+      }
+    });
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Geometry/AffineFit.h"
+#include "Mesh/NodePartition.h"
+#include "Solvers/CsrMatrix.h"
+#include "Solvers/RowComponents.h"
+#include "Support/Monitor.h"
+
+#include <vector>
+
+namespace morph
+{
+/// What methods that solve A_I U_I = -A_B U_B share. `rows`: the node id of each matrix row, see UnknownOrdering.h.
+
+/// Throws Error unless the tolerance lies in (0, 1).
+void requireTolerance(double tolerance);
+
+/// #rows x 3, the positions of the rows' nodes.
+Points rowPositions(const Points& points, const std::vector<Index>& rows);
+
+/// The first guess of A_I U_I = -A_B U_B: in each component of the rows the affine displacement
+/// nearest to that of the prescribed nodes that A_B couples with the component. Affine motions
+/// solve the equations, so the iteration has to find only what remains of the others.
+class AffineGuess
+{
+public:
+  AffineGuess() = default;
+  /// `components`: of A_I, copied. Cost: one pass over `coupling`, which is A_B.
+  AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
+    const SparseMatrix& coupling);
+
+  /// The fit of each component; `prescribed`: #prescribed x 3 displacements.
+  std::vector<AffineFit> fits(const Points& prescribed) const;
+  int component(Index row) const { return this->components_.of(row); }
+  /// Bytes kept.
+  std::size_t memory() const;
+
+private:
+  RowComponents components_;
+  std::vector<std::vector<int>> coupled_; ///< per component, its columns of A_B, ascending
+  std::vector<AffineLeastSquares> leastSquares_;
+};
+
+/// `rhs` becomes -A_B U_B, `x` the first guess; both #rows x 3.
+void startSystem(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
+  const SparseMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Monitor& monitor);
+
+/// From NodePartition::free's order to that of the rows, and back; #free x 3.
+///@{
+Points toRows(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
+void fromRows(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
+  Points& free, Monitor& monitor);
+///@}
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/KRing.h"
+
+#include "Mesh/CellShape.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace morph
+{
+CellPatch cellPatch(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+  const std::vector<Index>& seeds, int rings)
+{
+  CellPatch patch;
+  patch.cells = seeds;
+  std::vector<char> isNode(mesh.numberOfNodes(), 0), isCell(mesh.numberOfCells(), 0);
+  for (Index c : seeds)
+  {
+    isCell[c] = 1;
+  }
+  std::size_t from = 0;
+  for (int ring = 0; ring <= rings; ++ring)
+  {
+    for (const std::size_t until = patch.cells.size(); from < until; ++from)
+    {
+      const Index c = patch.cells[from];
+      for (int a = 0; a < cellShape(mesh.types[c])->numberOfCorners; ++a)
+      {
+        const Index node = mesh.cell(c)[a];
+        if (isNode[node])
+        {
+          continue;
+        }
+        isNode[node] = 1;
+        for (const Index* next = around.begin(node); next != around.end(node); ++next)
+        {
+          if (!isCell[*next])
+          {
+            isCell[*next] = 1;
+            patch.cells.push_back(*next);
+          }
+        }
+      }
+    }
+  }
+  std::copy_if(free.begin(), free.end(), std::back_inserter(patch.nodes),
+    [&](Index node) { return isNode[node] != 0; });
+  std::sort(patch.cells.begin(), patch.cells.end());
+  return patch;
+}
+}

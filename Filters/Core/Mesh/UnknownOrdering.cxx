@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/UnknownOrdering.h"
+
+#include "Geometry/SpatialOrder.h"
+#include "Mesh/CellShape.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <algorithm>
+
+namespace morph
+{
+std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
+{
+  constexpr Index Small = 10000;       // fits a cache in any order
+  constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
+  if (static_cast<Index>(free.size()) <= Small)
+  {
+    return free;
+  }
+  const Index cells = mesh.numberOfCells();
+  double spans = 0;
+  Index count = 0;
+  for (Index c = 0; c < cells; ++c)
+  {
+    const int n = numberOfCorners(cellShape(mesh.types[c])->shape);
+    if (n > 0)
+    {
+      const auto range = std::minmax_element(mesh.cell(c), mesh.cell(c) + n);
+      spans += static_cast<double>(*range.second - *range.first);
+      ++count;
+    }
+  }
+  const bool far = spans > FarShare * static_cast<double>(count) * mesh.numberOfNodes();
+  return far ? spatialOrder(mesh.points, free) : free;
+}
+
+Index placeInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row)
+{
+  if (rows[row] == free[row])
+  {
+    return row;
+  }
+  return std::lower_bound(free.begin(), free.end(), rows[row]) - free.begin();
+}
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Morpher/IncrementalMorph.h"
+
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <algorithm>
+
+namespace morph
+{
+BoundaryPath straightPath(const Points& rest, const NodePartition& partition, const Points& target)
+{
+  Points start(target.rows(), 3);
+  for (Index i = 0; i < start.rows(); ++i)
+  {
+    start.row(i) = rest.row(partition.prescribed[i]);
+  }
+  return [start, target](double time) -> Points
+  {
+    // The end exactly, and so every node that does not move.
+    return time == 1 ? target : Points(start + time * (target - start));
+  };
+}
+
+namespace
+{
+/// The last time, as far as halving down to `least` finds it, at which the boundary forbids
+/// nothing.
+double lastAllowed(const SubStepLimits& limits)
+{
+  double allowed = 0;
+  for (double step = 0.5; step >= limits.least; step /= 2)
+  {
+    allowed += limits.forbidden(allowed + step).empty() ? step : 0;
+  }
+  return allowed;
+}
+}
+
+SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
+  const NodePartition& partition, const std::vector<std::int8_t>& orientation,
+  const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
+  const SubStepLimits& limits, Monitor& whole)
+{
+  SubMonitor monitor(whole, 0, 1);
+  const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
+  if (!atRest.empty())
+  {
+    throw Error("The undeformed mesh has inverted or degenerate cells, so there is no valid mesh "
+                "to step from: cell ids " +
+                listIds(atRest) + ".");
+  }
+  SubStepResult result;
+  result.moved = rest.points;
+  Mesh valid = rest;
+  double goal = 1, step = std::min(1., limits.first);
+  if (limits.forbidden && !limits.forbidden(1).empty())
+  {
+    // All of a shorter way may well do at once.
+    goal = step = lastAllowed(limits);
+    result.isForbidden = true;
+  }
+  int inARow = 0;
+  while (result.reached < goal && result.attempts < limits.attempts &&
+         result.failures < limits.failures &&
+         (step >= limits.least || result.reached + step >= goal))
+  {
+    monitor.check();
+    const double end = std::min(1., result.reached + step);
+    const double middle = (result.reached + end) / 2;
+    SubMonitor first(monitor, result.reached, middle), second(monitor, middle, end);
+    const double time =
+      result.reached + step >= goal - limits.least / 2 ? goal : result.reached + step;
+    std::unique_ptr<Morpher> morpher = make();
+    morpher->setReference(reference);
+    morpher->prepare(valid, partition, first);
+    Points moved;
+    const int before = result.report.iterations;
+    result.report = morpher->evaluate(path(time), moved, second);
+    result.report.iterations += before;
+    ++result.attempts;
+
+    std::vector<Index> inverted = invertedCells(rest, moved, orientation, monitor);
+    if (!inverted.empty())
+    {
+      ++result.failures;
+      result.inverted.swap(inverted);
+      step /= 2;
+      inARow = 0;
+      continue;
+    }
+    valid.points = moved;
+    result.moved.swap(moved);
+    result.reached = time;
+    step *= ++inARow > 1 ? 2 : 1;
+    step = std::min(step, goal - result.reached);
+  }
+  result.isForbidden = result.isForbidden && result.reached == goal;
+  if (result.isForbidden)
+  {
+    result.inverted = limits.forbidden(std::min(1., goal + limits.least));
+  }
+  return result;
+}
+}

@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/GeneralSolver.h"
+
+#include "Solvers/Gmres.h"
+#include "Solvers/MultiVector.h"
+#include "Solvers/Multigrid.h"
+#include "Support/Error.h"
+#include "Support/ReproducibleSum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 4096;
+constexpr double Rounding = 1e-14;
+constexpr double BreakdownCosine = 1e-13;
+constexpr int StagnationWindow = 24;     // iterations
+constexpr double StagnationFactor = 0.1; // that they must gain
+constexpr int Warm = 8;                  // iterations that a first run may take to find its way
+
+using Row = ThreeColumns;
+using Rows = ThreeColumnRows;
+using Two = Eigen::Matrix<double, 4, 2>; ///< two sums in one pass
+
+struct Workspace
+{
+  Workspace(const Multigrid& hierarchy, std::size_t n)
+    : solution(n)
+    , residual(n)
+    , shadow(n)
+    , direction(n)
+    , image(n)
+    , second(n)
+    , scaled(n)
+    , step(n)
+    , secondStep(n)
+    , multigrid(hierarchy)
+  {
+  }
+
+  Rows solution, residual, shadow, direction;
+  Rows image, second; ///< A times the preconditioned direction, and residual
+  Multigrid::Vector scaled, step,
+    secondStep; ///< to the preconditioner and from it, in units of `scale`
+  Multigrid::Workspace multigrid;
+};
+
+/// Columns above their goals.
+Eigen::Array4i above(const Row& norm2, const Row& goal2)
+{
+  Eigen::Array4i running = Eigen::Array4i::Zero();
+  for (int c = 0; c < 3; ++c)
+  {
+    running[c] = !(norm2[c] <= goal2[c]);
+  }
+  return running;
+}
+}
+
+/// A or its transpose, with the hierarchy that goes with it.
+struct NonsymmetricSolver::System
+{
+  SparseMatrix A;
+  RowComponents components;
+  Multigrid preconditioner;
+  double norm = 0; ///< largest row sum of |A|
+
+  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they hold never matters.
+  mutable std::mutex mutex;
+  mutable std::unique_ptr<Workspace> spare;
+
+  std::unique_ptr<Workspace> takeWorkspace() const
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    return this->spare ? std::move(this->spare)
+                       : std::make_unique<Workspace>(this->preconditioner, this->A.rows());
+  }
+  void giveBack(std::unique_ptr<Workspace> workspace) const
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    this->spare = std::move(workspace);
+  }
+
+  void findNorm()
+  {
+    this->norm = 0;
+    for (int i = 0; i < this->A.rows(); ++i)
+    {
+      double sum = 0;
+      for (SparseMatrix::InnerIterator entry(this->A, i); entry; ++entry)
+      {
+        sum += std::abs(entry.value());
+      }
+      this->norm = std::max(this->norm, sum);
+    }
+  }
+
+  std::size_t memory() const
+  {
+    return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
+           4 * this->components.ofRow.size() + this->preconditioner.memory() +
+           this->A.rows() * (6 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f));
+  }
+
+  /// Sets the residual to b - A x; returns the squared norms.
+  Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
+  void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
+    Monitor& monitor) const;
+  /// One run of BiCGSTAB from the solution at hand, up to the goal, or to where it stagnates or
+  /// breaks down. `norm2` becomes that of the residual it carries along: the true one is the
+  /// caller's to find.
+  void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
+    Monitor& monitor, const std::function<void(double)>& progress) const;
+  Report solve(
+    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+};
+
+Row NonsymmetricSolver::System::trueResidual(
+  const Points& b, Workspace& work, Monitor& monitor) const
+{
+  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index i)
+    {
+      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      return Row(work.residual[i].cwiseAbs2());
+    });
+}
+
+/// step = B (scale v).
+void NonsymmetricSolver::System::precondition(
+  const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const
+{
+  monitor.parallelFor(this->A.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        work.scaled[i] = v[i].cwiseProduct(scale).cast<float>();
+      }
+    });
+  this->preconditioner.apply(work.scaled, step, work.multigrid, monitor);
+}
+
+void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
+  int maxIterations, Report& report, Monitor& monitor,
+  const std::function<void(double)>& progress) const
+{
+  const Index n = this->A.rows();
+  const Row zero = Row::Zero();
+  Rows &residual = work.residual, &direction = work.direction, &image = work.image,
+       &second = work.second;
+
+  // The preconditioner works in single precision: bring each column's residual to about 1.
+  Row scale = zero, unscale = zero;
+  const auto rescale = [&]
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      unscale[c] = norm2[c] > goal2[c] ? std::sqrt(norm2[c] / static_cast<double>(n)) : 0;
+      scale[c] = unscale[c] > 0 ? 1 / unscale[c] : 0;
+    }
+  };
+
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        work.shadow[i] = direction[i] = residual[i];
+      }
+    });
+  const Row shadowNorm2 = norm2;
+  Row rho = norm2;
+  double windowStart = largestRatio(norm2, goal2);
+  const int firstIteration = report.iterations;
+  int windowEnd = firstIteration + StagnationWindow + Warm;
+  while (true)
+  {
+    const Eigen::Array4i running = above(norm2, goal2);
+    if (!running.any())
+    {
+      return;
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+      if (running[c] &&
+          !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c]) * std::sqrt(shadowNorm2[c])))
+      {
+        return;
+      }
+    }
+    if (report.iterations >= maxIterations)
+    {
+      return;
+    }
+    monitor.check();
+
+    rescale();
+    const Row firstUnscale = unscale;
+    this->precondition(direction, scale, work, work.step, monitor);
+    const Row along = blockSum(n, monitor, zero,
+      [&](Index i)
+      {
+        image[i] = rowTimes(this->A, i, work.step).cwiseProduct(firstUnscale);
+        return Row(image[i].cwiseProduct(work.shadow[i]));
+      });
+    ++report.iterations;
+    const Row alpha = ratio(rho, along, running);
+    if (!alpha.allFinite())
+    {
+      return;
+    }
+    norm2 = blockSum(n, monitor, zero,
+      [&](Index i)
+      {
+        residual[i] -= alpha.cwiseProduct(image[i]);
+        work.solution[i] +=
+          alpha.cwiseProduct(firstUnscale).cwiseProduct(work.step[i].cast<double>());
+        return Row(residual[i].cwiseAbs2());
+      });
+    const Eigen::Array4i still = running * above(norm2, goal2);
+    if (!still.any())
+    {
+      return;
+    }
+
+    rescale();
+    this->precondition(residual, scale, work, work.secondStep, monitor);
+    const Two products = blockSum(n, monitor, Two(Two::Zero()),
+      [&](Index i)
+      {
+        second[i] = rowTimes(this->A, i, work.secondStep).cwiseProduct(unscale);
+        Two pair;
+        pair << second[i].cwiseProduct(residual[i]), second[i].cwiseAbs2();
+        return pair;
+      });
+    ++report.iterations;
+    const Row omega = ratio(products.col(0), products.col(1), still);
+    if (!omega.allFinite())
+    {
+      return;
+    }
+    const Two sums = blockSum(n, monitor, Two(Two::Zero()),
+      [&](Index i)
+      {
+        work.solution[i] +=
+          omega.cwiseProduct(unscale).cwiseProduct(work.secondStep[i].cast<double>());
+        residual[i] -= omega.cwiseProduct(second[i]);
+        Two pair;
+        pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i]);
+        return pair;
+      });
+    norm2 = sums.col(0);
+    const Row rhoBefore = rho;
+    rho = sums.col(1);
+    if (!sums.allFinite())
+    {
+      return;
+    }
+    const Row beta = ratio(rho, rhoBefore, still).cwiseProduct(ratio(alpha, omega, still));
+    if (!beta.allFinite())
+    {
+      return;
+    }
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          direction[i] =
+            residual[i] + beta.cwiseProduct(direction[i] - omega.cwiseProduct(image[i]));
+        }
+      });
+
+    const double left = largestRatio(norm2, goal2);
+    progress(left);
+    if (report.iterations >= windowEnd)
+    {
+      if (left > StagnationFactor * windowStart)
+      {
+        return;
+      }
+      windowStart = left;
+      windowEnd = report.iterations + StagnationWindow;
+    }
+  }
+}
+
+NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  const Index n = this->A.rows();
+  std::unique_ptr<Workspace> work = this->takeWorkspace();
+  const Row bNorm2 = blockSum(
+    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
+  const auto start = [&]
+  {
+    for (Index i = 0; i < n; ++i)
+    {
+      work->solution[i] = lift(x.row(i));
+    }
+    return keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, *work, monitor),
+      work->solution, work->residual, monitor);
+  };
+  Row norm2 = start();
+  if (!bNorm2.allFinite() || !norm2.allFinite())
+  {
+    throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
+  }
+  const double floor2 = Rounding * Rounding * bNorm2.sum();
+  const Row goal2 = (tolerance * tolerance * bNorm2).cwiseMax(floor2);
+  const double atStart = largestRatio(norm2, goal2);
+  const auto progress = [&](double left)
+  {
+    if (left > 1 && atStart > 1)
+    {
+      monitor.progress(std::clamp(1 - std::log(left) / std::log(atStart), 0., 1.));
+    }
+  };
+  // The residual that rounding leaves in b - A x for such an x.
+  const auto reachable2 = [&]
+  {
+    const Row xNorm2 = blockSum(
+      n, monitor, Row(Row::Zero()), [&](Index i) { return Row(work->solution[i].cwiseAbs2()); });
+    return Row(Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
+  };
+
+  const auto reached = [&]
+  {
+    const Row limit2 = goal2.cwiseMax(reachable2());
+    return limit2.allFinite() && (norm2.array() <= limit2.array()).all();
+  };
+
+  Report report;
+  int runs = 0;
+  // The residual that the iteration carries along drifts from b - A x: after each run x is checked, and taken further.
+  bool stuck = false;
+  while (!stuck && above(norm2, goal2).any() && report.iterations < maxIterations)
+  {
+    const double before = largestRatio(norm2, goal2);
+    this->bicgstab(norm2, goal2, *work, maxIterations, report, monitor, progress);
+    norm2 = this->trueResidual(b, *work, monitor);
+    stuck = !norm2.allFinite() || largestRatio(norm2, goal2) > 0.5 * before;
+    ++runs;
+  }
+  if (above(norm2, goal2).any() && !reached())
+  {
+    if (!norm2.allFinite() || largestRatio(norm2, goal2) >= atStart)
+    {
+      norm2 = start();
+    }
+    const auto fail = [&](const std::string& reached)
+    {
+      throw Error(Error::Kind::NoConvergence,
+        "The linear solver did not converge: " + reached +
+          " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+    };
+    Gmres gmres(this->A);
+    // Each run of GMRES ends with the true residual.
+    for (double before = HUGE_VAL; above(norm2, goal2).any();)
+    {
+      const double now = largestRatio(norm2, goal2);
+      if (now > 0.5 * before && reached())
+      {
+        break;
+      }
+      if (report.fallBackIterations >= maxIterations)
+      {
+        std::ostringstream text;
+        text << "after " << report.iterations << " iterations the relative residual is "
+             << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
+        fail(text.str());
+      }
+      before = now;
+      const int made = gmres.run(work->residual, norm2, goal2, work->solution, monitor);
+      report.iterations += made;
+      report.fallBackIterations += made;
+      norm2 = this->trueResidual(b, *work, monitor);
+      if (!norm2.allFinite())
+      {
+        fail("its numbers overflowed after " + std::to_string(report.iterations) + " iterations.");
+      }
+      progress(largestRatio(norm2, goal2));
+    }
+    std::ostringstream text;
+    text << "BiCGSTAB stagnated; GMRES finished the solution in " << report.fallBackIterations
+         << " iterations. Look for inverted or nearly flat cells in the rest mesh.";
+    monitor.warn(text.str());
+  }
+
+  for (int c = 0; c < 3; ++c)
+  {
+    if (bNorm2[c] > floor2)
+    {
+      report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
+    }
+  }
+  for (Index i = 0; i < n; ++i)
+  {
+    x.row(i) = work->solution[i].head<3>();
+  }
+  this->giveBack(std::move(work));
+  const double pass =
+    12. * this->A.nonZeros() + (9. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
+  report.bytesMoved =
+    (report.iterations + 1 + runs) * pass + report.iterations * this->preconditioner.bytesMoved();
+  return report;
+}
+
+struct NonsymmetricSolver::Implementation
+{
+  System forward;
+  std::mutex mutex;
+  std::unique_ptr<System> transposed; ///< made when it is first asked for
+
+  const System& transposedSystem()
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    if (!this->transposed)
+    {
+      auto fresh = std::make_unique<System>();
+      fresh->A = this->forward.A.transpose();
+      fresh->components = this->forward.components;
+      fresh->findNorm();
+      fresh->preconditioner.prepareTransposed(this->forward.preconditioner);
+      this->transposed = std::move(fresh);
+    }
+    return *this->transposed;
+  }
+};
+
+NonsymmetricSolver::NonsymmetricSolver() = default;
+NonsymmetricSolver::~NonsymmetricSolver() = default;
+NonsymmetricSolver::NonsymmetricSolver(NonsymmetricSolver&&) noexcept = default;
+NonsymmetricSolver& NonsymmetricSolver::operator=(NonsymmetricSolver&&) noexcept = default;
+
+void NonsymmetricSolver::prepare(
+  SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+{
+  auto fresh = std::make_unique<Implementation>();
+  System& system = fresh->forward;
+  system.A.swap(matrix);
+  const Eigen::VectorXd diagonal = system.A.diagonal();
+  std::vector<Index> notPositive;
+  for (Index i = 0; i < diagonal.size(); ++i)
+  {
+    if (!(diagonal[i] > 0 && std::isfinite(diagonal[i])))
+    {
+      notPositive.push_back(i);
+    }
+  }
+  if (!notPositive.empty())
+  {
+    throw SingularRows(notPositive);
+  }
+  system.findNorm();
+  system.components = rowComponents(system.A);
+  system.preconditioner.prepare(
+    system.A, Multigrid::Symmetry::General, diagonal.maxCoeff(), coordinates, monitor);
+  this->implementation_ = std::move(fresh);
+}
+
+NonsymmetricSolver::Report NonsymmetricSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
+}
+
+NonsymmetricSolver::Report NonsymmetricSolver::solveTransposed(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  return this->implementation_->transposedSystem().solve(b, x, tolerance, maxIterations, monitor);
+}
+
+const SparseMatrix& NonsymmetricSolver::matrix() const
+{
+  return this->implementation_->forward.A;
+}
+
+const RowComponents& NonsymmetricSolver::components() const
+{
+  return this->implementation_->forward.components;
+}
+
+std::size_t NonsymmetricSolver::memory() const
+{
+  const std::lock_guard<std::mutex> lock(this->implementation_->mutex);
+  return this->implementation_->forward.memory() +
+         (this->implementation_->transposed ? this->implementation_->transposed->memory() : 0);
+}
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/CsrMatrix.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <vector>
+
+namespace morph
+{
+/// One row of three right-hand sides, and a zero: one matrix entry serves all three.
+using ThreeColumns = Eigen::Vector4d;
+using ThreeColumnRows = std::vector<ThreeColumns>;
+
+template <typename Values>
+ThreeColumns lift(const Values& row)
+{
+  return ThreeColumns(row[0], row[1], row[2], 0);
+}
+
+/// a / b per column, 0 for the columns that have stopped.
+inline ThreeColumns ratio(
+  const ThreeColumns& a, const ThreeColumns& b, const Eigen::Array4i& running)
+{
+  ThreeColumns result = ThreeColumns::Zero();
+  for (int c = 0; c < 3; ++c)
+  {
+    if (running[c])
+    {
+      result[c] = a[c] / b[c];
+    }
+  }
+  return result;
+}
+
+/// Largest sqrt(a / b) over the three columns.
+inline double largestRatio(const ThreeColumns& a, const ThreeColumns& b)
+{
+  return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
+}
+
+/// (A x)_i for x in double or single precision.
+template <typename Vectors>
+ThreeColumns rowTimes(const SparseMatrix& A, Index i, const Vectors& x)
+{
+  ThreeColumns sum = ThreeColumns::Zero();
+  const int last = A.outerIndexPtr()[i + 1];
+  for (int k = A.outerIndexPtr()[i]; k < last; ++k)
+  {
+    sum += A.valuePtr()[k] * x[A.innerIndexPtr()[k]].template cast<double>();
+  }
+  return sum;
+}
+}

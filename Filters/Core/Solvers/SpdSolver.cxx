@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/SpdSolver.h"
+
+#include "Solvers/MultiVector.h"
+#include "Solvers/Multigrid.h"
+#include "Support/Error.h"
+#include "Support/ReproducibleSum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 4096;
+
+using Row = ThreeColumns;
+using Rows = ThreeColumnRows;
+
+/// The vectors of one solve.
+struct Workspace
+{
+  explicit Workspace(const Multigrid& multigrid, std::size_t n)
+    : solution(n)
+    , residual(n)
+    , direction(n)
+    , image(n)
+    , residual32(n)
+    , step32(n)
+    , multigrid(multigrid)
+  {
+  }
+
+  Rows solution, residual, direction, image;
+  Multigrid::Vector residual32, step32;
+  Multigrid::Workspace multigrid;
+};
+
+/// `reached`: what came of the iteration.
+[[noreturn]] void throwNoConvergence(const std::string& reached)
+{
+  throw Error(Error::Kind::NoConvergence,
+    "The conjugate gradients did not converge: " + reached +
+      " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+}
+
+void requireFinite(const Row& norm2, int iterations)
+{
+  if (!norm2.allFinite())
+  {
+    throwNoConvergence(
+      "their numbers overflowed after " + std::to_string(iterations) + " iterations.");
+  }
+}
+}
+
+struct SparseSolver::Implementation
+{
+  SparseMatrix A;
+  RowComponents components;
+  Multigrid preconditioner;
+
+  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they hold never matters.
+  std::mutex mutex;
+  std::unique_ptr<Workspace> spare;
+
+  std::unique_ptr<Workspace> takeWorkspace()
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    return this->spare ? std::move(this->spare)
+                       : std::make_unique<Workspace>(this->preconditioner, this->A.rows());
+  }
+  void giveBack(std::unique_ptr<Workspace> workspace)
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    this->spare = std::move(workspace);
+  }
+
+  /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
+  Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
+  SolveReport iterate(
+    const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
+};
+
+SparseSolver::SparseSolver() = default;
+SparseSolver::~SparseSolver() = default;
+SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
+SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
+
+void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+{
+  auto fresh = std::make_unique<Implementation>();
+  fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
+  fresh->A.makeCompressed();
+  const Index rows = fresh->A.rows();
+  Eigen::VectorXd diagonal(rows);
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
+      }
+    });
+  std::vector<Index> notPositive;
+  for (Index i = 0; i < rows; ++i)
+  {
+    if (!(diagonal[i] > 0 && std::isfinite(diagonal[i])))
+    {
+      notPositive.push_back(i);
+    }
+  }
+  if (!notPositive.empty())
+  {
+    throw SingularRows(notPositive);
+  }
+  fresh->components = rowComponents(fresh->A);
+  fresh->preconditioner.prepare(
+    fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
+  this->implementation_ = std::move(fresh);
+}
+
+Row SparseSolver::Implementation::trueResidual(
+  const Points& b, Workspace& work, Monitor& monitor) const
+{
+  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index i)
+    {
+      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      work.direction[i] = Row::Zero();
+      return Row(work.residual[i].cwiseAbs2());
+    });
+}
+
+SolveReport SparseSolver::Implementation::iterate(
+  const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  const Index n = this->A.rows();
+  Rows &solution = work.solution, &residual = work.residual, &direction = work.direction,
+       &image = work.image;
+  const Row zero = Row::Zero();
+
+  const Row bNorm2 =
+    blockSum(n, monitor, zero, [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
+  Row norm2 = keepBetterGuess(
+    this->components, b, bNorm2, this->trueResidual(b, work, monitor), solution, residual, monitor);
+  if (!bNorm2.allFinite() || !norm2.allFinite())
+  {
+    throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
+  }
+  const double floor2 = 1e-28 * bNorm2.sum();
+  const Row goal2 = (tolerance * tolerance * bNorm2).cwiseMax(floor2);
+  const double atStart = largestRatio(norm2, goal2);
+
+  SolveReport report;
+  int restarts = 0;
+  // The residual that the iteration carries along drifts from b - A x: after each run x is checked, and where rounding lets
+  // it, taken further.
+  for (double before = HUGE_VAL; largestRatio(norm2, goal2) > 1; ++restarts)
+  {
+    const double now = largestRatio(norm2, goal2);
+    if (now > 0.5 * before)
+    {
+      break;
+    }
+    before = now;
+
+    // The preconditioner works in single precision: bring each column's residual to about 1.
+    Row scale = zero, unscale = zero;
+    for (int c = 0; c < 3; ++c)
+    {
+      if (norm2[c] > goal2[c])
+      {
+        unscale[c] = std::sqrt(norm2[c] / static_cast<double>(n));
+        scale[c] = 1 / unscale[c];
+      }
+    }
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+        }
+      });
+
+    Row rz = zero;
+    for (bool first = true;; first = false)
+    {
+      Eigen::Array4i running = Eigen::Array4i::Zero();
+      for (int c = 0; c < 3; ++c)
+      {
+        running[c] = !(norm2[c] <= goal2[c]);
+      }
+      if (!running.any())
+      {
+        break;
+      }
+      requireFinite(norm2, report.iterations);
+      if (report.iterations == maxIterations)
+      {
+        std::ostringstream text;
+        text << "after " << report.iterations << " iterations the relative residual is "
+             << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
+        throwNoConvergence(text.str());
+      }
+      monitor.check();
+
+      this->preconditioner.apply(work.residual32, work.step32, work.multigrid, monitor);
+      const Row rzBefore = rz;
+      rz = blockSum(n, monitor, zero,
+        [&](Index i) {
+          return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
+        }).cwiseProduct(unscale);
+      const Row beta = first ? zero : ratio(rz, rzBefore, running);
+      monitor.parallelFor(n, Grain,
+        [&](Index from, Index to)
+        {
+          for (Index i = from; i < to; ++i)
+          {
+            direction[i] =
+              work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
+          }
+        });
+      const Row curvature = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          image[i] = rowTimes(this->A, i, direction);
+          return Row(image[i].cwiseProduct(direction[i]));
+        });
+      const Row alpha = ratio(rz, curvature, running);
+      norm2 = blockSum(n, monitor, zero,
+        [&](Index i)
+        {
+          solution[i] += alpha.cwiseProduct(direction[i]);
+          residual[i] -= alpha.cwiseProduct(image[i]);
+          work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
+          return Row(residual[i].cwiseAbs2());
+        });
+      ++report.iterations;
+      const double left = largestRatio(norm2, goal2);
+      if (left > 1 && atStart > 1)
+      {
+        monitor.progress(std::clamp(1 - std::log(left) / std::log(atStart), 0., 1.));
+      }
+    }
+    norm2 = this->trueResidual(b, work, monitor);
+    requireFinite(norm2, report.iterations);
+  }
+
+  for (int c = 0; c < 3; ++c)
+  {
+    if (bNorm2[c] > floor2)
+    {
+      report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
+    }
+  }
+  const double pass =
+    12. * this->A.nonZeros() + (11. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
+  report.bytesMoved = (report.iterations + 1 + restarts) * pass +
+                      report.iterations * this->preconditioner.bytesMoved();
+  return report;
+}
+
+SolveReport SparseSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    work->solution[i] = Row(x(i, 0), x(i, 1), x(i, 2), 0);
+  }
+  const SolveReport report =
+    this->implementation_->iterate(b, *work, tolerance, maxIterations, monitor);
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    x.row(i) = work->solution[i].head<3>();
+  }
+  this->implementation_->giveBack(std::move(work));
+  return report;
+}
+
+const SparseMatrix& SparseSolver::matrix() const
+{
+  return this->implementation_->A;
+}
+
+const RowComponents& SparseSolver::components() const
+{
+  return this->implementation_->components;
+}
+
+std::size_t SparseSolver::memory() const
+{
+  const Implementation& my = *this->implementation_;
+  return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
+         4 * my.components.ofRow.size() + my.preconditioner.memory() +
+         my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+}
+}

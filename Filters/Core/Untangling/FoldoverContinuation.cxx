@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/FoldoverContinuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+constexpr double Valid = 1e-10; // the regularisation of a valid mesh: none, but for rounding
+constexpr int MostSteps = 30;
+constexpr int RegularisedSteps =
+  4;                            // more are wasted on a mesh that the next regularisation changes
+constexpr int StepsOfBfgs = 20; // that are worth one of Newton's
+constexpr double Settled = 1e-5;
+constexpr int Patience = 10;       // stages without progress before untangling gives up
+constexpr double Gain = 0.05;      // of the least determinant, that is progress
+constexpr double LeastRatio = 0.3; // of one stage's regularisation to that before
+
+double chi(double D, double epsilon)
+{
+  const double root = std::sqrt(epsilon * epsilon + D * D);
+  return D > 0 ? (D + root) / 2 : epsilon * epsilon / (2 * (root - D));
+}
+
+/// The regularisation of the next stage.
+class Regularisation
+{
+public:
+  double first(double least)
+  {
+    this->best_ = least;
+    return least > 0 ? Valid : fast(least);
+  }
+
+  /// `least`: the least determinant; `decrease`: of the stage's energy, relative.
+  double next(double least, double decrease, double epsilon)
+  {
+    if (least > 0)
+    {
+      return Valid;
+    }
+    this->idle_ = least > this->best_ + Gain * std::abs(this->best_) ? 0 : this->idle_ + 1;
+    this->best_ = std::max(this->best_, least);
+    this->careful_ = this->careful_ || this->idle_ >= 3;
+    if (!this->careful_)
+    {
+      // Steps too large leave the minimiser in a worse mesh than before.
+      return std::max(fast(least), LeastRatio * epsilon);
+    }
+    // The rule with the proof.
+    const double mu = (1 - std::max(decrease, 0.1)) * chi(least, epsilon);
+    return least < mu ? 2 * std::sqrt(mu * (mu - least)) : Valid;
+  }
+
+private:
+  /// As much as the worst tetrahedron needs.
+  static double fast(double least) { return std::sqrt(1e-6 + 0.04 * least * least); }
+
+  double best_ = 0;
+  int idle_ = 0;
+  bool careful_ = false;
+};
+
+/// Whether the stages still lead somewhere.
+class Stagnation
+{
+public:
+  explicit Stagnation(const MeshEnergy::State& start)
+    : inverted_(start.inverted)
+    , least_(start.leastDeterminant)
+  {
+  }
+
+  /// After a stage.
+  bool gaveUp(const MeshEnergy::State& state)
+  {
+    const bool isProgress = state.leastDeterminant > 0 || state.inverted < this->inverted_ ||
+                            state.leastDeterminant > this->least_ + Gain * std::abs(this->least_);
+    this->idle_ = isProgress ? 0 : this->idle_ + 1;
+    this->inverted_ = std::min(this->inverted_, state.inverted);
+    this->least_ = std::max(this->least_, state.leastDeterminant);
+    return this->idle_ >= Patience;
+  }
+
+private:
+  Index inverted_;
+  double least_;
+  int idle_ = 0;
+};
+}
+
+void FoldoverStages::setDensity(double epsilon, double stiffness)
+{
+  FoldoverDensity density = this->energy_.density();
+  density.epsilon = epsilon;
+  density.stiffness = stiffness;
+  this->energy_.setDensity(density);
+}
+
+void FoldoverStages::include(const MinimizerEffort& effort)
+{
+  this->effort_.steps += effort.steps;
+  this->effort_.linearIterations += effort.linearIterations;
+  this->effort_.evaluations += effort.evaluations;
+}
+
+MeshEnergy::State FoldoverStages::evaluate(const Points& points, Monitor& monitor)
+{
+  ++this->effort_.evaluations;
+  return this->energy_.evaluate(points, monitor);
+}
+
+MeshEnergy::State FoldoverStages::minimize(Points& points, int steps, Monitor& monitor)
+{
+  MinimizerLimits limits;
+  limits.steps = steps;
+  if (this->minimizer_ == Minimizer::Newton)
+  {
+    newton(this->energy_, points, limits, this->matrix_, this->effort_, monitor);
+  }
+  else
+  {
+    limits.steps *= StepsOfBfgs;
+    limitedMemoryBfgs(this->energy_, points, limits, this->effort_, monitor);
+  }
+  return this->evaluate(points, monitor);
+}
+
+bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
+{
+  this->setDensity(Valid);
+  MeshEnergy::State state = this->evaluate(points, monitor);
+  Regularisation regularisation;
+  double epsilon = regularisation.first(state.leastDeterminant);
+  double settled = std::numeric_limits<double>::infinity();
+  Stagnation stagnation(state);
+  for (int stage = 0; stage < stages; ++stage)
+  {
+    monitor.progress(1 - std::pow(0.8, stage));
+    this->setDensity(epsilon);
+    const double start = this->evaluate(points, monitor).energy;
+    state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
+    if (!std::isfinite(start) || !std::isfinite(state.energy))
+    {
+      break; // no step is taken from here, whatever the regularisation
+    }
+    if (epsilon <= Valid)
+    {
+      if (std::abs(settled - state.energy) < Settled * state.energy ||
+          std::abs(start - state.energy) < Settled * state.energy)
+      {
+        break;
+      }
+      settled = state.energy;
+    }
+    if (stagnation.gaveUp(state))
+    {
+      break;
+    }
+    epsilon = regularisation.next(state.leastDeterminant, 1 - state.energy / start, epsilon);
+  }
+  return state.leastDeterminant > 0;
+}
+
+void FoldoverStages::improve(Points& points, int steps, Monitor& monitor)
+{
+  this->setDensity(Valid);
+  this->minimize(points, steps, monitor);
+}
+
+void FoldoverStages::stiffen(Points& points, Monitor& monitor)
+{
+  constexpr int Rounds = 12, Steps = 2;
+  this->setDensity(Valid);
+  MeshEnergy::State state = this->evaluate(points, monitor);
+  if (!(state.leastDeterminant > 0 && state.mostDistortion > 0))
+  {
+    return;
+  }
+  double stiffness = (1 - 1e-3) / state.mostDistortion;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    this->setDensity(Valid, stiffness);
+    const double start = this->evaluate(points, monitor).energy;
+    const double worst = state.mostDistortion;
+    state = this->minimize(points, Steps, monitor);
+    if (std::abs(worst - state.mostDistortion) < 1e-3 * worst)
+    {
+      break;
+    }
+    const double sigma = std::max(1 - state.energy / start, 0.1);
+    stiffness += sigma * (1 - stiffness * state.mostDistortion) / state.mostDistortion;
+  }
+}
+}

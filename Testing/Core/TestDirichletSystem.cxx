@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// First guesses of the methods that solve equations: motions that reach no free node, and several
+// bodies.
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "Mesh/IndexLimits.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Solvers/GeneralSolver.h"
+#include "Solvers/RowComponents.h"
+#include "Solvers/RowPlaces.h"
+#include "Solvers/SpdSolver.h"
+#include "Untangling/InversionFree.h"
+#include "WatchingMonitor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <random>
+
+using namespace morph;
+using motions::identical;
+using motions::outerPartition;
+
+namespace
+{
+struct Method
+{
+  const char* name;
+  std::unique_ptr<LinearMorpher> (*make)();
+};
+
+class FirstGuess : public testing::TestWithParam<Method>
+{
+};
+
+/// A block of 6 x 6 x 6 hexahedra with a fin, one cell thick and five long, on its side x = 6.
+/// `tip`: becomes the four nodes at the fin's end.
+Mesh blockWithFin(std::vector<Index>& tip)
+{
+  Mesh mesh = meshes::hexes(6, 6, 6);
+  const auto at = [](int i, int j, int k) { return Index(i) + 7 * (j + 7 * Index(k)); };
+  tip = { at(6, 3, 3), at(6, 4, 3), at(6, 4, 4), at(6, 3, 4) };
+  for (int cell = 0; cell < 5; ++cell)
+  {
+    const Index first = mesh.numberOfNodes();
+    const std::vector<Index> next = { first, first + 1, first + 2, first + 3 };
+    mesh.points.conservativeResize(first + 4, 3);
+    for (int k = 0; k < 4; ++k)
+    {
+      mesh.points.row(next[k]) = mesh.points.row(tip[k]) + Eigen::RowVector3d(1, 0, 0);
+    }
+    meshes::add(
+      mesh, Hexahedron, { tip[0], tip[1], tip[2], tip[3], next[0], next[1], next[2], next[3] });
+    tip = next;
+  }
+  return mesh;
+}
+
+/// `mesh`, and `other` beside it as a body of its own.
+Mesh together(Mesh mesh, const Mesh& other)
+{
+  const Index nodes = mesh.numberOfNodes();
+  mesh.points.conservativeResize(nodes + other.numberOfNodes(), 3);
+  mesh.points.bottomRows(other.numberOfNodes()) =
+    other.points.rowwise() + Eigen::RowVector3d(40, 1, 2);
+  for (Index c = 0; c < other.numberOfCells(); ++c)
+  {
+    std::vector<Index> ids(other.cell(c), other.cell(c) + other.cellSize(c));
+    for (Index& id : ids)
+    {
+      id += nodes;
+    }
+    meshes::add(mesh, other.types[c], ids);
+  }
+  return mesh;
+}
+
+/// Where the prescribed nodes go: `map` for those with `moves`, the others stay.
+Points targetsWhere(const Mesh& mesh, const NodePartition& partition,
+  const std::function<bool(Index)>& moves, const motions::Map& map)
+{
+  Points target = meshes::rows(mesh.points, partition.prescribed);
+  for (Index i = 0; i < target.rows(); ++i)
+  {
+    if (moves(partition.prescribed[i]))
+    {
+      target.row(i) = map(mesh.points.row(partition.prescribed[i]));
+    }
+  }
+  return target;
+}
+
+/// A symmetric positive definite matrix of two blocks, and right-hand sides.
+struct TwoBlocks
+{
+  SparseMatrix A;
+  Points places, b;
+  static constexpr int Size = 700; // of a block: more than the multigrid factorises
+
+  TwoBlocks()
+    : A(2 * Size, 2 * Size)
+    , places(2 * Size, 3)
+    , b(2 * Size, 3)
+  {
+    std::mt19937 random(meshes::seed());
+    std::uniform_real_distribution<double> value(-1, 1);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < 2 * Size; ++i)
+    {
+      this->places.row(i) = Eigen::RowVector3d(i % Size, i / Size, 0);
+      entries.emplace_back(i, i, 2.1);
+      for (int j : { i - 1, i + 1 })
+      {
+        if (j >= 0 && j < 2 * Size && j / Size == i / Size)
+        {
+          entries.emplace_back(i, j, -1);
+        }
+      }
+    }
+    this->A.setFromTriplets(entries.begin(), entries.end());
+    this->b = this->b.unaryExpr([&](double) { return value(random); });
+  }
+};
+}
+
+TEST_P(FirstGuess, AFinsTipMovesNoNodeOfTheBlock)
+{
+  std::vector<Index> tip;
+  const Mesh mesh = blockWithFin(tip);
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_EQ(partition.free.size(), 125u);
+  const Points target = targetsWhere(
+    mesh, partition, [&](Index node) { return node >= tip[0]; },
+    [](const motions::Row& x) { return motions::Row(x + motions::Row(.3, .2, -.1)); });
+  meshes::ThreadedMonitor monitor;
+  const auto method = GetParam().make();
+  method->prepare(mesh, partition, monitor);
+  Points moved;
+  const EvaluateReport report = method->evaluate(target, moved, monitor);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(report.relativeResidual, 0);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings[0];
+  EXPECT_TRUE(
+    identical(meshes::rows(moved, partition.free), meshes::rows(mesh.points, partition.free)));
+  EXPECT_TRUE(identical(meshes::rows(moved, partition.prescribed), target));
+}
+
+TEST_P(FirstGuess, ABodyWithoutFreeNodesMovesNoOther)
+{
+  const Mesh block = meshes::hexes(5, 5, 5);
+  const Mesh mesh = together(block, meshes::hexes(1, 4, 4));
+  const NodePartition partition = outerPartition(mesh);
+  ASSERT_EQ(partition.free.size(), 64u);
+  const Points target = targetsWhere(
+    mesh, partition, [&](Index node) { return node >= block.numberOfNodes(); },
+    [](const motions::Row& x) { return motions::twist(x, 4, 4, .4); });
+  meshes::ThreadedMonitor monitor;
+  const auto method = GetParam().make();
+  method->prepare(mesh, partition, monitor);
+  Points moved;
+  EXPECT_EQ(method->evaluate(target, moved, monitor).iterations, 0);
+  EXPECT_TRUE(identical(moved.topRows(block.numberOfNodes()), block.points));
+}
+
+TEST_P(FirstGuess, EachBodyTakesItsOwnAffineMotion)
+{
+  const Mesh block = meshes::hexes(5, 5, 5);
+  Mesh mesh = together(block, meshes::tets(5, 4, 5));
+  mesh = together(mesh, meshes::hexes(5, 4, 4));
+  const Index second = block.numberOfNodes();
+  const Index third = mesh.numberOfNodes() - meshes::hexes(5, 4, 4).numberOfNodes();
+  const NodePartition partition = outerPartition(mesh);
+  const auto turn = [](const motions::Row& x)
+  { return motions::Row(x[0] - .4 * x[1], .5 * x[0] + x[1], x[2] + 3); };
+  const auto turned = [&](Index node) { return node >= second && node < third; };
+  const Points target = targetsWhere(mesh, partition, turned, turn);
+  meshes::ThreadedMonitor monitor;
+  const auto method = GetParam().make();
+  method->prepare(mesh, partition, monitor);
+  Points moved;
+  const EvaluateReport report = method->evaluate(target, moved, monitor);
+  EXPECT_LE(report.iterations, 2);
+  for (Index node = 0; node < mesh.numberOfNodes(); ++node)
+  {
+    const motions::Row rest = mesh.points.row(node), now = moved.row(node);
+    if (turned(node))
+    {
+      EXPECT_LT((now - turn(rest)).norm(), 1e-11) << node;
+    }
+    else
+    {
+      EXPECT_EQ(now, rest) << node;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, FirstGuess,
+  testing::Values(
+    Method{
+      "FemWarp", []() -> std::unique_ptr<LinearMorpher> { return std::make_unique<FemWarp>(); } },
+    Method{ "LogBarrierWarp",
+      []() -> std::unique_ptr<LinearMorpher> { return std::make_unique<LogBarrierWarp>(); } }),
+  [](const auto& info) { return std::string(info.param.name); });
+
+TEST(InversionFree, AFinsTipMoves)
+{
+  std::vector<Index> tip;
+  const Mesh mesh = blockWithFin(tip);
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targetsWhere(
+    mesh, partition, [&](Index node) { return node >= tip[0]; },
+    [](const motions::Row& x) { return motions::Row(x + motions::Row(.3, .2, -.1)); });
+  meshes::ThreadedMonitor monitor;
+  InversionFree method;
+  method.prepare(mesh, partition, monitor);
+  Points moved;
+  method.evaluate(target, moved, monitor);
+  EXPECT_TRUE(identical(meshes::rows(moved, partition.prescribed), target));
+  EXPECT_LT((meshes::rows(moved, partition.free) - meshes::rows(mesh.points, partition.free))
+              .cwiseAbs()
+              .maxCoeff(),
+    .1);
+}
+
+TEST(RowComponents, AreTheBlocksOfTheMatrix)
+{
+  // 0 and 3 by an entry of row 0 alone, 2 and 4 by one of row 4; 1 by itself.
+  SparseMatrix A(5, 5);
+  for (int i = 0; i < 5; ++i)
+  {
+    A.insert(i, i) = 1;
+  }
+  A.insert(0, 3) = -1;
+  A.insert(4, 2) = -1;
+  A.makeCompressed();
+  const RowComponents components = rowComponents(A);
+  EXPECT_EQ(components.count, 3);
+  EXPECT_EQ(components.ofRow, (std::vector<int>{ 0, 1, 2, 0, 2 }));
+  EXPECT_EQ(rowComponents(TwoBlocks().A).count, 2);
+  EXPECT_EQ(rowComponents(SparseMatrix(0, 0)).count, 0);
+}
+
+template <typename Solver>
+class GuessOf : public testing::Test
+{
+};
+using Solvers = testing::Types<SparseSolver, NonsymmetricSolver>;
+TYPED_TEST_SUITE(GuessOf, Solvers);
+
+TYPED_TEST(GuessOf, TheSolverIsUsedOnlyWhereItIsBetterThanZero)
+{
+  TwoBlocks problem;
+  constexpr int n = TwoBlocks::Size;
+  const SparseMatrix A = problem.A;
+  Monitor monitor;
+  TypeParam solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  Points exact = Points::Zero(2 * n, 3), fromZero = exact;
+  solver.solve(problem.b, exact, 1e-14, 500, monitor);
+  solver.solve(problem.b, fromZero, 1e-6, 500, monitor);
+
+  Points far = Points::Constant(2 * n, 3, 1e6);
+  solver.solve(problem.b, far, 1e-6, 500, monitor);
+  EXPECT_TRUE(identical(far, fromZero));
+  for (double bad : { std::numeric_limits<double>::infinity(), 1e200 })
+  {
+    far.setConstant(bad);
+    solver.solve(problem.b, far, 1e-6, 500, monitor);
+    EXPECT_TRUE(identical(far, fromZero)) << bad;
+  }
+
+  // One column of one block is far off, all the rest is right already.
+  Points mixed = exact;
+  mixed.topRows(n).col(1).setConstant(1e3);
+  const int iterations = solver.solve(problem.b, mixed, 1e-10, 500, monitor).iterations;
+  EXPECT_GT(iterations, 0);
+  Points expected = exact;
+  expected.topRows(n).col(1).setZero();
+  EXPECT_EQ(solver.solve(problem.b, expected, 1e-10, 500, monitor).iterations, iterations);
+  EXPECT_TRUE(identical(mixed, expected));
+
+  // Without a right-hand side in one block nothing moves there.
+  Points b = problem.b, x = Points::Constant(2 * n, 3, .1);
+  b.bottomRows(n).setZero();
+  solver.solve(b, x, 1e-10, 500, monitor);
+  EXPECT_TRUE((x.bottomRows(n).array() == 0).all());
+  EXPECT_LT((A * x - b).norm(), 2e-10 * b.norm());
+  x.setConstant(.1);
+  EXPECT_EQ(solver.solve(Points::Zero(2 * n, 3), x, 1e-10, 500, monitor).iterations, 0);
+  EXPECT_TRUE((x.array() == 0).all());
+}
+
+TYPED_TEST(GuessOf, TheSolverIsOfAnySize)
+{
+  TwoBlocks problem;
+  Monitor monitor;
+  TypeParam solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  Points reference = Points::Zero(problem.b.rows(), 3);
+  const int iterations = solver.solve(problem.b, reference, 1e-10, 500, monitor).iterations;
+  for (int exponent : { -300, -150, 300, 480 }) // of 2: without rounding
+  {
+    meshes::WatchingMonitor watching;
+    const double factor = std::ldexp(1., exponent);
+    Points x = Points::Zero(problem.b.rows(), 3);
+    EXPECT_EQ(
+      solver.solve(Points(factor * problem.b), x, 1e-10, 500, watching).iterations, iterations)
+      << exponent;
+    EXPECT_TRUE(identical(Points(x / factor), reference)) << exponent;
+  }
+}
+
+TEST(RowPlaces, NumberColumnsInTheOrderOfTheirFirstMention)
+{
+  std::mt19937 random(meshes::seed());
+  RowPlaces places;
+  for (int length : { 0, 1, 40, 5000, 3, 63, 64, 65, 700 })
+  {
+    std::uniform_int_distribution<int> column(0, 2 * length);
+    std::map<int, int> expected;
+    places.clear();
+    for (int k = 0; k < length; ++k)
+    {
+      const int one = column(random) * 4096; // far apart, as in a large matrix
+      const int place = expected.emplace(one, static_cast<int>(expected.size())).first->second;
+      ASSERT_EQ(places.find(one), place) << length;
+      ASSERT_EQ(places.size(), static_cast<int>(expected.size()));
+    }
+  }
+}
+
+TEST(IndexLimits, SayWhatIsTooLarge)
+{
+  const Index large = Index(1) << 31;
+  requireIndexable(MeshCounts{ large - (1 << 20) - 1, 5, 5 });
+  std::string message;
+  motions::kindOf([&] { requireIndexable(MeshCounts{ large, 5, 5 }); }, message);
+  EXPECT_NE(message.find("2147483648 nodes"), std::string::npos) << message;
+  motions::kindOf([&] { requireIndexable(MeshCounts{ 5, 3 * large, 5 }); }, message);
+  EXPECT_NE(message.find("6442450944 cells"), std::string::npos) << message;
+  motions::kindOf([&] { requireIndexable(MeshCounts{ 5, 5, large - 1 }); }, message);
+  EXPECT_NE(message.find("2147483647 corners of cells"), std::string::npos) << message;
+  requireEntries(large - 1);
+  EXPECT_THROW(requireEntries(large), Error);
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/GeneralSolver.h"
+
+#include "Meshes.h"
+#include "Motions.h"
+#include "Solvers/Gmres.h"
+#include "Support/Error.h"
+#include "WatchingMonitor.h"
+
+#include <Eigen/SparseLU>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <random>
+
+using namespace morph;
+
+namespace
+{
+struct Problem
+{
+  SparseMatrix A;
+  Points places, b;
+};
+
+/// I - W with random W >= 0 on the 6 lattice neighbors of an n^3 grid, some of it to the outside: an M-matrix.
+/// `wind` in [0, 1): how much more the neighbor upstream along z weighs.
+Problem lattice(int n, double wind)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> value(.5, 1.5);
+  const int rows = n * n * n;
+  std::vector<Eigen::Triplet<double>> entries;
+  Problem problem;
+  problem.places.resize(rows, 3);
+  problem.b.resize(rows, 3);
+  problem.b = problem.b.unaryExpr([&](double) { return value(random) - 1; });
+  for (int i = 0; i < rows; ++i)
+  {
+    const int at[3] = { i % n, i / n % n, i / n / n };
+    problem.places.row(i) = Eigen::RowVector3d(at[0], at[1], at[2]);
+    double w[6], sum = 0;
+    for (int f = 0; f < 6; ++f)
+    {
+      w[f] = value(random) * (f == 4 ? 1 + wind : f == 5 ? 1 - wind : 1);
+      sum += w[f];
+    }
+    entries.emplace_back(i, i, 1);
+    const int stride[3] = { 1, n, n * n };
+    for (int f = 0; f < 6; ++f)
+    {
+      const int axis = f / 2, side = f % 2 ? 1 : -1;
+      if (at[axis] + side >= 0 && at[axis] + side < n)
+      {
+        entries.emplace_back(i, i + side * stride[axis], -w[f] / sum);
+      }
+    }
+  }
+  problem.A.resize(rows, rows);
+  problem.A.setFromTriplets(entries.begin(), entries.end());
+  return problem;
+}
+
+Points byLU(const SparseMatrix& A, const Points& b)
+{
+  const Eigen::SparseMatrix<double> columns = A;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(columns);
+  const Eigen::MatrixXd x = lu.solve(Eigen::MatrixXd(b));
+  return x;
+}
+}
+
+TEST(NonsymmetricSolver, AgreesWithADirectSolve)
+{
+  for (double wind : { 0., .3, .9 })
+  {
+    Problem problem = lattice(11, wind);
+    const SparseMatrix A = problem.A, T = SparseMatrix(A.transpose());
+    meshes::ThreadedMonitor monitor;
+    NonsymmetricSolver solver;
+    solver.prepare(problem.A, problem.places, monitor);
+    Points x = Points::Zero(A.rows(), 3), y = x;
+    const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-12, 500, monitor);
+    const NonsymmetricSolver::Report back =
+      solver.solveTransposed(problem.b, y, 1e-12, 500, monitor);
+    EXPECT_LE(report.relativeResidual, 1e-12) << wind;
+    EXPECT_LE(back.relativeResidual, 1e-12) << wind;
+    EXPECT_EQ(report.fallBackIterations, 0) << wind;
+    EXPECT_LT(report.iterations, 60) << wind;
+    const Points expected = byLU(A, problem.b), expectedBack = byLU(T, problem.b);
+    EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff()) << wind;
+    EXPECT_LT((y - expectedBack).cwiseAbs().maxCoeff(), 1e-9 * expectedBack.cwiseAbs().maxCoeff())
+      << wind;
+    EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings[0];
+  }
+}
+
+TEST(NonsymmetricSolver, ColumnsStopByThemselves)
+{
+  // A zero column, one of pure roundoff beside the others, and one that is solved at the start.
+  Problem problem = lattice(9, .3);
+  const SparseMatrix A = problem.A;
+  problem.b.col(1) *= 1e-17;
+  Points x = Points::Zero(A.rows(), 3);
+  x.col(2) = byLU(A, problem.b).col(2);
+  const Eigen::VectorXd before = x.col(2);
+  meshes::ThreadedMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  EXPECT_LT(report.iterations, 40);
+  EXPECT_LE(report.relativeResidual, 1e-10);
+  EXPECT_EQ(x.col(1), Eigen::VectorXd::Zero(A.rows()));
+  EXPECT_EQ(x.col(2), before);
+
+  x.setZero();
+  report = solver.solve(Points::Zero(A.rows(), 3), x, 1e-10, 500, monitor);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(x, Points::Zero(A.rows(), 3));
+}
+
+TEST(NonsymmetricSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
+{
+  // A pure wind on nodes whose places say nothing: no coarse grid serves it.
+  constexpr int n = 4000;
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  std::vector<Eigen::Triplet<double>> entries;
+  Problem problem;
+  problem.places.resize(n, 3);
+  problem.b.resize(n, 3);
+  problem.places = problem.places.unaryExpr([&](double) { return value(random); });
+  problem.b = problem.b.unaryExpr([&](double) { return value(random); });
+  for (int i = 0; i < n; ++i)
+  {
+    entries.emplace_back(i, i, 1);
+    if (i > 0)
+    {
+      entries.emplace_back(i, i - 1, -1);
+    }
+    else
+    {
+      entries.emplace_back(0, n - 1, -.5);
+    }
+  }
+  problem.A.resize(n, n);
+  problem.A.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix A = problem.A;
+  meshes::ThreadedMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  Points x = Points::Zero(n, 3);
+  const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 2000, monitor);
+  EXPECT_GT(report.fallBackIterations, 0);
+  EXPECT_LE(report.relativeResidual, 1e-10);
+  ASSERT_EQ(monitor.warnings.size(), 1u);
+  EXPECT_NE(monitor.warnings[0].find("GMRES"), std::string::npos);
+  const Points expected = byLU(A, problem.b);
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
+{
+  // Round and round: the spectrum is a circle about 1, which no polynomial of low degree makes small.
+  constexpr int n = 1000;
+  std::vector<int> next(n);
+  std::iota(next.begin(), next.end(), 0);
+  std::shuffle(next.begin(), next.end(), std::mt19937(meshes::seed()));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i)
+  {
+    entries.emplace_back(i, i, i == next[i] ? 1e-4 : 1);
+    if (i != next[i])
+    {
+      entries.emplace_back(i, next[i], -0.9999);
+    }
+  }
+  SparseMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Points places = lattice(10, 0).places, b = lattice(10, 0).b;
+  Points x = Points::Zero(n, 3);
+  Monitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(A, places, monitor);
+  std::string message;
+  EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-12, 60, monitor); }, message),
+    Error::Kind::NoConvergence);
+  EXPECT_NE(message.find("relative residual"), std::string::npos) << message;
+  EXPECT_EQ(x.squaredNorm(), 0); // untouched
+}
+
+TEST(NonsymmetricSolver, HugeRightHandSidesTakeNoFallBack)
+{
+  Problem problem = lattice(9, .3);
+  meshes::WatchingMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(problem.A, problem.places, monitor);
+  Points x = Points::Zero(problem.b.rows(), 3);
+  problem.b *= 1e100;
+  const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  EXPECT_EQ(report.fallBackIterations, 0);
+  EXPECT_LE(report.relativeResidual, 1e-10);
+}
+
+TEST(NonsymmetricSolver, EndsWhereItsNumbersOverflow)
+{
+  // x_0 is about 1e200: its residual is rounding of that size, whose square is infinite.
+  SparseMatrix A(3, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    A.insert(i, i) = 1;
+  }
+  A.insert(0, 1) = -1e200;
+  A.insert(1, 2) = -.7;
+  A.makeCompressed();
+  const Points places = Points::Identity(3, 3), b = Points::Constant(3, 3, 1. / 3);
+  Points x = Points::Zero(3, 3);
+  meshes::WatchingMonitor monitor;
+  NonsymmetricSolver solver;
+  solver.prepare(A, places, monitor);
+  std::string message;
+  EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-10, 2000, monitor); }, message),
+    Error::Kind::NoConvergence);
+  EXPECT_NE(message.find("overflowed"), std::string::npos) << message;
+  EXPECT_GT(monitor.questions, 0);
+  EXPECT_EQ(x.squaredNorm(), 0); // untouched
+}
+
+TEST(NonsymmetricSolver, RowsWithoutAPositiveDiagonalAreNamed)
+{
+  Problem problem = lattice(4, 0);
+  problem.A.coeffRef(17, 17) = 0;
+  Monitor monitor;
+  NonsymmetricSolver solver;
+  try
+  {
+    solver.prepare(problem.A, problem.places, monitor);
+    ADD_FAILURE() << "no error";
+  }
+  catch (const SingularRows& error)
+  {
+    EXPECT_EQ(error.rows(), std::vector<std::int64_t>{ 17 });
+  }
+}
+
+TEST(NonsymmetricSolver, ThreadsDoNotShow)
+{
+  Problem problem = lattice(18, .3); // more rows than one block of sums
+  const SparseMatrix A = problem.A;
+  Points reference, referenceBack;
+  for (int threads : { 1, 2, 5 })
+  {
+    SparseMatrix copy = A;
+    meshes::ThreadedMonitor monitor(threads);
+    NonsymmetricSolver solver;
+    solver.prepare(copy, problem.places, monitor);
+    Points x = Points::Zero(A.rows(), 3), y = x;
+    solver.solve(problem.b, x, 1e-10, 500, monitor);
+    solver.solveTransposed(problem.b, y, 1e-10, 500, monitor);
+    if (threads == 1)
+    {
+      reference = x;
+      referenceBack = y;
+    }
+    EXPECT_EQ(std::memcmp(x.data(), reference.data(), sizeof(double) * x.size()), 0) << threads;
+    EXPECT_EQ(std::memcmp(y.data(), referenceBack.data(), sizeof(double) * y.size()), 0) << threads;
+  }
+}
+
+TEST(Gmres, ConvergesByItself)
+{
+  Problem problem = lattice(10, .5);
+  Monitor monitor;
+  Gmres gmres(problem.A);
+  ThreeColumnRows residual, solution(problem.b.rows(), ThreeColumns::Zero());
+  ThreeColumns norm2 = ThreeColumns::Zero();
+  for (Index i = 0; i < problem.b.rows(); ++i)
+  {
+    residual.push_back(lift(problem.b.row(i)));
+    norm2 += residual.back().cwiseAbs2();
+  }
+  const int made = gmres.run(residual, norm2, 1e-20 * norm2, solution, monitor);
+  EXPECT_LT(made, 30);
+  double left = 0;
+  for (Index i = 0; i < problem.b.rows(); ++i)
+  {
+    left += (residual[i] - rowTimes(problem.A, i, solution)).squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(left / norm2.sum()), 1.1e-10);
+}
+
+TEST(Gmres, AsksWhetherToStopWithoutAColumnToSolveFor)
+{
+  Problem problem = lattice(4, 0);
+  Gmres gmres(problem.A);
+  const ThreeColumnRows residual(problem.b.rows(), ThreeColumns::Zero());
+  ThreeColumnRows solution = residual;
+  const ThreeColumns infinite = ThreeColumns::Constant(std::numeric_limits<double>::infinity());
+  meshes::WatchingMonitor monitor;
+  monitor.cancelAfter = 0;
+  std::string message;
+  EXPECT_EQ(
+    motions::kindOf(
+      [&] { gmres.run(residual, infinite, ThreeColumns::Zero(), solution, monitor); }, message),
+    Error::Kind::Cancelled);
+}

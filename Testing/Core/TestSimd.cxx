@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Four numbers at once give what each gives alone, on every processor.
+#include "Energies/CellBatches.h"
+#include "Energies/FoldoverKernel.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Support/SimdDispatch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+using morph::Index;
+using morph::LaneCount;
+using morph::Lanes;
+using namespace morph::foldover;
+
+constexpr int Blocks = 6;
+
+struct Case
+{
+  double J[9][LaneCount], g[9][LaneCount], epsilon, stiffness;
+  double hessian[Blocks][9][LaneCount], phi[LaneCount];
+};
+
+/// Jacobians of all kinds, every other one inverted, one of no rank.
+std::vector<Case> cases()
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Case> result(40);
+  for (std::size_t n = 0; n < result.size(); ++n)
+  {
+    Case& c = result[n];
+    c.epsilon = n % 2 == 0 ? 0.3 : 1e-10;
+    c.stiffness = n % 3 == 0 ? 0.01 : 0;
+    for (int i = 0; i < 9; ++i)
+    {
+      for (int lane = 0; lane < LaneCount; ++lane)
+      {
+        c.J[i][lane] = (i % 4 == 0) + number(random);
+        c.g[i][lane] = (i % 4 == 0) + 0.3 * number(random);
+      }
+    }
+  }
+  std::memset(result[2].J, 0, sizeof(result[2].J));
+  return result;
+}
+
+template <typename T>
+MORPH_LANES_INLINE void evaluate(const Parameters<T>& parameters, const Matrix3<T>& J,
+  const Matrix3<T>& g, T& phi, Matrix3<T> (&block)[3][3])
+{
+  Vector3<T> normal;
+  T determinant, square;
+  cross(J[1], J[2], normal);
+  dot(J[0], normal, determinant);
+  squaredNorm(J, square);
+  distortion(parameters, square, determinant, phi);
+  hessian(parameters, J, g, block);
+}
+
+struct EvaluateCase
+{
+  static MORPH_LANES_INLINE void run(Index n, std::vector<Case>& all)
+  {
+    Case& c = all[n];
+    Matrix3<Lanes> J, g, block[3][3];
+    for (int i = 0; i < 9; ++i)
+    {
+      J[i / 3][i % 3] = morph::load(c.J[i]);
+      g[i / 3][i % 3] = morph::load(c.g[i]);
+    }
+    Parameters<Lanes> parameters;
+    parameters.theta = Lanes{} + 0.1;
+    parameters.stiffness = Lanes{} + c.stiffness;
+    parameters.epsilon = c.epsilon;
+    Lanes phi;
+    evaluate(parameters, J, g, phi, block);
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      c.phi[lane] = phi[lane];
+      for (int a = 0, k = 0; a < 3; ++a)
+      {
+        for (int b = a; b < 3; ++b, ++k)
+        {
+          for (int i = 0; i < 9; ++i)
+          {
+            c.hessian[k][i][lane] = block[a][b][i / 3][i % 3][lane];
+          }
+        }
+      }
+    }
+  }
+};
+
+struct CubeRoot
+{
+  static MORPH_LANES_INLINE void run(Index i, std::vector<double>& x)
+  {
+    const Lanes value = { x[i], x[i] * 1.37, x[i] * 2.9, x[i] * 5.1 };
+    const Lanes root = morph::inverseCubeRoot(value);
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      EXPECT_NEAR(root[lane] * std::cbrt(value[lane]), 1, 2e-15) << value[lane];
+    }
+  }
+};
+}
+
+TEST(Lanes, InverseCubeRoot)
+{
+  std::vector<double> x;
+  for (double value = 1e-300; value < 1e300; value *= 3.7)
+  {
+    x.push_back(value);
+  }
+  morph::vectorLoop<CubeRoot>(0, static_cast<Index>(x.size()), x);
+}
+
+TEST(Lanes, TheDensityIsThatOfSingleNumbers)
+{
+  std::vector<Case> all = cases();
+  morph::vectorLoop<EvaluateCase>(0, static_cast<Index>(all.size()), all);
+  for (const Case& c : all)
+  {
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      Matrix3<double> J, g, block[3][3];
+      for (int i = 0; i < 9; ++i)
+      {
+        J[i / 3][i % 3] = c.J[i][lane];
+        g[i / 3][i % 3] = c.g[i][lane];
+      }
+      double phi;
+      evaluate<double>({ 0.1, c.stiffness, c.epsilon }, J, g, phi, block);
+      EXPECT_NEAR(c.phi[lane] / phi, 1, 1e-13);
+      double scale = 0, difference = 0;
+      for (int a = 0, k = 0; a < 3; ++a)
+      {
+        for (int b = a; b < 3; ++b, ++k)
+        {
+          for (int i = 0; i < 9; ++i)
+          {
+            const double single = block[a][b][i / 3][i % 3];
+            scale = std::max(scale, std::abs(single));
+            difference = std::max(difference, std::abs(single - c.hessian[k][i][lane]));
+          }
+        }
+      }
+      EXPECT_LT(difference, 1e-7 * scale);
+    }
+  }
+}
+
+#if defined(__x86_64__)
+TEST(Lanes, TheProcessorDoesNotShow)
+{
+  if (!__builtin_cpu_supports("avx2"))
+  {
+    GTEST_SKIP() << "This processor has no AVX2 to compare with.";
+  }
+  std::vector<Case> portable = cases(), wide = portable;
+  const auto n = static_cast<Index>(portable.size());
+  morph::detail::loopPortably<EvaluateCase>(0, n, portable);
+  morph::detail::loopWithAvx2<EvaluateCase>(0, n, wide);
+  EXPECT_EQ(std::memcmp(portable.data(), wide.data(), n * sizeof(Case)), 0);
+}
+#endif
+
+TEST(CellGroups, EachFreeCornerHasOnePlace)
+{
+  for (const auto& [name, mesh] : meshes::all(3, 3, 3))
+  {
+    SCOPED_TRACE(name);
+    const std::vector<Index> free = motions::outerPartition(mesh).free;
+    std::vector<std::int32_t> row(mesh.numberOfNodes(), -1);
+    for (std::size_t i = 0; i < free.size(); ++i)
+    {
+      row[free[i]] = static_cast<std::int32_t>(i);
+    }
+    std::vector<int> expected(free.size()), found(free.size());
+    for (Index node : mesh.connectivity)
+    {
+      if (row[node] >= 0)
+      {
+        ++expected[row[node]];
+      }
+    }
+    const morph::CellGroups groups(mesh, free);
+    for (Index place = 0; place < groups.places(); ++place)
+    {
+      const Index first = groups.firstPlace(groups.groupOf(place));
+      EXPECT_GE(place, first);
+      EXPECT_LT(place, first + LaneCount * groups.corners(groups.groupOf(place)));
+      if (groups.row(place) >= 0)
+      {
+        ++found[groups.row(place)];
+      }
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(CellGroups, HoldEachCellWithAFreeNodeOnceOfThoseAskedFor)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    std::vector<Index> free = motions::outerPartition(mesh).free, some, expected;
+    std::reverse(free.begin(), free.end()); // rows in any order
+    for (Index c = 0; c < mesh.numberOfCells(); c += 2)
+    {
+      some.push_back(c);
+      const bool moves = std::any_of(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c),
+        [&](Index node) { return std::find(free.begin(), free.end(), node) != free.end(); });
+      if (moves && morph::cellShape(mesh.types[c])->dimension == 3)
+      {
+        expected.push_back(c);
+      }
+    }
+    const morph::CellGroups groups(mesh, free, some);
+    std::vector<Index> found;
+    for (Index group = 0; group < groups.size(); ++group)
+    {
+      for (int lane = 0; lane < groups.cells(group); ++lane)
+      {
+        const Index c = groups.cell(group, lane);
+        found.push_back(c);
+        EXPECT_EQ(groups.shape(group), morph::cellShape(mesh.types[c])->shape);
+        for (int a = 0; a < groups.corners(group); ++a)
+        {
+          EXPECT_EQ(groups.nodes(group)[a * LaneCount + lane],
+            mesh.cell(c)[morph::cellShape(mesh.types[c])->cornerNode[a]]);
+        }
+      }
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryShapes.h"
+
+#include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
+#include "BoundaryMorphing/SurfaceSmoothing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace morph;
+using shapes::Row;
+
+namespace
+{
+struct Case
+{
+  Mesh mesh;
+  Monitor monitor;
+  BoundaryFaces faces;
+  Classification geometry;
+
+  explicit Case(const Mesh& m)
+    : mesh(m)
+  {
+    this->faces = boundaryFaces(this->mesh, this->monitor);
+    this->geometry = classify(this->mesh, this->faces, {}, this->monitor);
+  }
+
+  /// All nodes known; those of surfaces by their surface.
+  BoundaryMotion moved(const std::function<Row(const Row&)>& map) const
+  {
+    std::vector<Index> ids;
+    for (Index node : this->faces.nodes)
+    {
+      if (this->geometry.dimension[node] < 2)
+      {
+        ids.push_back(node);
+      }
+    }
+    Points targets(static_cast<Index>(ids.size()), 3);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      targets.row(static_cast<Index>(i)) = map(this->mesh.points.row(ids[i]));
+    }
+    BoundaryMotion motion = beginMotion(this->mesh, this->faces, this->geometry, ids, targets);
+    for (Index node : this->faces.nodes)
+    {
+      if (this->geometry.dimension[node] == 2)
+      {
+        motion.displacement.row(node) =
+          map(this->mesh.points.row(node)) - this->mesh.points.row(node);
+        motion.state[node] = BoundaryMotion::OnSurface;
+      }
+    }
+    return motion;
+  }
+
+  FaceQuality quality(const BoundaryMotion& motion) const
+  {
+    return faceQuality(this->mesh.points, motion.moved(), this->faces, this->geometry);
+  }
+};
+
+Row same(const Row& x)
+{
+  return x;
+}
+
+/// A node of dimension 2 near the middle of the surface z = `z`.
+Index middleOf(const Case& c, double z, const Row& middle)
+{
+  Index best = -1;
+  double nearest = 1e300;
+  for (Index node : c.faces.nodes)
+  {
+    const Row x = c.mesh.points.row(node);
+    if (std::abs(x[2] - z) < 1e-12 && c.geometry.dimension[node] == 2 &&
+        (x - middle).norm() < nearest)
+    {
+      nearest = (x - middle).norm();
+      best = node;
+    }
+  }
+  return best;
+}
+
+/// The cylinder of radius 1 about z.
+class Cylinder : public ProjectionTarget
+{
+public:
+  bool closestOnSurface(Index, const Row& x, const Row& normal, Row& y) const override
+  {
+    y = x;
+    if (std::abs(normal[2]) < 0.5)
+    {
+      y.head<2>() /= x.head<2>().norm();
+    }
+    return true;
+  }
+  bool closestOnFeatures(const Row&, Row&) const override { return false; }
+};
+}
+
+TEST(SurfaceImprovement, GoodSurfacesStayBitForBit)
+{
+  for (const auto& [name, mesh] : meshes::all(3, 3, 3))
+  {
+    SCOPED_TRACE(name);
+    Case c(mesh);
+    BoundaryMotion motion = c.moved([](const Row& x) { return Row(1.1 * x + Row(1, 2, 3)); });
+    const Points before = motion.displacement;
+    const SurfaceImprovement report =
+      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    EXPECT_EQ(report.poor, 0);
+    EXPECT_TRUE(report.moved.empty());
+    EXPECT_EQ(motion.displacement, before);
+  }
+}
+
+TEST(SurfaceImprovement, AffineImagesStay)
+{
+  for (const Mesh& mesh : { meshes::hexes(6, 6, 2), meshes::tets(6, 6, 2) })
+  {
+    Case c(mesh);
+    // Sheared until the angles are poor.
+    BoundaryMotion motion = c.moved([](const Row& x) { return Row(x[0] + 8 * x[1], x[1], x[2]); });
+    const Points before = motion.displacement;
+    const SurfaceImprovement report =
+      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    EXPECT_GT(report.poor, 0);
+    EXPECT_TRUE(report.moved.empty());
+    EXPECT_EQ(motion.displacement, before);
+  }
+}
+
+TEST(SurfaceImprovement, FoldsOpenInThePlane)
+{
+  for (const Mesh& mesh :
+    { meshes::hexes(8, 8, 2), meshes::tets(8, 8, 2), meshes::quadraticHexes(8, 8, 2, true) })
+  {
+    Case c(mesh);
+    BoundaryMotion motion = c.moved(same);
+    const Index node = middleOf(c, 2, Row(4, 4, 2));
+    motion.displacement.row(node) += Row(1.6, 0.3, 0);
+    const Points before = motion.displacement;
+    ASSERT_FALSE(c.quality(motion).folded.empty());
+    const SurfaceImprovement report =
+      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    EXPECT_GT(report.poor, 0);
+    const FaceQuality after = c.quality(motion);
+    EXPECT_TRUE(after.folded.empty());
+    EXPECT_GT(after.minimum, 0.6);
+    ASSERT_FALSE(report.moved.empty());
+    for (Index n = 0; n < before.rows(); ++n)
+    {
+      if (std::binary_search(report.moved.begin(), report.moved.end(), n))
+      {
+        EXPECT_EQ(motion.state[n], BoundaryMotion::OnSurface);
+        EXPECT_NEAR(motion.displacement(n, 2), 0, 1e-12);
+        // Two faces round the folded ones, and no further.
+        EXPECT_LT((c.mesh.points.row(n) - Row(4, 4, 2)).cwiseAbs().maxCoeff(), 4);
+      }
+      else
+      {
+        EXPECT_EQ(motion.displacement.row(n), before.row(n));
+      }
+    }
+  }
+}
+
+TEST(SurfaceImprovement, KeepsToTheTarget)
+{
+  Case c(shapes::cylinder(10, 6));
+  BoundaryMotion motion = c.moved(same);
+  Index turned = -1;
+  for (Index node : c.faces.nodes)
+  {
+    const Row x = c.mesh.points.row(node);
+    if (c.geometry.dimension[node] == 2 && std::abs(x[2] - 1) < 1e-9 &&
+        std::abs(x.head<2>().norm() - 1) < 1e-9)
+    {
+      turned = node;
+    }
+  }
+  ASSERT_GE(turned, 0);
+  const Row x = c.mesh.points.row(turned);
+  const double angle = 0.3;
+  motion.displacement.row(turned) = Row(x[0] * std::cos(angle) - x[1] * std::sin(angle),
+                                      x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2]) -
+                                    x;
+  ASSERT_FALSE(c.quality(motion).folded.empty());
+  const SurfaceImprovement report =
+    improveSurfaces(c.faces, c.geometry, std::make_unique<Cylinder>().get(), motion, c.monitor);
+  EXPECT_TRUE(c.quality(motion).folded.empty());
+  const Points moved = motion.moved();
+  for (Index node : report.moved)
+  {
+    EXPECT_NEAR(moved.row(node).head<2>().norm(), 1, 1e-12);
+  }
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Energies/WorstCornerNorm.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/MinQualityAscent.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using morph::CornerAngles;
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
+
+std::vector<Index> volumeCells(const Mesh& mesh)
+{
+  std::vector<Index> cells;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (morph::cellShape(mesh.types[c])->dimension == 3)
+    {
+      cells.push_back(c);
+    }
+  }
+  return cells;
+}
+
+std::vector<std::int8_t> orientationOf(const Mesh& mesh)
+{
+  return morph::orientation(mesh, morph::bodies(mesh));
+}
+}
+
+TEST(CornerAngles, GradientIsThatOfFiniteDifferences)
+{
+  meshes::ThreadedMonitor monitor;
+  for (auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    const std::vector<Index> free = motions::outerPartition(mesh).free;
+    const CornerAngles angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7);
+    Points gradient;
+    angles.gradient(mesh.points, gradient, monitor);
+    ASSERT_TRUE(angles.value(mesh.points, monitor).allowed);
+    const double h = 1e-6;
+    for (Index i = 0; i < gradient.rows(); ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        Points plus = mesh.points, minus = plus;
+        plus(free[i], j) += h;
+        minus(free[i], j) -= h;
+        const double difference =
+          (angles.value(plus, monitor).energy - angles.value(minus, monitor).energy) / (2 * h);
+        EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
+      }
+    }
+  }
+}
+
+TEST(CornerAngles, OneWhereAllCornersAreTheLeastAndInfiniteWhereOneIsInverted)
+{
+  meshes::ThreadedMonitor monitor;
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  const std::vector<Index> free = motions::outerPartition(mesh).free;
+  const CornerAngles angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 1);
+  EXPECT_NEAR(angles.value(mesh.points, monitor).energy, 1, 1e-14);
+  mesh.points.row(free[0]) += Eigen::RowVector3d(1.5, 0, 0);
+  const morph::Objective::Value value = angles.value(mesh.points, monitor);
+  EXPECT_TRUE(std::isinf(value.energy));
+  EXPECT_FALSE(value.allowed);
+}
+
+TEST(RaiseWorstCells, RaisesTheLeastAndKeepsTheRest)
+{
+  for (const Mesh& rest :
+    { meshes::hexes(4, 4, 4), meshes::tets(4, 4, 4), meshes::hexesAndPyramids(4, 4, 4) })
+  {
+    Mesh mesh = rest;
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    const Index moved = partition.free[partition.free.size() / 2];
+    mesh.points.row(moved) += Eigen::RowVector3d(0.3, 0.2, 0.25);
+    meshes::ThreadedMonitor one(1), three(3);
+    const std::vector<std::int8_t> orientation = orientationOf(rest);
+    const auto least = [&](const Points& points)
+    { return morph::measureQuality(mesh, points, orientation, {}, one).minimum; };
+    const double before = least(mesh.points);
+    ASSERT_GT(before, 0);
+    Points points = mesh.points, again = points;
+    EXPECT_GT(morph::raiseWorstCells(mesh, orientation, partition.free, points, one), 0);
+    EXPECT_GT(least(points), 1.2 * before);
+    EXPECT_GT(least(points), 0.8 * least(rest.points));
+    for (Index node : partition.prescribed)
+    {
+      EXPECT_EQ(points.row(node), mesh.points.row(node));
+    }
+    morph::raiseWorstCells(mesh, orientation, partition.free, again, three);
+    EXPECT_EQ(points, again);
+  }
+}
+
+TEST(RaiseWorstCells, GoesUpToTheWorstCellThatTheBoundaryDeterminesAndNoFurther)
+{
+  const Mesh rest = meshes::tets(4, 4, 4);
+  const std::vector<std::int8_t> orientation = orientationOf(rest);
+  const morph::NodePartition partition = motions::outerPartition(rest);
+  Mesh mesh = rest;
+  // The corner of the brick, near the face opposite of its only cell: all four nodes are prescribed.
+  mesh.points.row(0) += 0.3 * Eigen::RowVector3d(1, 1, 1);
+  meshes::ThreadedMonitor monitor;
+  const morph::Quality flat = morph::measureQuality(mesh, mesh.points, orientation, {}, monitor);
+  for (Index node : partition.free)
+  {
+    mesh.points.row(node) += 0.3 * Eigen::RowVector3d(0.9, 0.7, -0.8) * (node % 3 - 1);
+  }
+  const morph::Quality before = morph::measureQuality(mesh, mesh.points, orientation, {}, monitor);
+  ASSERT_GT(before.minimum, 0);
+  ASSERT_LT(before.minimum, 0.9 * flat.minimum);
+  Points points = mesh.points;
+  EXPECT_GT(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  const morph::Quality after = morph::measureQuality(mesh, points, orientation, {}, monitor);
+  EXPECT_EQ(after.minimum, flat.minimum);
+  EXPECT_EQ(after.worstCell, flat.worstCell);
+  const Points done = points;
+  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(points, done);
+}
+
+TEST(RaiseWorstCells, LeavesTangledAndPerfectMeshesBitForBit)
+{
+  Mesh mesh = meshes::hexes(4, 4, 4);
+  const morph::NodePartition partition = motions::outerPartition(mesh);
+  const std::vector<std::int8_t> orientation = orientationOf(mesh);
+  meshes::ThreadedMonitor monitor;
+  Points points = mesh.points;
+  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(points, mesh.points);
+  points.row(partition.free[0]) += Eigen::RowVector3d(1.5, 0, 0);
+  const Points tangled = points;
+  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(points, tangled);
+}
