@@ -247,7 +247,7 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
   // What is not in use may change without an execution.
-  if (this->Motion == TRANSFORM)
+  if (this->Motion == MOTION_TRANSFORM)
   {
     time = std::max(time, timeOf(this->Internals->Transform));
   }
@@ -420,7 +420,7 @@ void vtkBoundaryDisplacement::Displace(
   filters::Surroundings::Options rest;
   rest.How = static_cast<filters::Surroundings::Kind>(this->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::Unattached>(this->UnattachedMotion);
+  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(this->UnattachedMotion);
   rest.Radius = this->FalloffRadius * size(own.Model);
   monitor.SetRange(0.5, 0.9);
   const filters::Surroundings::Result result =

@@ -151,22 +151,27 @@ public:
 
   enum Motions
   {
-    TRANSFORM = 0,
-    VECTOR = 1,
-    ALONG_NORMALS = 2,
-    ARRAY = 3
+    MOTION_TRANSFORM = 0,
+    MOTION_VECTOR = 1,
+    MOTION_ALONG_NORMALS = 2,
+    MOTION_ARRAY = 3,
+    // The old names, until version 0.2.
+    TRANSFORM = MOTION_TRANSFORM,
+    VECTOR = MOTION_VECTOR,
+    ALONG_NORMALS = MOTION_ALONG_NORMALS,
+    ARRAY = MOTION_ARRAY
   };
   ///@{
   /**
    * How it moves: by Transform, by Vector, by Distance along its normals, or by DisplacementArray.
-   * Default TRANSFORM.
+   * Default MOTION_TRANSFORM.
    */
-  vtkSetClampMacro(Motion, int, TRANSFORM, ARRAY);
+  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_ARRAY);
   vtkGetMacro(Motion, int);
-  void SetMotionToTransform() { this->SetMotion(TRANSFORM); }
-  void SetMotionToVector() { this->SetMotion(VECTOR); }
-  void SetMotionToAlongNormals() { this->SetMotion(ALONG_NORMALS); }
-  void SetMotionToArray() { this->SetMotion(ARRAY); }
+  void SetMotionToTransform() { this->SetMotion(MOTION_TRANSFORM); }
+  void SetMotionToVector() { this->SetMotion(MOTION_VECTOR); }
+  void SetMotionToAlongNormals() { this->SetMotion(MOTION_ALONG_NORMALS); }
+  void SetMotionToArray() { this->SetMotion(MOTION_ARRAY); }
   ///@}
 
   ///@{
@@ -217,29 +222,33 @@ public:
 
   enum SurroundingsMotions
   {
-    STAY = 0,
-    FOLLOW = 1,
-    FADE = 2
+    SURROUNDINGS_STAY = 0,
+    SURROUNDINGS_FOLLOW = 1,
+    SURROUNDINGS_FADE = 2,
+    // The old names, until version 0.2.
+    STAY = SURROUNDINGS_STAY,
+    FOLLOW = SURROUNDINGS_FOLLOW,
+    FADE = SURROUNDINGS_FADE
   };
   ///@{
   /**
    * What the nodes do that neither move nor are held: stay; follow curves first and then surfaces, as
    * with vtkMorphBoundary, vertices being held; or take part in the motion the less, the farther they
-   * are from the nearest moving node, up to FalloffRadius. Default FOLLOW.
+   * are from the nearest moving node, up to FalloffRadius. Default SURROUNDINGS_FOLLOW.
    */
-  vtkSetClampMacro(Surroundings, int, STAY, FADE);
+  vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FADE);
   vtkGetMacro(Surroundings, int);
-  void SetSurroundingsToStay() { this->SetSurroundings(STAY); }
-  void SetSurroundingsToFollow() { this->SetSurroundings(FOLLOW); }
-  void SetSurroundingsToFade() { this->SetSurroundings(FADE); }
+  void SetSurroundingsToStay() { this->SetSurroundings(SURROUNDINGS_STAY); }
+  void SetSurroundingsToFollow() { this->SetSurroundings(SURROUNDINGS_FOLLOW); }
+  void SetSurroundingsToFade() { this->SetSurroundings(SURROUNDINGS_FADE); }
   ///@}
 
   ///@{
   /**
-   * The distance at which FADE has come to nothing, in units of the diagonal of the boundary's
+   * The distance at which SURROUNDINGS_FADE has come to nothing, in units of the diagonal of the boundary's
    * bounding box. At the distance d the displacement is that of the 20 nearest moving nodes, by
    * inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1, range
-   * [0, 10]; 0 is as STAY.
+   * [0, 10]; 0 is as SURROUNDINGS_STAY.
    */
   virtual void SetFalloffRadius(double value);
   vtkGetMacro(FalloffRadius, double);
@@ -247,17 +256,23 @@ public:
 
   enum SurfaceMethods
   {
-    WEIGHTED_RESIDUAL = 0,
-    SMOOTHING = 1
+    SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
+    SURFACE_METHOD_SMOOTHING = 1,
+    // The old names, until version 0.2.
+    WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
+    SMOOTHING = SURFACE_METHOD_SMOOTHING
   };
   ///@{
   /**
-   * How surfaces FOLLOW; see vtkMorphBoundary. Default WEIGHTED_RESIDUAL.
+   * How surfaces follow; see vtkMorphBoundary. Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
-  vtkSetClampMacro(SurfaceMethod, int, WEIGHTED_RESIDUAL, SMOOTHING);
+  vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);
-  void SetSurfaceMethodToWeightedResidual() { this->SetSurfaceMethod(WEIGHTED_RESIDUAL); }
-  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SMOOTHING); }
+  void SetSurfaceMethodToWeightedResidual()
+  {
+    this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
+  }
+  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
   ///@}
 
   enum UnattachedMotions
@@ -268,11 +283,14 @@ public:
   };
   ///@{
   /**
-   * How closed curves without a vertex, and closed surfaces without a curve, FOLLOW where nothing
+   * How closed curves without a vertex, and closed surfaces without a curve, follow where nothing
    * moves or is held on them; see vtkMorphBoundary. Default UNATTACHED_AFFINELY.
    */
   vtkSetClampMacro(UnattachedMotion, int, UNATTACHED_AFFINELY, UNATTACHED_STAY);
   vtkGetMacro(UnattachedMotion, int);
+  void SetUnattachedMotionToFollowAffinely() { this->SetUnattachedMotion(UNATTACHED_AFFINELY); }
+  void SetUnattachedMotionToFollowRigidly() { this->SetUnattachedMotion(UNATTACHED_RIGIDLY); }
+  void SetUnattachedMotionToStay() { this->SetUnattachedMotion(UNATTACHED_STAY); }
   ///@}
 
   ///@{
@@ -354,14 +372,14 @@ private:
     morph::filters::Monitor& monitor);
 
   int Moving = MOVE_EVERYTHING;
-  int Motion = TRANSFORM;
+  int Motion = MOTION_TRANSFORM;
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;
   char* DisplacementArray = nullptr;
   double ScaleFactor = 1;
-  int Surroundings = FOLLOW;
+  int Surroundings = SURROUNDINGS_FOLLOW;
   double FalloffRadius = 0.1;
-  int SurfaceMethod = WEIGHTED_RESIDUAL;
+  int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
   int UnattachedMotion = UNATTACHED_AFFINELY;
   double FeatureAngle = 25;
   double CornerAngle = 45;

@@ -159,9 +159,9 @@ private:
 vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-  return static_cast<vtkIdType>(
-    morph::invertedCells(mesh, mesh.points, morph::orientation(mesh, morph::bodies(mesh)), monitor)
-      .size());
+  return static_cast<vtkIdType>(morph::invertedCells(
+    mesh, mesh.points, morph::cellSigns(mesh, morph::connectedComponents(mesh)), monitor)
+                                  .size());
 }
 
 /// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first
@@ -176,7 +176,7 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
   {
     monitor.check();
     const double done = static_cast<double>(i);
-    morph::SubMonitor part(monitor, done / number, (done + 1) / number);
+    morph::ProgressRange part(monitor, done / number, (done + 1) / number);
     Follower follower(filter, part);
     filter->UpdateTimeStep(times[i]);
     monitor.check();
@@ -356,7 +356,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
                                                  : std::vector<Method>())
     {
       const double done = static_cast<double>(runs.size());
-      morph::SubMonitor part(monitor, done / number, (done + 1) / number);
+      morph::ProgressRange part(monitor, done / number, (done + 1) / number);
       filters::MethodRun run;
       run.Method = method.Name;
       run.Stepping = relative ? "Relative" : "Absolute";
@@ -365,7 +365,8 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       filter->SetInputData(rest);
       filter->SetBoundaryConnection(source->GetOutputPort());
       this->Configure(filter);
-      filter->SetStepping(relative ? vtkMorphAlgorithm::RELATIVE : vtkMorphAlgorithm::ABSOLUTE);
+      filter->SetStepping(
+        relative ? vtkMorphAlgorithm::STEPPING_RELATIVE : vtkMorphAlgorithm::STEPPING_ABSOLUTE);
       follow(filter, times, this->Percentile, run, part);
       runs.push_back(std::move(run));
     }

@@ -18,13 +18,13 @@ std::unique_ptr<morph::Morpher> guessMethod(int guess)
 {
   switch (guess)
   {
-    case vtkInversionFreeMorph::LBWARP:
+    case vtkInversionFreeMorph::INITIAL_GUESS_LBWARP:
       return std::make_unique<morph::LogBarrierWarp>();
-    case vtkInversionFreeMorph::WEIGHTED_RESIDUAL:
+    case vtkInversionFreeMorph::INITIAL_GUESS_WEIGHTED_RESIDUAL:
       return std::make_unique<morph::WeightedResidual>();
-    case vtkInversionFreeMorph::SIMPLEX_LINEAR:
+    case vtkInversionFreeMorph::INITIAL_GUESS_SIMPLEX_LINEAR:
       return std::make_unique<morph::SimplexLinear>();
-    case vtkInversionFreeMorph::SIMPLEX_NATURAL_NEIGHBOR:
+    case vtkInversionFreeMorph::INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR:
       return std::make_unique<morph::SimplexNaturalNeighbor>();
     default:
       return nullptr;
@@ -61,14 +61,15 @@ void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
   auto& own = static_cast<Morpher&>(morpher);
   if (!guessMethod(this->InitialGuess))
   {
-    own.setStart(this->InitialGuess == REST ? Morpher::Start::Rest : Morpher::Start::FemWarp);
+    own.setStart(
+      this->InitialGuess == INITIAL_GUESS_REST ? Morpher::Start::Rest : Morpher::Start::FemWarp);
   }
-  own.setTarget(this->TargetShape == INITIAL ? morph::Target::Initial
-                : this->TargetShape == IDEAL ? morph::Target::Ideal
-                                             : morph::Target::Stretched);
+  own.setTarget(this->TargetShape == TARGET_SHAPE_INITIAL ? morph::TargetConstruction::Initial
+                : this->TargetShape == TARGET_SHAPE_IDEAL ? morph::TargetConstruction::Ideal
+                                                          : morph::TargetConstruction::Stretched);
   own.setStiffening(this->ImproveWorst);
-  own.setMinimizer(this->LowMemory ? morph::FoldoverStages::Minimizer::LimitedMemoryBfgs
-                                   : morph::FoldoverStages::Minimizer::Newton);
+  own.setMinimizer(this->LowMemory ? morph::FoldoverContinuation::Minimizer::LimitedMemoryBfgs
+                                   : morph::FoldoverContinuation::Minimizer::Newton);
 }
 
 void vtkInversionFreeMorph::PrintSelf(ostream& os, vtkIndent indent)

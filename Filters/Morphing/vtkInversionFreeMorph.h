@@ -45,12 +45,19 @@ public:
 
   enum InitialGuessType
   {
-    FEMWARP = 0,
-    REST = 1,
-    LBWARP = 2,
-    WEIGHTED_RESIDUAL = 3,
-    SIMPLEX_LINEAR = 4,
-    SIMPLEX_NATURAL_NEIGHBOR = 5
+    INITIAL_GUESS_FEMWARP = 0,
+    INITIAL_GUESS_REST = 1,
+    INITIAL_GUESS_LBWARP = 2,
+    INITIAL_GUESS_WEIGHTED_RESIDUAL = 3,
+    INITIAL_GUESS_SIMPLEX_LINEAR = 4,
+    INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR = 5,
+    // The old names, until version 0.2.
+    FEMWARP = INITIAL_GUESS_FEMWARP,
+    REST = INITIAL_GUESS_REST,
+    LBWARP = INITIAL_GUESS_LBWARP,
+    WEIGHTED_RESIDUAL = INITIAL_GUESS_WEIGHTED_RESIDUAL,
+    SIMPLEX_LINEAR = INITIAL_GUESS_SIMPLEX_LINEAR,
+    SIMPLEX_NATURAL_NEIGHBOR = INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR
   };
 
   ///@{
@@ -58,24 +65,32 @@ public:
    * The mesh that the minimisation starts from: that of a method with its default options, or the
    * mesh at rest with its boundary moved. Default FEMWARP.
    */
-  vtkSetClampMacro(InitialGuess, int, FEMWARP, SIMPLEX_NATURAL_NEIGHBOR);
+  vtkSetClampMacro(
+    InitialGuess, int, INITIAL_GUESS_FEMWARP, INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR);
   vtkGetMacro(InitialGuess, int);
-  void SetInitialGuessToFEMWARP() { this->SetInitialGuess(FEMWARP); }
-  void SetInitialGuessToRest() { this->SetInitialGuess(REST); }
-  void SetInitialGuessToLBWARP() { this->SetInitialGuess(LBWARP); }
-  void SetInitialGuessToWeightedResidual() { this->SetInitialGuess(WEIGHTED_RESIDUAL); }
-  void SetInitialGuessToSimplexLinear() { this->SetInitialGuess(SIMPLEX_LINEAR); }
+  void SetInitialGuessToFEMWARP() { this->SetInitialGuess(INITIAL_GUESS_FEMWARP); }
+  void SetInitialGuessToRest() { this->SetInitialGuess(INITIAL_GUESS_REST); }
+  void SetInitialGuessToLBWARP() { this->SetInitialGuess(INITIAL_GUESS_LBWARP); }
+  void SetInitialGuessToWeightedResidual()
+  {
+    this->SetInitialGuess(INITIAL_GUESS_WEIGHTED_RESIDUAL);
+  }
+  void SetInitialGuessToSimplexLinear() { this->SetInitialGuess(INITIAL_GUESS_SIMPLEX_LINEAR); }
   void SetInitialGuessToSimplexNaturalNeighbor()
   {
-    this->SetInitialGuess(SIMPLEX_NATURAL_NEIGHBOR);
+    this->SetInitialGuess(INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR);
   }
   ///@}
 
   enum TargetShapeType
   {
-    INITIAL = 0,
-    STRETCHED = 1,
-    IDEAL = 2
+    TARGET_SHAPE_INITIAL = 0,
+    TARGET_SHAPE_STRETCHED = 1,
+    TARGET_SHAPE_IDEAL = 2,
+    // The old names, until version 0.2.
+    INITIAL = TARGET_SHAPE_INITIAL,
+    STRETCHED = TARGET_SHAPE_STRETCHED,
+    IDEAL = TARGET_SHAPE_IDEAL
   };
 
   ///@{
@@ -85,11 +100,11 @@ public:
    * tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever they were at rest, so
    * that the mesh changes without any motion of its boundary. Default Stretched.
    */
-  vtkSetClampMacro(TargetShape, int, INITIAL, IDEAL);
+  vtkSetClampMacro(TargetShape, int, TARGET_SHAPE_INITIAL, TARGET_SHAPE_IDEAL);
   vtkGetMacro(TargetShape, int);
-  void SetTargetShapeToInitial() { this->SetTargetShape(INITIAL); }
-  void SetTargetShapeToStretched() { this->SetTargetShape(STRETCHED); }
-  void SetTargetShapeToIdeal() { this->SetTargetShape(IDEAL); }
+  void SetTargetShapeToInitial() { this->SetTargetShape(TARGET_SHAPE_INITIAL); }
+  void SetTargetShapeToStretched() { this->SetTargetShape(TARGET_SHAPE_STRETCHED); }
+  void SetTargetShapeToIdeal() { this->SetTargetShape(TARGET_SHAPE_IDEAL); }
   ///@}
 
   ///@{
@@ -138,8 +153,8 @@ private:
   vtkInversionFreeMorph(const vtkInversionFreeMorph&) = delete;
   void operator=(const vtkInversionFreeMorph&) = delete;
 
-  int InitialGuess = FEMWARP;
-  int TargetShape = STRETCHED;
+  int InitialGuess = INITIAL_GUESS_FEMWARP;
+  int TargetShape = TARGET_SHAPE_STRETCHED;
   bool ImproveWorst = true;
   bool LowMemory = false;
 };

@@ -16,7 +16,7 @@ vtkLBWarpMorph::~vtkLBWarpMorph() = default;
 std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::LogBarrierWarp>();
-  morpher->setOutsideHull(this->OutsideHull == RELAX_OUTSIDE_HULL
+  morpher->setOutsideHull(this->OutsideHull == OUTSIDE_HULL_RELAX
                             ? morph::LogBarrierWarp::OutsideHull::Relax
                             : morph::LogBarrierWarp::OutsideHull::Error);
   return morpher;
@@ -24,7 +24,7 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
 
 std::string vtkLBWarpMorph::PrepareOptions()
 {
-  return this->OutsideHull == RELAX_OUTSIDE_HULL ? "Relax" : "Error";
+  return this->OutsideHull == OUTSIDE_HULL_RELAX ? "Relax" : "Error";
 }
 
 void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)

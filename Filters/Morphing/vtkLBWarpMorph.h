@@ -48,8 +48,11 @@ public:
 
   enum OutsideHullType
   {
-    ERROR_OUTSIDE_HULL = 0,
-    RELAX_OUTSIDE_HULL = 1
+    OUTSIDE_HULL_ERROR = 0,
+    OUTSIDE_HULL_RELAX = 1,
+    // The old names, until version 0.2.
+    ERROR_OUTSIDE_HULL = OUTSIDE_HULL_ERROR,
+    RELAX_OUTSIDE_HULL = OUTSIDE_HULL_RELAX
   };
 
   ///@{
@@ -60,10 +63,10 @@ public:
    * weights of least norm, which keep affine motions exact but may be negative, so nothing bounds
    * the node; FEMWARP's row of the matrix. Default Error.
    */
-  vtkSetClampMacro(OutsideHull, int, ERROR_OUTSIDE_HULL, RELAX_OUTSIDE_HULL);
+  vtkSetClampMacro(OutsideHull, int, OUTSIDE_HULL_ERROR, OUTSIDE_HULL_RELAX);
   vtkGetMacro(OutsideHull, int);
-  void SetOutsideHullToError() { this->SetOutsideHull(ERROR_OUTSIDE_HULL); }
-  void SetOutsideHullToRelax() { this->SetOutsideHull(RELAX_OUTSIDE_HULL); }
+  void SetOutsideHullToError() { this->SetOutsideHull(OUTSIDE_HULL_ERROR); }
+  void SetOutsideHullToRelax() { this->SetOutsideHull(OUTSIDE_HULL_RELAX); }
   ///@}
 
   ///@{
@@ -90,7 +93,7 @@ private:
   void operator=(const vtkLBWarpMorph&) = delete;
 
   double Tolerance = 1e-10;
-  int OutsideHull = ERROR_OUTSIDE_HULL;
+  int OutsideHull = OUTSIDE_HULL_ERROR;
 };
 
 #endif

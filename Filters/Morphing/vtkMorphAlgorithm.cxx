@@ -60,7 +60,7 @@ morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::in
   morph::Monitor& monitor)
 {
   morph::SmoothingOptions options;
-  options.target = morph::Target::Initial;
+  options.target = morph::TargetConstruction::Initial;
   options.iterationLimit = iterationLimit;
   options.neverWorse = true;
   const morph::SmoothingReport report =
@@ -79,9 +79,9 @@ struct vtkMorphAlgorithm::vtkInternals
   morph::Index Mirrored = 0;               ///< bodies of Mesh; see GetMirroredBodies()
   std::unique_ptr<morph::Morpher> Morpher; ///< prepared for Mesh under Options, or null
   std::string Options;
-  std::vector<morph::Count> Counts;  ///< as of the last execution
-  std::string Status;                ///< as of the last execution
-  morph::Index BoundaryInverted = 0; ///< cells for which the last execution has no result
+  std::vector<morph::Statistic> Statistics; ///< as of the last execution
+  std::string Status;                       ///< as of the last execution
+  morph::Index BoundaryInverted = 0;        ///< cells for which the last execution has no result
   filters::Ports Ports;
 
   filters::Steps Steps;
@@ -98,7 +98,7 @@ struct vtkMorphAlgorithm::vtkInternals
   {
   }
 
-  bool IsSeries(int stepping) const { return stepping == RELATIVE && this->Steps.Any(); }
+  bool IsSeries(int stepping) const { return stepping == STEPPING_RELATIVE && this->Steps.Any(); }
   /// Forgets the series if the filter, or a boundary that varies, was modified since.
   void CheckSeries(vtkMTimeType own, vtkMTimeType boundary);
   /// Takes the grid over unless it is what is kept already.
@@ -115,8 +115,8 @@ void vtkMorphAlgorithm::vtkInternals::SetGrid(vtkUnstructuredGrid* grid, morph::
   }
   morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   filters::Input::RequireVolumeCells(mesh);
-  const morph::Bodies bodies = morph::bodies(mesh);
-  std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
   if (!sameCells)
   {
     this->Outer = morph::boundaryFaces(mesh, monitor);
@@ -284,7 +284,8 @@ void vtkMorphAlgorithm::WriteUndeformed(
   {
     // What the error tells.
     this->BoundaryInvertedCells = static_cast<vtkIdType>(this->Internals->BoundaryInverted);
-    this->Internals->Counts = { { "BoundaryDeterminedCells", this->Internals->BoundaryInverted } };
+    this->Internals->Statistics = { { "BoundaryDeterminedCells",
+      this->Internals->BoundaryInverted } };
     filters::Output::AddField(output, "BoundaryInvertedCells", this->BoundaryInvertedCells);
   }
   filters::Output::AddField(output, "MorphStatus", status);
@@ -448,11 +449,11 @@ filters::StepResult vtkMorphAlgorithm::MorphStep(const morph::Mesh& from,
       ". Check the boundary for huge values, and the mesh for cells without "
       "volume.");
   }
-  result.Counts = report.counts;
+  result.Statistics = report.statistics;
   if (this->PostSmooth)
   {
     part(0.75, 0.85);
-    result.Counts.push_back(
+    result.Statistics.push_back(
       { "PostSmoothSteps", smoothAfterwards(kept.Mesh, kept.Orientation, partition,
                              this->PostSmoothIterations, result.Moved, monitor) });
   }
@@ -504,7 +505,7 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const filters::StepResu
   this->LargestValidStep = result.Valid.LargestValidStep;
   this->SubSteps = static_cast<vtkIdType>(result.Valid.SubSteps);
   kept.Status = result.Valid.Status;
-  kept.Counts = result.Counts;
+  kept.Statistics = result.Statistics;
   this->PrescribedPoints = static_cast<vtkIdType>(result.Prescribed);
   this->UnmatchedPoints = static_cast<vtkIdType>(result.Unmatched);
 
@@ -546,7 +547,7 @@ void vtkMorphAlgorithm::Write(vtkUnstructuredGrid* grid, const filters::StepResu
   filters::Output::AddField(output, "PrepareSeconds", this->PrepareSeconds);
   filters::Output::AddField(output, "EvaluateSeconds", this->EvaluateSeconds);
   filters::Output::AddField(output, "SolverIterations", this->SolverIterations);
-  for (const morph::Count& count : kept.Counts)
+  for (const morph::Statistic& count : kept.Statistics)
   {
     filters::Output::AddField(output, count.name.c_str(), static_cast<vtkIdType>(count.value));
   }
@@ -582,7 +583,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, filters::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  if (this->Stepping == RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
+  if (this->Stepping == STEPPING_RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
   {
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
@@ -616,7 +617,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
 
 vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
 {
-  for (const morph::Count& count : this->Internals->Counts)
+  for (const morph::Statistic& count : this->Internals->Statistics)
   {
     if (count.name == name)
     {
@@ -628,7 +629,7 @@ vtkIdType vtkMorphAlgorithm::GetCount(const char* name) const
 
 void vtkMorphAlgorithm::ResetResults()
 {
-  this->Internals->Counts.clear();
+  this->Internals->Statistics.clear();
   // No loop that looks for 0 inverted cells, or for a minimum above 0, passes without a result.
   this->MinScaledJacobian = -1;
   this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
@@ -689,7 +690,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PrepareCount: " << this->PrepareCount << "\n";
   os << indent << "PrescribedPoints: " << this->PrescribedPoints << "\n";
   os << indent << "UnmatchedPoints: " << this->UnmatchedPoints << "\n";
-  for (const morph::Count& count : this->Internals->Counts)
+  for (const morph::Statistic& count : this->Internals->Statistics)
   {
     os << indent << count.name << ": " << count.value << "\n";
   }

@@ -164,8 +164,8 @@ public:
 
   enum SteppingType
   {
-    ABSOLUTE = 0,
-    RELATIVE = 1
+    STEPPING_ABSOLUTE = 0,
+    STEPPING_RELATIVE = 1
   };
 
   ///@{
@@ -177,10 +177,10 @@ public:
    * process only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step alone, 0 where it was kept. No
    * matter without steps. Default Absolute.
    */
-  vtkSetClampMacro(Stepping, int, ABSOLUTE, RELATIVE);
+  vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);
   vtkGetMacro(Stepping, int);
-  void SetSteppingToAbsolute() { this->SetStepping(ABSOLUTE); }
-  void SetSteppingToRelative() { this->SetStepping(RELATIVE); }
+  void SetSteppingToAbsolute() { this->SetStepping(STEPPING_ABSOLUTE); }
+  void SetSteppingToRelative() { this->SetStepping(STEPPING_RELATIVE); }
   ///@}
 
   ///@{
@@ -442,7 +442,7 @@ protected:
   virtual void SetEvaluateOptions(morph::Morpher& vtkNotUsed(morpher)) {}
 
   /**
-   * The number of that name in the method's report of the last execution (morph::Count), 0 where
+   * The number of that name in the method's report of the last execution (morph::Statistic), 0 where
    * there is none. The output holds them as field data too.
    */
   vtkIdType GetCount(const char* name) const;
@@ -496,7 +496,7 @@ private:
   char* DisplacementArray = nullptr;
   double ScaleFactor = 1;
   int NumberOfSteps = 0;
-  int Stepping = ABSOLUTE;
+  int Stepping = STEPPING_ABSOLUTE;
   double StepMemoryLimit = 1000;
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;

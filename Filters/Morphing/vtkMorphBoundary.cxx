@@ -275,7 +275,7 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   morph::SurfaceMorphOptions how;
   how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
   how.neighbors = this->NumberOfNeighbors;
-  how.unattached = static_cast<morph::Unattached>(this->UnattachedMotion);
+  how.unattached = static_cast<morph::UnattachedMotion>(this->UnattachedMotion);
   morph::BoundaryMotion motion =
     morph::beginMotion(mesh, faces, geometry, match.Ids, match.Targets);
   this->GivenPoints = static_cast<vtkIdType>(match.Ids.size());
@@ -304,9 +304,9 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
-  if (this->SurfaceMethod == SMOOTHING)
+  if (this->SurfaceMethod == SURFACE_METHOD_SMOOTHING)
   {
-    morph::improveSurfaces(faces, geometry, place.get(), motion, monitor);
+    morph::smoothSurfaces(faces, geometry, place.get(), motion, monitor);
   }
   monitor.SetRange(0.9, 1);
 

@@ -102,18 +102,24 @@ public:
 
   enum SurfaceMethods
   {
-    WEIGHTED_RESIDUAL = 0,
-    SMOOTHING = 1
+    SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
+    SURFACE_METHOD_SMOOTHING = 1,
+    // The old names, until version 0.2.
+    WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
+    SMOOTHING = SURFACE_METHOD_SMOOTHING
   };
   ///@{
   /**
-   * How surfaces follow. With SMOOTHING faces that come out poor (scaled Jacobian below 0.2, and below half
-   * of that at rest) are improved by nodes that move along the surface. Default WEIGHTED_RESIDUAL.
+   * How surfaces follow. With SURFACE_METHOD_SMOOTHING faces that come out poor (scaled Jacobian below 0.2, and below half
+   * of that at rest) are improved by nodes that move along the surface. Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
-  vtkSetClampMacro(SurfaceMethod, int, WEIGHTED_RESIDUAL, SMOOTHING);
+  vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);
-  void SetSurfaceMethodToWeightedResidual() { this->SetSurfaceMethod(WEIGHTED_RESIDUAL); }
-  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SMOOTHING); }
+  void SetSurfaceMethodToWeightedResidual()
+  {
+    this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
+  }
+  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
   ///@}
 
   ///@{
@@ -127,21 +133,25 @@ public:
 
   enum UnattachedMotions
   {
-    FOLLOW_AFFINELY = 0,
-    FOLLOW_RIGIDLY = 1,
-    STAY = 2
+    UNATTACHED_AFFINELY = 0,
+    UNATTACHED_RIGIDLY = 1,
+    UNATTACHED_STAY = 2,
+    // The old names, until version 0.2.
+    FOLLOW_AFFINELY = UNATTACHED_AFFINELY,
+    FOLLOW_RIGIDLY = UNATTACHED_RIGIDLY,
+    STAY = UNATTACHED_STAY
   };
   ///@{
   /**
    * What closed curves without a vertex, and closed surfaces without a curve, do where nothing is
    * given on them: follow the affine map nearest to the motion around them, or the rigid one, which
-   * keeps a round hole round, or stay. Default FOLLOW_AFFINELY.
+   * keeps a round hole round, or stay. Default UNATTACHED_AFFINELY.
    */
-  vtkSetClampMacro(UnattachedMotion, int, FOLLOW_AFFINELY, STAY);
+  vtkSetClampMacro(UnattachedMotion, int, UNATTACHED_AFFINELY, UNATTACHED_STAY);
   vtkGetMacro(UnattachedMotion, int);
-  void SetUnattachedMotionToFollowAffinely() { this->SetUnattachedMotion(FOLLOW_AFFINELY); }
-  void SetUnattachedMotionToFollowRigidly() { this->SetUnattachedMotion(FOLLOW_RIGIDLY); }
-  void SetUnattachedMotionToStay() { this->SetUnattachedMotion(STAY); }
+  void SetUnattachedMotionToFollowAffinely() { this->SetUnattachedMotion(UNATTACHED_AFFINELY); }
+  void SetUnattachedMotionToFollowRigidly() { this->SetUnattachedMotion(UNATTACHED_RIGIDLY); }
+  void SetUnattachedMotionToStay() { this->SetUnattachedMotion(UNATTACHED_STAY); }
   ///@}
 
   ///@{
@@ -270,9 +280,9 @@ private:
     vtkPolyData* output, morph::filters::Monitor& monitor);
 
   int PrescribedDimension = 1;
-  int SurfaceMethod = WEIGHTED_RESIDUAL;
+  int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
   int NumberOfNeighbors = 20;
-  int UnattachedMotion = FOLLOW_AFFINELY;
+  int UnattachedMotion = UNATTACHED_AFFINELY;
   double FeatureAngle = 25;
   double CornerAngle = 45;
   char* SurfaceIdArray = nullptr;

@@ -115,8 +115,8 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
   filters::Monitor monitor(this, this->NumberOfThreads);
   const morph::Mesh mesh =
     filters::GridMesh::FromGrid(input, filters::GridMesh::UnknownCells::Keep);
-  const morph::Bodies bodies = morph::bodies(mesh);
-  const std::vector<std::int8_t> orientation = morph::orientation(mesh, bodies);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
 
   // A polyhedral mesh with boundary triangles must not be judged by its triangles.
   const DimensionOfType dimension = dimensions(mesh);

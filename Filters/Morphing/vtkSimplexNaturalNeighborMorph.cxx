@@ -19,7 +19,7 @@ std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
 {
   using Kind = morph::SimplexNaturalNeighbor::Coordinates;
   auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
-  morpher->setCoordinates(this->Coordinates == LAPLACE ? Kind::Laplace : Kind::Sibson);
+  morpher->setCoordinates(this->Coordinates == COORDINATES_LAPLACE ? Kind::Laplace : Kind::Sibson);
   morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->MemoryLimit));
   return morpher;
 }

@@ -40,20 +40,23 @@ public:
 
   enum CoordinatesType
   {
-    SIBSON = 0,
-    LAPLACE = 1
+    COORDINATES_SIBSON = 0,
+    COORDINATES_LAPLACE = 1,
+    // The old names, until version 0.2.
+    SIBSON = COORDINATES_SIBSON,
+    LAPLACE = COORDINATES_LAPLACE
   };
 
   ///@{
   /**
    * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
    * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
-   * neighbor's distance; somewhat less smooth. Changing it prepares anew. Default SIBSON.
+   * neighbor's distance; somewhat less smooth. Changing it prepares anew. Default COORDINATES_SIBSON.
    */
-  vtkSetClampMacro(Coordinates, int, SIBSON, LAPLACE);
+  vtkSetClampMacro(Coordinates, int, COORDINATES_SIBSON, COORDINATES_LAPLACE);
   vtkGetMacro(Coordinates, int);
-  void SetCoordinatesToSibson() { this->SetCoordinates(SIBSON); }
-  void SetCoordinatesToLaplace() { this->SetCoordinates(LAPLACE); }
+  void SetCoordinatesToSibson() { this->SetCoordinates(COORDINATES_SIBSON); }
+  void SetCoordinatesToLaplace() { this->SetCoordinates(COORDINATES_LAPLACE); }
   ///@}
 
   ///@{
@@ -88,7 +91,7 @@ private:
   vtkSimplexNaturalNeighborMorph(const vtkSimplexNaturalNeighborMorph&) = delete;
   void operator=(const vtkSimplexNaturalNeighborMorph&) = delete;
 
-  int Coordinates = SIBSON;
+  int Coordinates = COORDINATES_SIBSON;
   double MemoryLimit = 4000;
 };
 

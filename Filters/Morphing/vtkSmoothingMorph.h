@@ -48,8 +48,11 @@ public:
 
   enum TargetShapeType
   {
-    INITIAL = 0,
-    IDEAL = 1
+    TARGET_SHAPE_INITIAL = 0,
+    TARGET_SHAPE_IDEAL = 1,
+    // The old names, until version 0.2.
+    INITIAL = TARGET_SHAPE_INITIAL,
+    IDEAL = TARGET_SHAPE_IDEAL
   };
 
   ///@{
@@ -57,10 +60,10 @@ public:
    * What cells aim for. Initial: their shape at rest. Ideal: regular tetrahedra, cubes, and wedges
    * and pyramids with all edges alike. Default Ideal.
    */
-  vtkSetClampMacro(TargetShape, int, INITIAL, IDEAL);
+  vtkSetClampMacro(TargetShape, int, TARGET_SHAPE_INITIAL, TARGET_SHAPE_IDEAL);
   vtkGetMacro(TargetShape, int);
-  void SetTargetShapeToInitial() { this->SetTargetShape(INITIAL); }
-  void SetTargetShapeToIdeal() { this->SetTargetShape(IDEAL); }
+  void SetTargetShapeToInitial() { this->SetTargetShape(TARGET_SHAPE_INITIAL); }
+  void SetTargetShapeToIdeal() { this->SetTargetShape(TARGET_SHAPE_IDEAL); }
   ///@}
 
   ///@{
@@ -108,7 +111,7 @@ private:
   vtkSmoothingMorph(const vtkSmoothingMorph&) = delete;
   void operator=(const vtkSmoothingMorph&) = delete;
 
-  int TargetShape = IDEAL;
+  int TargetShape = TARGET_SHAPE_IDEAL;
   int IterationLimit = 50;
   double StopMove = 1e-3;
 };

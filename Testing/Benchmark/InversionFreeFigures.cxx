@@ -15,7 +15,7 @@ namespace
 {
 constexpr int AxisZ = 2;
 constexpr double ExactMinimum = 0.80; // of the exact map 0.804
-using Minimizer = morph::FoldoverStages::Minimizer;
+using Minimizer = morph::FoldoverContinuation::Minimizer;
 
 struct Outcome
 {
@@ -61,7 +61,7 @@ void Run::morphOnce(
 
 void Run::addCounts(const Problem& problem, const std::string& name, const Outcome& outcome)
 {
-  for (const morph::Count& count : outcome.report.counts)
+  for (const morph::Statistic& count : outcome.report.statistics)
   {
     this->add(problem, name + ": " + count.name, static_cast<double>(count.value), "");
   }

@@ -14,7 +14,7 @@ IterativeResult solveByJacobiCg(const LinearSystem& system, double tolerance)
   Eigen::MatrixXd x(columns.rows(), columns.cols());
   IterativeResult result;
   const Stopwatch watch;
-  Eigen::ConjugateGradient<morph::SparseMatrix, Eigen::Lower | Eigen::Upper,
+  Eigen::ConjugateGradient<morph::CsrMatrix, Eigen::Lower | Eigen::Upper,
     Eigen::DiagonalPreconditioner<double>>
     gradients(system.matrix);
   gradients.setTolerance(tolerance);

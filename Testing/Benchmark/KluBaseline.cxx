@@ -55,7 +55,7 @@ struct Session
 DirectResult solve(const LinearSystem& system)
 {
   // KLU reads columns: it gets the transpose, and solves with the transpose of that. It does not write to the arrays.
-  const morph::SparseMatrix& matrix = system.matrix;
+  const morph::CsrMatrix& matrix = system.matrix;
   auto* columnStart = const_cast<int*>(matrix.outerIndexPtr());
   auto* row = const_cast<int*>(matrix.innerIndexPtr());
   auto* value = const_cast<double*>(matrix.valuePtr());

@@ -46,7 +46,7 @@ struct Neighborhoods
 };
 
 Neighborhoods neighborhoods(const Problem& problem, const morph::WeightColumns& columns,
-  morph::LogBarrierRow& row, std::size_t first, std::size_t last)
+  morph::NodeWeights& row, std::size_t first, std::size_t last)
 {
   Neighborhoods result;
   for (std::size_t i = first; i < last; ++i)
@@ -81,7 +81,7 @@ void Run::weights(const Problem& problem)
   {
     say(problem.name + ", weights, repetition " + std::to_string(i + 1));
     this->settleDown();
-    morph::LogBarrierRow row(problem.mesh, around, columns);
+    morph::NodeWeights row(problem.mesh, around, columns);
     steps = 0;
     const ThreadStopwatch rowsWatch;
     for (const morph::Index node : free)

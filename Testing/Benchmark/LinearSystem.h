@@ -11,8 +11,8 @@ namespace benchmark
 /// morpher it was made from.
 struct LinearSystem
 {
-  const morph::SparseMatrix& matrix; ///< #free x #free
-  morph::Points rightHandSide;       ///< #free x 3
+  const morph::CsrMatrix& matrix; ///< #free x #free
+  morph::Points rightHandSide;    ///< #free x 3
 };
 
 /// Displacements of the prescribed nodes, #prescribed x 3.

@@ -45,7 +45,7 @@ private:
   double bandwidth() const;
   void addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
     double bandwidth, double paper);
-  void againstSibson(const Problem& problem, const morph::PrescribedSites& sites,
+  void againstSibson(const Problem& problem, const morph::InterpolationSites& sites,
     const CgalBaseline& cgal, const morph::Points& moved, double cold);
 };
 
@@ -74,7 +74,7 @@ void Run::addStreaming(const Problem& problem, const std::string& name, const Me
 }
 
 /// On nodes spread evenly over the free ones.
-void Run::againstSibson(const Problem& problem, const morph::PrescribedSites& sites,
+void Run::againstSibson(const Problem& problem, const morph::InterpolationSites& sites,
   const CgalBaseline& cgal, const morph::Points& moved, double cold)
 {
   say(problem.name + ", CGAL's Sibson coordinates");
@@ -109,7 +109,7 @@ void Run::cube(const Problem& problem)
   MethodTimes linear, natural, residual;
   morph::Points moved, movedByNatural;
   std::vector<double> delaunay, locate;
-  const morph::PrescribedSites sites(problem.mesh.points, problem.partition.prescribed);
+  const morph::InterpolationSites sites(problem.mesh.points, problem.partition.prescribed);
   const std::vector<morph::Index> order =
     morph::spatialOrder(problem.mesh.points, problem.partition.free);
   morph::Points places(static_cast<morph::Index>(order.size()), 3);

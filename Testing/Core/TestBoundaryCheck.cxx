@@ -45,7 +45,7 @@ double room(const HalfSpace& h, const Row& v)
 
 std::vector<std::int8_t> orientationOf(const Mesh& mesh)
 {
-  return orientation(mesh, bodies(mesh));
+  return cellSigns(mesh, connectedComponents(mesh));
 }
 
 /// One hexahedron of 2 x 2 x 2 whose node at the centre of the box alone is free.
@@ -84,9 +84,9 @@ struct Bent
 
 Index countOf(const EvaluateReport& report, const std::string& name)
 {
-  const auto found = std::find_if(report.counts.begin(), report.counts.end(),
-    [&](const Count& count) { return count.name == name; });
-  return found == report.counts.end() ? -1 : found->value;
+  const auto found = std::find_if(report.statistics.begin(), report.statistics.end(),
+    [&](const Statistic& count) { return count.name == name; });
+  return found == report.statistics.end() ? -1 : found->value;
 }
 }
 
@@ -211,7 +211,7 @@ TEST(SubSteps, EndBeforeAFoldWithoutMorphsInVain)
   SubStepLimits limits;
   limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
   const auto make = [] { return std::make_unique<InversionFree>(); };
-  const SubStepResult result = followInSubSteps(
+  const SubStepResult result = morphIncrementally(
     bent.mesh, bent.mesh.points, bent.partition, bent.sides, path, make, limits, monitor);
   EXPECT_TRUE(result.isForbidden);
   EXPECT_LE(result.attempts, 2);
@@ -222,7 +222,7 @@ TEST(SubSteps, EndBeforeAFoldWithoutMorphsInVain)
   EXPECT_TRUE(invertedCells(bent.mesh, result.moved, bent.sides, monitor).empty());
 
   limits.forbidden = nullptr;
-  const SubStepResult blind = followInSubSteps(
+  const SubStepResult blind = morphIncrementally(
     bent.mesh, bent.mesh.points, bent.partition, bent.sides, path,
     [] { return std::make_unique<FemWarp>(); }, limits, monitor);
   EXPECT_LE(blind.reached, result.reached + limits.least);

@@ -52,7 +52,7 @@ struct Case
     }
     this->motion =
       beginMotion(this->mesh, this->faces, this->geometry, ids, meshes::rows(m.points, ids));
-    morphCurves(this->geometry, Unattached::Stay, this->motion, this->monitor);
+    morphCurves(this->geometry, UnattachedMotion::Stay, this->motion, this->monitor);
   }
   void surfaces() { morphSurfaces(this->faces, this->geometry, {}, this->motion, this->monitor); }
 };

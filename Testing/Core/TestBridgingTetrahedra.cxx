@@ -49,7 +49,7 @@ Found search(const Mesh& mesh, const Inside& inside)
 {
   Monitor monitor;
   const std::vector<Index> prescribed = motions::outerPartition(mesh).prescribed;
-  const PrescribedSites sites(mesh.points, prescribed);
+  const InterpolationSites sites(mesh.points, prescribed);
   Delaunay delaunay;
   delaunay.build(sites.coordinates(), monitor);
   std::vector<int> all;
@@ -88,7 +88,7 @@ Index bridgingCount(const Mesh& mesh)
   Points moved;
   const EvaluateReport report =
     method.evaluate(meshes::rows(mesh.points, partition.prescribed), moved, monitor);
-  for (const Count& count : report.counts)
+  for (const Statistic& count : report.statistics)
   {
     if (count.name == "BridgingTetrahedra")
     {

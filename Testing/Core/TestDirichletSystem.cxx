@@ -97,7 +97,7 @@ Points targetsWhere(const Mesh& mesh, const NodePartition& partition,
 /// A symmetric positive definite matrix of two blocks, and right-hand sides.
 struct TwoBlocks
 {
-  SparseMatrix A;
+  CsrMatrix A;
   Points places, b;
   static constexpr int Size = 700; // of a block: more than the multigrid factorises
 
@@ -229,7 +229,7 @@ TEST(InversionFree, AFinsTipMoves)
 TEST(RowComponents, AreTheBlocksOfTheMatrix)
 {
   // 0 and 3 by an entry of row 0 alone, 2 and 4 by one of row 4; 1 by itself.
-  SparseMatrix A(5, 5);
+  CsrMatrix A(5, 5);
   for (int i = 0; i < 5; ++i)
   {
     A.insert(i, i) = 1;
@@ -241,21 +241,21 @@ TEST(RowComponents, AreTheBlocksOfTheMatrix)
   EXPECT_EQ(components.count, 3);
   EXPECT_EQ(components.ofRow, (std::vector<int>{ 0, 1, 2, 0, 2 }));
   EXPECT_EQ(rowComponents(TwoBlocks().A).count, 2);
-  EXPECT_EQ(rowComponents(SparseMatrix(0, 0)).count, 0);
+  EXPECT_EQ(rowComponents(CsrMatrix(0, 0)).count, 0);
 }
 
 template <typename Solver>
 class GuessOf : public testing::Test
 {
 };
-using Solvers = testing::Types<SparseSolver, NonsymmetricSolver>;
+using Solvers = testing::Types<SpdSolver, GeneralSolver>;
 TYPED_TEST_SUITE(GuessOf, Solvers);
 
 TYPED_TEST(GuessOf, TheSolverIsUsedOnlyWhereItIsBetterThanZero)
 {
   TwoBlocks problem;
   constexpr int n = TwoBlocks::Size;
-  const SparseMatrix A = problem.A;
+  const CsrMatrix A = problem.A;
   Monitor monitor;
   TypeParam solver;
   solver.prepare(problem.A, problem.places, monitor);

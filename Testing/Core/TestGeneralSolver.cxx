@@ -22,7 +22,7 @@ namespace
 {
 struct Problem
 {
-  SparseMatrix A;
+  CsrMatrix A;
   Points places, b;
 };
 
@@ -64,7 +64,7 @@ Problem lattice(int n, double wind)
   return problem;
 }
 
-Points byLU(const SparseMatrix& A, const Points& b)
+Points byLU(const CsrMatrix& A, const Points& b)
 {
   const Eigen::SparseMatrix<double> columns = A;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(columns);
@@ -73,19 +73,18 @@ Points byLU(const SparseMatrix& A, const Points& b)
 }
 }
 
-TEST(NonsymmetricSolver, AgreesWithADirectSolve)
+TEST(GeneralSolver, AgreesWithADirectSolve)
 {
   for (double wind : { 0., .3, .9 })
   {
     Problem problem = lattice(11, wind);
-    const SparseMatrix A = problem.A, T = SparseMatrix(A.transpose());
+    const CsrMatrix A = problem.A, T = CsrMatrix(A.transpose());
     meshes::ThreadedMonitor monitor;
-    NonsymmetricSolver solver;
+    GeneralSolver solver;
     solver.prepare(problem.A, problem.places, monitor);
     Points x = Points::Zero(A.rows(), 3), y = x;
-    const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-12, 500, monitor);
-    const NonsymmetricSolver::Report back =
-      solver.solveTransposed(problem.b, y, 1e-12, 500, monitor);
+    const GeneralSolver::Report report = solver.solve(problem.b, x, 1e-12, 500, monitor);
+    const GeneralSolver::Report back = solver.solveTransposed(problem.b, y, 1e-12, 500, monitor);
     EXPECT_LE(report.relativeResidual, 1e-12) << wind;
     EXPECT_LE(back.relativeResidual, 1e-12) << wind;
     EXPECT_EQ(report.fallBackIterations, 0) << wind;
@@ -98,19 +97,19 @@ TEST(NonsymmetricSolver, AgreesWithADirectSolve)
   }
 }
 
-TEST(NonsymmetricSolver, ColumnsStopByThemselves)
+TEST(GeneralSolver, ColumnsStopByThemselves)
 {
   // A zero column, one of pure roundoff beside the others, and one that is solved at the start.
   Problem problem = lattice(9, .3);
-  const SparseMatrix A = problem.A;
+  const CsrMatrix A = problem.A;
   problem.b.col(1) *= 1e-17;
   Points x = Points::Zero(A.rows(), 3);
   x.col(2) = byLU(A, problem.b).col(2);
   const Eigen::VectorXd before = x.col(2);
   meshes::ThreadedMonitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   solver.prepare(problem.A, problem.places, monitor);
-  NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  GeneralSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
   EXPECT_LT(report.iterations, 40);
   EXPECT_LE(report.relativeResidual, 1e-10);
   EXPECT_EQ(x.col(1), Eigen::VectorXd::Zero(A.rows()));
@@ -122,7 +121,7 @@ TEST(NonsymmetricSolver, ColumnsStopByThemselves)
   EXPECT_EQ(x, Points::Zero(A.rows(), 3));
 }
 
-TEST(NonsymmetricSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
+TEST(GeneralSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
 {
   // A pure wind on nodes whose places say nothing: no coarse grid serves it.
   constexpr int n = 4000;
@@ -148,12 +147,12 @@ TEST(NonsymmetricSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
   }
   problem.A.resize(n, n);
   problem.A.setFromTriplets(entries.begin(), entries.end());
-  const SparseMatrix A = problem.A;
+  const CsrMatrix A = problem.A;
   meshes::ThreadedMonitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   solver.prepare(problem.A, problem.places, monitor);
   Points x = Points::Zero(n, 3);
-  const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 2000, monitor);
+  const GeneralSolver::Report report = solver.solve(problem.b, x, 1e-10, 2000, monitor);
   EXPECT_GT(report.fallBackIterations, 0);
   EXPECT_LE(report.relativeResidual, 1e-10);
   ASSERT_EQ(monitor.warnings.size(), 1u);
@@ -162,7 +161,7 @@ TEST(NonsymmetricSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
   EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
 }
 
-TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
+TEST(GeneralSolver, SaysWhereItDoesNotConverge)
 {
   // Round and round: the spectrum is a circle about 1, which no polynomial of low degree makes small.
   constexpr int n = 1000;
@@ -178,12 +177,12 @@ TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
       entries.emplace_back(i, next[i], -0.9999);
     }
   }
-  SparseMatrix A(n, n);
+  CsrMatrix A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
   const Points places = lattice(10, 0).places, b = lattice(10, 0).b;
   Points x = Points::Zero(n, 3);
   Monitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   solver.prepare(A, places, monitor);
   std::string message;
   EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-12, 60, monitor); }, message),
@@ -192,23 +191,23 @@ TEST(NonsymmetricSolver, SaysWhereItDoesNotConverge)
   EXPECT_EQ(x.squaredNorm(), 0); // untouched
 }
 
-TEST(NonsymmetricSolver, HugeRightHandSidesTakeNoFallBack)
+TEST(GeneralSolver, HugeRightHandSidesTakeNoFallBack)
 {
   Problem problem = lattice(9, .3);
   meshes::WatchingMonitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   solver.prepare(problem.A, problem.places, monitor);
   Points x = Points::Zero(problem.b.rows(), 3);
   problem.b *= 1e100;
-  const NonsymmetricSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  const GeneralSolver::Report report = solver.solve(problem.b, x, 1e-10, 500, monitor);
   EXPECT_EQ(report.fallBackIterations, 0);
   EXPECT_LE(report.relativeResidual, 1e-10);
 }
 
-TEST(NonsymmetricSolver, EndsWhereItsNumbersOverflow)
+TEST(GeneralSolver, EndsWhereItsNumbersOverflow)
 {
   // x_0 is about 1e200: its residual is rounding of that size, whose square is infinite.
-  SparseMatrix A(3, 3);
+  CsrMatrix A(3, 3);
   for (int i = 0; i < 3; ++i)
   {
     A.insert(i, i) = 1;
@@ -219,7 +218,7 @@ TEST(NonsymmetricSolver, EndsWhereItsNumbersOverflow)
   const Points places = Points::Identity(3, 3), b = Points::Constant(3, 3, 1. / 3);
   Points x = Points::Zero(3, 3);
   meshes::WatchingMonitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   solver.prepare(A, places, monitor);
   std::string message;
   EXPECT_EQ(motions::kindOf([&] { solver.solve(b, x, 1e-10, 2000, monitor); }, message),
@@ -229,12 +228,12 @@ TEST(NonsymmetricSolver, EndsWhereItsNumbersOverflow)
   EXPECT_EQ(x.squaredNorm(), 0); // untouched
 }
 
-TEST(NonsymmetricSolver, RowsWithoutAPositiveDiagonalAreNamed)
+TEST(GeneralSolver, RowsWithoutAPositiveDiagonalAreNamed)
 {
   Problem problem = lattice(4, 0);
   problem.A.coeffRef(17, 17) = 0;
   Monitor monitor;
-  NonsymmetricSolver solver;
+  GeneralSolver solver;
   try
   {
     solver.prepare(problem.A, problem.places, monitor);
@@ -246,16 +245,16 @@ TEST(NonsymmetricSolver, RowsWithoutAPositiveDiagonalAreNamed)
   }
 }
 
-TEST(NonsymmetricSolver, ThreadsDoNotShow)
+TEST(GeneralSolver, ThreadsDoNotShow)
 {
   Problem problem = lattice(18, .3); // more rows than one block of sums
-  const SparseMatrix A = problem.A;
+  const CsrMatrix A = problem.A;
   Points reference, referenceBack;
   for (int threads : { 1, 2, 5 })
   {
-    SparseMatrix copy = A;
+    CsrMatrix copy = A;
     meshes::ThreadedMonitor monitor(threads);
-    NonsymmetricSolver solver;
+    GeneralSolver solver;
     solver.prepare(copy, problem.places, monitor);
     Points x = Points::Zero(A.rows(), 3), y = x;
     solver.solve(problem.b, x, 1e-10, 500, monitor);
@@ -275,11 +274,11 @@ TEST(Gmres, ConvergesByItself)
   Problem problem = lattice(10, .5);
   Monitor monitor;
   Gmres gmres(problem.A);
-  ThreeColumnRows residual, solution(problem.b.rows(), ThreeColumns::Zero());
-  ThreeColumns norm2 = ThreeColumns::Zero();
+  MultiVector residual, solution(problem.b.rows(), MultiVectorRow::Zero());
+  MultiVectorRow norm2 = MultiVectorRow::Zero();
   for (Index i = 0; i < problem.b.rows(); ++i)
   {
-    residual.push_back(lift(problem.b.row(i)));
+    residual.push_back(toRow(problem.b.row(i)));
     norm2 += residual.back().cwiseAbs2();
   }
   const int made = gmres.run(residual, norm2, 1e-20 * norm2, solution, monitor);
@@ -287,7 +286,7 @@ TEST(Gmres, ConvergesByItself)
   double left = 0;
   for (Index i = 0; i < problem.b.rows(); ++i)
   {
-    left += (residual[i] - rowTimes(problem.A, i, solution)).squaredNorm();
+    left += (residual[i] - rowProduct(problem.A, i, solution)).squaredNorm();
   }
   EXPECT_LT(std::sqrt(left / norm2.sum()), 1.1e-10);
 }
@@ -296,14 +295,14 @@ TEST(Gmres, AsksWhetherToStopWithoutAColumnToSolveFor)
 {
   Problem problem = lattice(4, 0);
   Gmres gmres(problem.A);
-  const ThreeColumnRows residual(problem.b.rows(), ThreeColumns::Zero());
-  ThreeColumnRows solution = residual;
-  const ThreeColumns infinite = ThreeColumns::Constant(std::numeric_limits<double>::infinity());
+  const MultiVector residual(problem.b.rows(), MultiVectorRow::Zero());
+  MultiVector solution = residual;
+  const MultiVectorRow infinite = MultiVectorRow::Constant(std::numeric_limits<double>::infinity());
   meshes::WatchingMonitor monitor;
   monitor.cancelAfter = 0;
   std::string message;
   EXPECT_EQ(
     motions::kindOf(
-      [&] { gmres.run(residual, infinite, ThreeColumns::Zero(), solution, monitor); }, message),
+      [&] { gmres.run(residual, infinite, MultiVectorRow::Zero(), solution, monitor); }, message),
     Error::Kind::Cancelled);
 }

@@ -49,13 +49,13 @@ Points plane(int n)
 }
 }
 
-TEST(PrescribedSites, EachBoundaryNodeOfAMeshIsASite)
+TEST(InterpolationSites, EachBoundaryNodeOfAMeshIsASite)
 {
   Monitor monitor;
   for (const auto& [name, mesh] : meshes::all(4, 3, 5))
   {
     const std::vector<Index> ids = boundaryFaces(mesh, monitor).nodes;
-    const PrescribedSites sites(mesh.points, ids);
+    const InterpolationSites sites(mesh.points, ids);
     ASSERT_EQ(sites.size(), static_cast<Index>(ids.size())) << name;
     std::set<Index> seen;
     for (Index s = 0; s < sites.size(); ++s)
@@ -77,7 +77,7 @@ TEST(PrescribedSites, EachBoundaryNodeOfAMeshIsASite)
   }
 }
 
-TEST(PrescribedSites, NodesAtOnePlaceAreOneSite)
+TEST(InterpolationSites, NodesAtOnePlaceAreOneSite)
 {
   const Points base = plane(20);
   const double size = meshes::size(base);
@@ -88,7 +88,7 @@ TEST(PrescribedSites, NodesAtOnePlaceAreOneSite)
     points.row(3 * i + 1) = base.row(i);                        // exactly
     points.row(3 * i + 2) = base.row(i).array() + 4e-13 * size; // 7e-13 away
   }
-  const PrescribedSites sites(points, allIds(points.rows()));
+  const InterpolationSites sites(points, allIds(points.rows()));
   ASSERT_EQ(sites.size(), base.rows());
   for (Index i = 0; i < points.rows(); ++i)
   {
@@ -99,10 +99,10 @@ TEST(PrescribedSites, NodesAtOnePlaceAreOneSite)
   {
     points.row(3 * i + 2) = base.row(i).array() + 1e-12 * size; // 1.7e-12 away
   }
-  EXPECT_EQ(PrescribedSites(points, allIds(points.rows())).size(), 2 * base.rows());
+  EXPECT_EQ(InterpolationSites(points, allIds(points.rows())).size(), 2 * base.rows());
 }
 
-TEST(PrescribedSites, ChainsOfNearNodesAreOneSite)
+TEST(InterpolationSites, ChainsOfNearNodesAreOneSite)
 {
   Points points(6, 3);
   points.setZero();
@@ -111,13 +111,13 @@ TEST(PrescribedSites, ChainsOfNearNodesAreOneSite)
   {
     points(i, 1) = static_cast<double>(i) * .9e-12;
   }
-  const PrescribedSites sites(points, { 4, 2, 0, 5, 3, 1 });
+  const InterpolationSites sites(points, { 4, 2, 0, 5, 3, 1 });
   ASSERT_EQ(sites.size(), 2);
   EXPECT_EQ(sites.coordinates(), (Points(2, 3) << 0, 0, 0, 1, 0, 0).finished());
   EXPECT_EQ(sites.siteOf(), (std::vector<Index>{ 0, 0, 0, 1, 0, 0 }));
 }
 
-TEST(PrescribedSites, AgreesWithComparingAllPairs)
+TEST(InterpolationSites, AgreesWithComparingAllPairs)
 {
   std::mt19937 random(meshes::seed());
   std::uniform_int_distribution<int> step(0, 4);
@@ -133,7 +133,7 @@ TEST(PrescribedSites, AgreesWithComparingAllPairs)
       points.row(i) = points.row(i % 6);
       points(i, round % 3) += .6 * tolerance * step(random);
     }
-    const PrescribedSites sites(points, allIds(points.rows()));
+    const InterpolationSites sites(points, allIds(points.rows()));
     std::vector<Index> group = allIds(points.rows());
     for (bool changed = true; changed;)
     {
@@ -161,7 +161,7 @@ TEST(PrescribedSites, AgreesWithComparingAllPairs)
   }
 }
 
-TEST(PrescribedSites, NumbersDoNotDependOnTheNodeNumbering)
+TEST(InterpolationSites, NumbersDoNotDependOnTheNodeNumbering)
 {
   std::mt19937 random(meshes::seed());
   Points points = randomPoints(500, random);
@@ -170,7 +170,7 @@ TEST(PrescribedSites, NumbersDoNotDependOnTheNodeNumbering)
     points.row(i) =
       points.row(i - 400).array() + (i % 2 ? 1e-13 : 0.); // duplicates, some not exact
   }
-  const PrescribedSites sites(points, allIds(500));
+  const InterpolationSites sites(points, allIds(500));
   ASSERT_EQ(sites.size(), 400);
   std::vector<Index> order = allIds(500);
   std::shuffle(order.begin(), order.end(), random);
@@ -179,7 +179,7 @@ TEST(PrescribedSites, NumbersDoNotDependOnTheNodeNumbering)
   {
     shuffled.row(order[i]) = points.row(i);
   }
-  const PrescribedSites again(shuffled, allIds(500));
+  const InterpolationSites again(shuffled, allIds(500));
   EXPECT_TRUE(sameBits(sites.coordinates(), again.coordinates()));
   EXPECT_EQ(sites.tolerance(), again.tolerance());
   for (Index i = 0; i < 500; ++i)
@@ -188,30 +188,30 @@ TEST(PrescribedSites, NumbersDoNotDependOnTheNodeNumbering)
   }
 }
 
-TEST(PrescribedSites, PlanarBoundariesAndPilesStayFast)
+TEST(InterpolationSites, PlanarBoundariesAndPilesStayFast)
 {
   // Quadratic work on these would take minutes.
   const Points lattice = plane(300);
-  EXPECT_EQ(PrescribedSites(lattice, allIds(lattice.rows())).size(), 90000);
+  EXPECT_EQ(InterpolationSites(lattice, allIds(lattice.rows())).size(), 90000);
   Points pile = Points::Constant(200000, 3, .1);
   pile(7, 0) = 1;
-  EXPECT_EQ(PrescribedSites(pile, allIds(pile.rows())).size(), 2);
+  EXPECT_EQ(InterpolationSites(pile, allIds(pile.rows())).size(), 2);
 }
 
-TEST(PrescribedSites, ASinglePlaceIsASite)
+TEST(InterpolationSites, ASinglePlaceIsASite)
 {
-  const PrescribedSites one(Points::Constant(3, 3, 5), { 1 });
+  const InterpolationSites one(Points::Constant(3, 3, 5), { 1 });
   EXPECT_EQ(one.size(), 1);
   EXPECT_EQ(one.tolerance(), 0);
-  EXPECT_EQ(PrescribedSites(Points::Constant(3, 3, 5), { 2, 0, 1 }).size(), 1);
+  EXPECT_EQ(InterpolationSites(Points::Constant(3, 3, 5), { 2, 0, 1 }).size(), 1);
   Points signs = Points::Zero(2, 3);
   signs(1, 1) = -0.;
-  const PrescribedSites zero(signs, { 0, 1 });
+  const InterpolationSites zero(signs, { 0, 1 });
   EXPECT_EQ(zero.size(), 1);
   EXPECT_FALSE(std::signbit(zero.coordinates()(0, 1)));
 }
 
-TEST(PrescribedSites, AverageIsTheMeanAndScatterItsAdjoint)
+TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
 {
   std::mt19937 random(meshes::seed());
   Points points = randomPoints(90, random);
@@ -221,7 +221,7 @@ TEST(PrescribedSites, AverageIsTheMeanAndScatterItsAdjoint)
   }
   std::vector<Index> ids = allIds(90);
   std::shuffle(ids.begin(), ids.end(), random);
-  const PrescribedSites sites(points, ids);
+  const InterpolationSites sites(points, ids);
   ASSERT_EQ(sites.size(), 30);
   const Points values = randomPoints(90, random);
   const Points mean = sites.average(values);
@@ -242,18 +242,18 @@ TEST(PrescribedSites, AverageIsTheMeanAndScatterItsAdjoint)
     (scattered.array() - 1).matrix().cwiseProduct(values).sum(), 1e-13);
 
   // A node by itself keeps every bit.
-  const PrescribedSites single(points, { 25, 27 });
+  const InterpolationSites single(points, { 25, 27 });
   const Points pair = randomPoints(2, random);
   Points back = single.average(pair);
   EXPECT_EQ(back.row(single.siteOf()[0]), pair.row(0));
 }
 
-TEST(PrescribedSites, RefusesWhatItCannotUse)
+TEST(InterpolationSites, RefusesWhatItCannotUse)
 {
-  EXPECT_THROW(PrescribedSites(Points::Zero(3, 3), {}), Error);
+  EXPECT_THROW(InterpolationSites(Points::Zero(3, 3), {}), Error);
   Points huge = Points::Zero(2, 3);
   huge(1, 0) = 1e200;
-  EXPECT_THROW(PrescribedSites(huge, { 0, 1 }), Error);
+  EXPECT_THROW(InterpolationSites(huge, { 0, 1 }), Error);
   huge(1, 0) = 1e-200;
-  EXPECT_THROW(PrescribedSites(huge, { 0, 1 }), Error);
+  EXPECT_THROW(InterpolationSites(huge, { 0, 1 }), Error);
 }

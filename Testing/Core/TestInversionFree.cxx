@@ -41,7 +41,7 @@ Morphed run(InversionFree& method, const Mesh& mesh, const Points& target, int t
   result.report = method.evaluate(target, result.moved, monitor);
   // What the method promises: nodes between corners follow, whatever becomes of the curved cells.
   const morph::Quality quality = morph::measureCorners(
-    mesh, result.moved, morph::orientation(mesh, morph::bodies(mesh)), {}, monitor);
+    mesh, result.moved, morph::cellSigns(mesh, morph::connectedComponents(mesh)), {}, monitor);
   result.minimum = quality.minimum;
   result.inverted = quality.inverted;
   result.warnings = monitor.warnings;
@@ -50,7 +50,7 @@ Morphed run(InversionFree& method, const Mesh& mesh, const Points& target, int t
 
 Index count(const morph::EvaluateReport& report, const std::string& name)
 {
-  for (const morph::Count& c : report.counts)
+  for (const morph::Statistic& c : report.statistics)
   {
     if (c.name == name)
     {
@@ -90,11 +90,11 @@ TEST(InversionFree, IdealTargetsChangeAMeshWithoutAnyMotion)
   {
     SCOPED_TRACE(name);
     meshes::ThreadedMonitor monitor;
-    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     const double atRest =
       morph::measureCorners(mesh, mesh.points, orientation, {}, monitor).minimum;
     InversionFree method;
-    method.setTarget(morph::Target::Ideal);
+    method.setTarget(morph::TargetConstruction::Ideal);
     const Morphed result = run(method, mesh, target(mesh, [](const motions::Row& x) { return x; }));
     EXPECT_FALSE(motions::identical(result.moved, mesh.points));
     EXPECT_GT(result.minimum, atRest);
@@ -107,7 +107,7 @@ TEST(InversionFree, AffineMotionsAreExactWithTheInitialTarget)
   {
     SCOPED_TRACE(name);
     InversionFree method;
-    method.setTarget(morph::Target::Initial);
+    method.setTarget(morph::TargetConstruction::Initial);
     method.setTolerance(1e-12);
     const Morphed result = run(method, mesh, target(mesh, motions::affine));
     const Points expected = motions::mapped(mesh.points, motions::affine);
@@ -127,7 +127,7 @@ TEST(InversionFree, EveryKindOfMeshComesOutValidWhereFemWarpDoesNot)
     const Points boundary = target(mesh, waves);
     femWarp.prepare(mesh, motions::outerPartition(mesh), monitor);
     femWarp.evaluate(boundary, warped, monitor);
-    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     helped += morph::invertedCells(mesh, warped, orientation, monitor).empty() ? 0 : 1;
     ASSERT_TRUE(
       morph::boundaryDeterminedInversions(mesh, femWarp.partition(), orientation, warped).empty());
@@ -161,7 +161,7 @@ TEST(InversionFree, AnyFirstGuessLeadsToAValidMesh)
     }
     else if (start == 3)
     {
-      method.setMinimizer(morph::FoldoverStages::Minimizer::LimitedMemoryBfgs);
+      method.setMinimizer(morph::FoldoverContinuation::Minimizer::LimitedMemoryBfgs);
     }
     const Morphed result = run(method, mesh, boundary);
     EXPECT_EQ(result.inverted, 0);
@@ -192,7 +192,7 @@ TEST(InversionFree, MinimumIsNotBelowFemWarpsAndSimplexLinears)
     SCOPED_TRACE(name);
     const Points boundary = target(mesh, map);
     meshes::ThreadedMonitor monitor;
-    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     const auto minimumOf = [&, &mesh = mesh](morph::Morpher& linear)
     {
       Points moved;
@@ -220,7 +220,7 @@ TEST(InversionFree, TangledRestMeshesAreUntangled)
     Mesh tangled = mesh;
     meshes::jitterInterior(tangled, 0.9, meshes::seed());
     meshes::ThreadedMonitor monitor;
-    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     const auto inverted = [&](const Points& points)
     { return morph::measureCorners(mesh, points, orientation, {}, monitor).inverted; };
     ASSERT_GT(inverted(tangled.points), 0);
@@ -272,7 +272,7 @@ TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
     const Morphed result = run(method, mesh, boundary);
     EXPECT_EQ(count(result.report, "Untangled"), 0);
     EXPECT_GT(result.inverted, 0);
-    const auto orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     meshes::ThreadedMonitor monitor;
     const morph::Quality quality =
       morph::measureQuality(mesh, result.moved, orientation, {}, monitor);
@@ -319,7 +319,7 @@ TEST(InversionFree, RelativeRunsKeepTheirReference)
   there.points = run(out, mesh, target(mesh, waves)).moved;
   InversionFree back;
   back.setReference(mesh.points);
-  back.setTarget(morph::Target::Initial);
+  back.setTarget(morph::TargetConstruction::Initial);
   const Morphed result = run(back, there, target(mesh, [](const motions::Row& x) { return x; }));
   EXPECT_LT(motions::difference(result.moved, mesh.points), 1e-3);
 }
@@ -405,7 +405,7 @@ TEST(SubSteps, RestMeshesWithInvertedCellsAreRefused)
   EXPECT_EQ(motions::kindOf(
               [&]
               {
-                morph::followInSubSteps(
+                morph::morphIncrementally(
                   mesh, mesh.points, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
                   morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
                   [] { return std::make_unique<morph::FemWarp>(); }, {}, monitor);

@@ -170,7 +170,8 @@ TEST(KnownMotion, CurvesCostWhatTheBoundaryDoesHoweverManyThereAre)
     Case c(plateWithHoles(n));
     ASSERT_GE(c.geometry.curves.size(), 12u * n * n);
     Monitor monitor;
-    const Index summed = morphCurves(c.geometry, Unattached::FollowAffinely, c.motion, monitor);
+    const Index summed =
+      morphCurves(c.geometry, UnattachedMotion::FollowAffinely, c.motion, monitor);
     perNode.push_back(static_cast<double>(summed) / static_cast<double>(c.faces.nodes.size()));
   }
   // Sets made for each curve would take four times as much for each node at every step.

@@ -301,8 +301,8 @@ TEST_P(LinearMorphers, MidNodesFarOutsideTheirCellFollowAffineMotions)
 {
   Mesh mesh = meshes::quadraticHexes(2, 2, 2, false);
   const NodePartition partition = outerPartition(mesh);
-  ASSERT_FALSE(partition.followers.empty());
-  for (Index node : partition.followers)
+  ASSERT_FALSE(partition.higherOrderNodes.empty());
+  for (Index node : partition.higherOrderNodes)
   {
     mesh.points.row(node) += motions::Row(1.7, -2.3, 1.1);
   }
@@ -316,8 +316,8 @@ TEST_P(LinearMorphers, CurvedEdgesKeepTheirPlaceInTheCell)
   // A mid-side node off the chord of its edge moves with the linear cell around it, not with the chord's ends alone.
   Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
   const NodePartition partition = outerPartition(mesh);
-  ASSERT_FALSE(partition.followers.empty());
-  const Index node = partition.followers[4];
+  ASSERT_FALSE(partition.higherOrderNodes.empty());
+  const Index node = partition.higherOrderNodes[4];
   mesh.points.row(node) += motions::Row(.05, -.04, .06);
   const Points result = morphed(mesh, partition, targets(mesh, partition, affine));
   EXPECT_LT((result.row(node) - affine(mesh.points.row(node))).norm(), 1e-10);
@@ -339,7 +339,7 @@ TEST_P(LinearMorphers, WithoutAFreeNodeTheTargetsAreTheResult)
       motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-14 * 10);
     EXPECT_TRUE(motions::identical(meshes::rows(moved, partition.prescribed),
       motions::targets(mesh, partition, motions::affine)));
-    if (partition.followers.empty())
+    if (partition.higherOrderNodes.empty())
     {
       Points gradient = Points::Random(mesh.numberOfNodes(), 3), prescribed;
       method->applyTranspose(gradient, prescribed, monitor);

@@ -47,7 +47,7 @@ double missed(const LogBarrierWarp& method, const Mesh& mesh)
 
 Index count(const EvaluateReport& report, const std::string& name)
 {
-  for (const Count& c : report.counts)
+  for (const Statistic& c : report.statistics)
   {
     if (c.name == name)
     {
@@ -86,7 +86,7 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
     LogBarrierWarp method;
     method.prepare(mesh, partition, monitor);
     EXPECT_LT(missed(method, mesh), 1e-12) << name;
-    const SparseMatrix& A = method.solver().matrix();
+    const CsrMatrix& A = method.solver().matrix();
     const Eigen::VectorXd sums =
       A * Eigen::VectorXd::Ones(A.cols()) +
       method.coupling() * Eigen::VectorXd::Ones(method.coupling().cols());
@@ -94,7 +94,7 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
     // An M-matrix: a unit diagonal and nothing positive beside it.
     for (int i = 0; i < A.rows(); ++i)
     {
-      for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry)
+      for (CsrMatrix::InnerIterator entry(A, i); entry; ++entry)
       {
         EXPECT_TRUE(entry.col() == i ? entry.value() == 1 : entry.value() < 0) << name;
       }
@@ -124,11 +124,11 @@ TEST(LogBarrierWarp, NeighborsAreAllThatShareAVolumeCell)
     for (int i = 0; i < static_cast<int>(method.rows().size()); ++i)
     {
       std::set<Index>& mine = found[method.rows()[i]];
-      for (SparseMatrix::InnerIterator entry(method.solver().matrix(), i); entry; ++entry)
+      for (CsrMatrix::InnerIterator entry(method.solver().matrix(), i); entry; ++entry)
       {
         mine.insert(method.rows()[entry.col()]);
       }
-      for (SparseMatrix::InnerIterator entry(method.coupling(), i); entry; ++entry)
+      for (CsrMatrix::InnerIterator entry(method.coupling(), i); entry; ++entry)
       {
         mine.insert(partition.prescribed[entry.col()]);
       }

@@ -21,14 +21,15 @@ using morph::Points;
 
 struct Setting
 {
-  Setting(const Mesh& mesh, morph::Target target, double epsilon, int threads = 1)
+  Setting(const Mesh& mesh, morph::TargetConstruction target, double epsilon, int threads = 1)
     : monitor(threads)
     , partition(motions::outerPartition(mesh))
     , energy(mesh, this->partition.free)
   {
-    const std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+    const std::vector<std::int8_t> orientation =
+      morph::cellSigns(mesh, morph::connectedComponents(mesh));
     this->energy.setTargets(
-      morph::targetShapes(mesh, orientation, mesh.points, target, this->monitor));
+      morph::targetMatrices(mesh, orientation, mesh.points, target, this->monitor));
     morph::FoldoverDensity density;
     density.epsilon = epsilon;
     this->energy.setDensity(density);
@@ -65,11 +66,11 @@ TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
     for (double amount : { 0.2, 1. })
     {
       SCOPED_TRACE(name + ", moved by " + std::to_string(amount));
-      Setting setting(mesh, morph::Target::Initial, amount < 0.5 ? 1e-10 : 0.5);
+      Setting setting(mesh, morph::TargetConstruction::Initial, amount < 0.5 ? 1e-10 : 0.5);
       const Points x = displaced(mesh, amount);
       Points gradient, plus, minus;
       setting.energy.gradient(x, gradient, setting.monitor);
-      morph::BlockMatrix matrix;
+      morph::BlockCsr3f matrix;
       setting.energy.hessian(x, matrix, setting.monitor);
       const double h = 1e-6;
       for (Index i = 0; i < gradient.rows(); ++i)
@@ -103,8 +104,8 @@ TEST(MeshEnergy, HessianIsExactAtTheTarget)
   for (const auto& [name, mesh] : small())
   {
     SCOPED_TRACE(name);
-    Setting setting(mesh, morph::Target::Initial, 1e-10);
-    morph::BlockMatrix matrix;
+    Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
+    morph::BlockCsr3f matrix;
     setting.energy.hessian(mesh.points, matrix, setting.monitor);
     Points direction(matrix.rows(), 3), plus, minus, product;
     std::mt19937 random(meshes::seed());
@@ -132,11 +133,11 @@ TEST(MeshEnergy, AMatrixTellsEnergiesOfOneAddressApart)
   // Two energies after each other in the same place, with one matrix for both.
   const Mesh first = meshes::hexes(3, 3, 3), second = meshes::tets(4, 3, 3);
   std::optional<Setting> setting;
-  morph::BlockMatrix shared, fresh;
-  setting.emplace(first, morph::Target::Initial, 1e-10);
+  morph::BlockCsr3f shared, fresh;
+  setting.emplace(first, morph::TargetConstruction::Initial, 1e-10);
   setting->energy.hessian(first.points, shared, setting->monitor);
   const morph::Index rows = shared.rows();
-  setting.emplace(second, morph::Target::Initial, 1e-10);
+  setting.emplace(second, morph::TargetConstruction::Initial, 1e-10);
   setting->energy.hessian(second.points, shared, setting->monitor);
   setting->energy.hessian(second.points, fresh, setting->monitor);
   ASSERT_NE(fresh.rows(), rows);
@@ -158,7 +159,7 @@ TEST(MeshEnergy, AffineImagesOfTheTargetAreStationary)
   for (const auto& [name, mesh] : small())
   {
     SCOPED_TRACE(name);
-    Setting setting(mesh, morph::Target::Initial, 1e-10);
+    Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
     const Points x = motions::mapped(mesh.points, motions::affine);
     Points gradient;
     setting.energy.gradient(x, gradient, setting.monitor);
@@ -171,7 +172,8 @@ TEST(MeshEnergy, AffineImagesOfTheTargetAreStationary)
 TEST(MeshEnergy, ThreadsDoNotShow)
 {
   const Mesh mesh = meshes::hexesAndPyramids(7, 7, 7);
-  Setting one(mesh, morph::Target::Stretched, 0.5), three(mesh, morph::Target::Stretched, 0.5, 3);
+  Setting one(mesh, morph::TargetConstruction::Stretched, 0.5),
+    three(mesh, morph::TargetConstruction::Stretched, 0.5, 3);
   const Points x = displaced(mesh, 0.8);
   EXPECT_EQ(
     one.energy.evaluate(x, one.monitor).energy, three.energy.evaluate(x, three.monitor).energy);
@@ -179,7 +181,7 @@ TEST(MeshEnergy, ThreadsDoNotShow)
   one.energy.gradient(x, a, one.monitor);
   three.energy.gradient(x, b, three.monitor);
   EXPECT_TRUE(motions::identical(a, b));
-  morph::BlockMatrix first, second;
+  morph::BlockCsr3f first, second;
   one.energy.hessian(x, first, one.monitor);
   three.energy.hessian(x, second, three.monitor);
   Points p, q;
@@ -190,14 +192,14 @@ TEST(MeshEnergy, ThreadsDoNotShow)
 TEST(Minimizers, BothFindTheSameMinimum)
 {
   const Mesh mesh = meshes::hexes(5, 5, 5);
-  Setting setting(mesh, morph::Target::Initial, 1e-10);
+  Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
   const Points start = displaced(mesh, 0.25);
   morph::MinimizerLimits limits;
   limits.steps = 1000;
   limits.decrease = 1e-14;
   limits.slowDecrease = 0;
   morph::MinimizerEffort ofNewton, ofBfgs;
-  morph::BlockMatrix matrix;
+  morph::BlockCsr3f matrix;
   Points x = start, y = start;
   const double before = setting.energy.evaluate(start, setting.monitor).energy;
   const auto newton = morph::newton(setting.energy, x, limits, matrix, ofNewton, setting.monitor);
@@ -218,12 +220,12 @@ TEST(Minimizers, BothFindTheSameMinimum)
 TEST(Minimizers, CancelAndLimits)
 {
   const Mesh mesh = meshes::hexes(5, 5, 5);
-  Setting setting(mesh, morph::Target::Initial, 1e-10);
+  Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
   Points x = displaced(mesh, 0.25);
   morph::MinimizerLimits limits;
   limits.steps = 2;
   morph::MinimizerEffort effort;
-  morph::BlockMatrix matrix;
+  morph::BlockCsr3f matrix;
   morph::newton(setting.energy, x, limits, matrix, effort, setting.monitor);
   EXPECT_EQ(effort.steps, 2);
   setting.monitor.cancelAt = 0.5;
@@ -253,7 +255,7 @@ struct NeverFalls : morph::SecondOrderObjective
   {
     result = Points::Constant(4, 3, this->slope);
   }
-  void hessian(const Points&, morph::BlockMatrix& matrix, morph::Monitor&) const override
+  void hessian(const Points&, morph::BlockCsr3f& matrix, morph::Monitor&) const override
   {
     morph::BlockPattern pattern;
     for (Index row = 0; row < 4; ++row)
@@ -292,7 +294,7 @@ TEST(Minimizers, EndAndLeaveThePointsWhereNumbersAreNone)
         const Points start = Points::Random(4, 3);
         meshes::WatchingMonitor monitor;
         monitor.mostLoops = 300; // a system of 100 iterations, between two questions
-        morph::BlockMatrix matrix;
+        morph::BlockCsr3f matrix;
         morph::MinimizerEffort effort;
         Points points = start;
         morph::newton(objective, points, {}, matrix, effort, monitor);

@@ -134,18 +134,18 @@ TEST(Progress, OfSubStepsRises)
   const Mesh mesh = meshes::hexes(4, 4, 4);
   const NodePartition partition = motions::outerPartition(mesh);
   Recorder monitor;
-  followInSubSteps(
-    mesh, mesh.points, partition, orientation(mesh, bodies(mesh)),
+  morphIncrementally(
+    mesh, mesh.points, partition, cellSigns(mesh, connectedComponents(mesh)),
     straightPath(mesh.points, partition, motions::targets(mesh, partition, impossible)),
     [] { return std::make_unique<FemWarp>(); }, {}, monitor);
   EXPECT_TRUE(std::is_sorted(monitor.told.begin(), monitor.told.end()));
   EXPECT_LE(monitor.told.back(), 1);
 }
 
-TEST(SubMonitor, NeverRunsBackwardsAndStaysInItsPart)
+TEST(ProgressRange, NeverRunsBackwardsAndStaysInItsPart)
 {
   Recorder recorder;
-  morph::SubMonitor part(recorder, 0.5, 0.75);
+  morph::ProgressRange part(recorder, 0.5, 0.75);
   for (double fraction : { 0.2, 0.1, 0.4, -3., 7., 0.5 })
   {
     part.progress(fraction);

@@ -15,16 +15,16 @@
 namespace
 {
 using morph::Index;
-using morph::LaneCount;
-using morph::Lanes;
+using morph::SimdDouble4;
+using morph::SimdWidth;
 using namespace morph::foldover;
 
 constexpr int Blocks = 6;
 
 struct Case
 {
-  double J[9][LaneCount], g[9][LaneCount], epsilon, stiffness;
-  double hessian[Blocks][9][LaneCount], phi[LaneCount];
+  double J[9][SimdWidth], g[9][SimdWidth], epsilon, stiffness;
+  double hessian[Blocks][9][SimdWidth], phi[SimdWidth];
 };
 
 /// Jacobians of all kinds, every other one inverted, one of no rank.
@@ -40,7 +40,7 @@ std::vector<Case> cases()
     c.stiffness = n % 3 == 0 ? 0.01 : 0;
     for (int i = 0; i < 9; ++i)
     {
-      for (int lane = 0; lane < LaneCount; ++lane)
+      for (int lane = 0; lane < SimdWidth; ++lane)
       {
         c.J[i][lane] = (i % 4 == 0) + number(random);
         c.g[i][lane] = (i % 4 == 0) + 0.3 * number(random);
@@ -52,7 +52,7 @@ std::vector<Case> cases()
 }
 
 template <typename T>
-MORPH_LANES_INLINE void evaluate(const Parameters<T>& parameters, const Matrix3<T>& J,
+MORPH_SIMD_INLINE void evaluate(const Parameters<T>& parameters, const Matrix3<T>& J,
   const Matrix3<T>& g, T& phi, Matrix3<T> (&block)[3][3])
 {
   Vector3<T> normal;
@@ -66,22 +66,22 @@ MORPH_LANES_INLINE void evaluate(const Parameters<T>& parameters, const Matrix3<
 
 struct EvaluateCase
 {
-  static MORPH_LANES_INLINE void run(Index n, std::vector<Case>& all)
+  static MORPH_SIMD_INLINE void run(Index n, std::vector<Case>& all)
   {
     Case& c = all[n];
-    Matrix3<Lanes> J, g, block[3][3];
+    Matrix3<SimdDouble4> J, g, block[3][3];
     for (int i = 0; i < 9; ++i)
     {
       J[i / 3][i % 3] = morph::load(c.J[i]);
       g[i / 3][i % 3] = morph::load(c.g[i]);
     }
-    Parameters<Lanes> parameters;
-    parameters.theta = Lanes{} + 0.1;
-    parameters.stiffness = Lanes{} + c.stiffness;
+    Parameters<SimdDouble4> parameters;
+    parameters.theta = SimdDouble4{} + 0.1;
+    parameters.stiffness = SimdDouble4{} + c.stiffness;
     parameters.epsilon = c.epsilon;
-    Lanes phi;
+    SimdDouble4 phi;
     evaluate(parameters, J, g, phi, block);
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
       c.phi[lane] = phi[lane];
       for (int a = 0, k = 0; a < 3; ++a)
@@ -100,11 +100,11 @@ struct EvaluateCase
 
 struct CubeRoot
 {
-  static MORPH_LANES_INLINE void run(Index i, std::vector<double>& x)
+  static MORPH_SIMD_INLINE void run(Index i, std::vector<double>& x)
   {
-    const Lanes value = { x[i], x[i] * 1.37, x[i] * 2.9, x[i] * 5.1 };
-    const Lanes root = morph::inverseCubeRoot(value);
-    for (int lane = 0; lane < LaneCount; ++lane)
+    const SimdDouble4 value = { x[i], x[i] * 1.37, x[i] * 2.9, x[i] * 5.1 };
+    const SimdDouble4 root = morph::inverseCubeRoot(value);
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
       EXPECT_NEAR(root[lane] * std::cbrt(value[lane]), 1, 2e-15) << value[lane];
     }
@@ -112,23 +112,23 @@ struct CubeRoot
 };
 }
 
-TEST(Lanes, InverseCubeRoot)
+TEST(SimdDouble4, InverseCubeRoot)
 {
   std::vector<double> x;
   for (double value = 1e-300; value < 1e300; value *= 3.7)
   {
     x.push_back(value);
   }
-  morph::vectorLoop<CubeRoot>(0, static_cast<Index>(x.size()), x);
+  morph::dispatchedFor<CubeRoot>(0, static_cast<Index>(x.size()), x);
 }
 
-TEST(Lanes, TheDensityIsThatOfSingleNumbers)
+TEST(SimdDouble4, TheDensityIsThatOfSingleNumbers)
 {
   std::vector<Case> all = cases();
-  morph::vectorLoop<EvaluateCase>(0, static_cast<Index>(all.size()), all);
+  morph::dispatchedFor<EvaluateCase>(0, static_cast<Index>(all.size()), all);
   for (const Case& c : all)
   {
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
       Matrix3<double> J, g, block[3][3];
       for (int i = 0; i < 9; ++i)
@@ -158,7 +158,7 @@ TEST(Lanes, TheDensityIsThatOfSingleNumbers)
 }
 
 #if defined(__x86_64__)
-TEST(Lanes, TheProcessorDoesNotShow)
+TEST(SimdDouble4, TheProcessorDoesNotShow)
 {
   if (!__builtin_cpu_supports("avx2"))
   {
@@ -172,7 +172,7 @@ TEST(Lanes, TheProcessorDoesNotShow)
 }
 #endif
 
-TEST(CellGroups, EachFreeCornerHasOnePlace)
+TEST(CellBatches, EachFreeCornerHasOnePlace)
 {
   for (const auto& [name, mesh] : meshes::all(3, 3, 3))
   {
@@ -191,22 +191,22 @@ TEST(CellGroups, EachFreeCornerHasOnePlace)
         ++expected[row[node]];
       }
     }
-    const morph::CellGroups groups(mesh, free);
-    for (Index place = 0; place < groups.places(); ++place)
+    const morph::CellBatches batches(mesh, free);
+    for (Index place = 0; place < batches.places(); ++place)
     {
-      const Index first = groups.firstPlace(groups.groupOf(place));
+      const Index first = batches.firstPlace(batches.batchOf(place));
       EXPECT_GE(place, first);
-      EXPECT_LT(place, first + LaneCount * groups.corners(groups.groupOf(place)));
-      if (groups.row(place) >= 0)
+      EXPECT_LT(place, first + SimdWidth * batches.corners(batches.batchOf(place)));
+      if (batches.row(place) >= 0)
       {
-        ++found[groups.row(place)];
+        ++found[batches.row(place)];
       }
     }
     EXPECT_EQ(found, expected);
   }
 }
 
-TEST(CellGroups, HoldEachCellWithAFreeNodeOnceOfThoseAskedFor)
+TEST(CellBatches, HoldEachCellWithAFreeNodeOnceOfThoseAskedFor)
 {
   for (const auto& [name, mesh] : motions::jittered())
   {
@@ -223,18 +223,18 @@ TEST(CellGroups, HoldEachCellWithAFreeNodeOnceOfThoseAskedFor)
         expected.push_back(c);
       }
     }
-    const morph::CellGroups groups(mesh, free, some);
+    const morph::CellBatches batches(mesh, free, some);
     std::vector<Index> found;
-    for (Index group = 0; group < groups.size(); ++group)
+    for (Index batch = 0; batch < batches.size(); ++batch)
     {
-      for (int lane = 0; lane < groups.cells(group); ++lane)
+      for (int lane = 0; lane < batches.cells(batch); ++lane)
       {
-        const Index c = groups.cell(group, lane);
+        const Index c = batches.cell(batch, lane);
         found.push_back(c);
-        EXPECT_EQ(groups.shape(group), morph::cellShape(mesh.types[c])->shape);
-        for (int a = 0; a < groups.corners(group); ++a)
+        EXPECT_EQ(batches.shape(batch), morph::cellShape(mesh.types[c])->shape);
+        for (int a = 0; a < batches.corners(batch); ++a)
         {
-          EXPECT_EQ(groups.nodes(group)[a * LaneCount + lane],
+          EXPECT_EQ(batches.nodes(batch)[a * SimdWidth + lane],
             mesh.cell(c)[morph::cellShape(mesh.types[c])->cornerNode[a]]);
         }
       }

@@ -31,7 +31,7 @@ motions::Map twistOf(double size, double angle)
 
 Index count(const EvaluateReport& report, const std::string& name)
 {
-  for (const Count& c : report.counts)
+  for (const Statistic& c : report.statistics)
   {
     if (c.name == name)
     {

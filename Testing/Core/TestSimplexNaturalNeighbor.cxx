@@ -39,9 +39,9 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 
 Index count(const EvaluateReport& report, const std::string& name)
 {
-  const auto found = std::find_if(
-    report.counts.begin(), report.counts.end(), [&](const Count& c) { return c.name == name; });
-  return found == report.counts.end() ? -1 : found->value;
+  const auto found = std::find_if(report.statistics.begin(), report.statistics.end(),
+    [&](const Statistic& c) { return c.name == name; });
+  return found == report.statistics.end() ? -1 : found->value;
 }
 }
 

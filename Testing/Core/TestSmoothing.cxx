@@ -26,7 +26,7 @@ namespace
 {
 std::vector<std::int8_t> orientationOf(const Mesh& mesh)
 {
-  return orientation(mesh, bodies(mesh));
+  return cellSigns(mesh, connectedComponents(mesh));
 }
 
 /// By the corners, which are what is smoothed.
@@ -56,7 +56,7 @@ Points morphed(
   return result;
 }
 
-SmoothingOptions toTarget(Target target)
+SmoothingOptions toTarget(TargetConstruction target)
 {
   SmoothingOptions options;
   options.target = target;
@@ -77,7 +77,7 @@ Points scrambled(const Mesh& mesh, double amount)
 }
 
 /// The mean inverse mean ratio.
-double measure(const Mesh& mesh, const Points& points, Target target)
+double measure(const Mesh& mesh, const Points& points, TargetConstruction target)
 {
   Monitor monitor;
   MeshEnergy energy(mesh, outerPartition(mesh).free);
@@ -96,7 +96,8 @@ TEST(UntangleEnergy, GradientIsTheSlope)
 {
   for (const auto& [name, mesh] : jittered())
   {
-    for (const Target target : { Target::Ideal, Target::Initial })
+    for (const TargetConstruction target :
+      { TargetConstruction::Ideal, TargetConstruction::Initial })
     {
       Monitor monitor;
       const std::vector<Index> free = outerPartition(mesh).free;
@@ -129,7 +130,8 @@ TEST(UntangleEnergy, IsKnuppsMeasureAndZeroWhereNothingIsTangled)
   Monitor monitor;
   const Mesh mesh = hexes(4, 4, 4);
   const std::vector<Index> free = outerPartition(mesh).free;
-  const TargetShapes targets = smoothingTargets(mesh, orientationOf(mesh), Target::Ideal, monitor);
+  const TargetMatrices targets =
+    smoothingTargets(mesh, orientationOf(mesh), TargetConstruction::Ideal, monitor);
   EXPECT_EQ(UntangleEnergy(mesh, free, targets, .9).value(mesh.points, monitor).energy, 0);
   // Every corner of the unit cubes lacks a tenth.
   EXPECT_NEAR(
@@ -150,7 +152,8 @@ TEST(SmoothMesh, ValidStaysValidAndGetsBetter)
 {
   for (const auto& [name, mesh] : jittered())
   {
-    for (const Target target : { Target::Ideal, Target::Initial })
+    for (const TargetConstruction target :
+      { TargetConstruction::Ideal, TargetConstruction::Initial })
     {
       Points points = scrambled(mesh, .05);
       const Points start = points;
@@ -250,7 +253,8 @@ TEST(Smoothing, PrescribedNodesAreExactAndGentleMotionsStayValid)
   {
     const NodePartition partition = outerPartition(mesh);
     const Points target = targets(mesh, partition, gentle);
-    for (const Target shape : { Target::Ideal, Target::Initial })
+    for (const TargetConstruction shape :
+      { TargetConstruction::Ideal, TargetConstruction::Initial })
     {
       const Points result = morphed(mesh, target, toTarget(shape));
       EXPECT_TRUE(identical(rows(result, partition.prescribed), target)) << name;
@@ -264,14 +268,16 @@ TEST(Smoothing, NoMotionIsTheIdentityForTheInitialShapesOnly)
   for (const auto& [name, mesh] : jittered())
   {
     const Points target = rows(mesh.points, outerPartition(mesh).prescribed);
-    EXPECT_TRUE(identical(morphed(mesh, target, toTarget(Target::Initial)), mesh.points)) << name;
+    EXPECT_TRUE(
+      identical(morphed(mesh, target, toTarget(TargetConstruction::Initial)), mesh.points))
+      << name;
     EXPECT_GT(difference(morphed(mesh, target), mesh.points), 1e-3) << name;
   }
 }
 
 TEST(Smoothing, AffineMotionsComeOutForTheInitialShapes)
 {
-  SmoothingOptions options = toTarget(Target::Initial);
+  SmoothingOptions options = toTarget(TargetConstruction::Initial);
   for (const auto& [name, mesh] : jittered())
   {
     const auto map = [](const Row& x) -> Row { return x + .4 * (affine(x) - x); };
@@ -293,11 +299,12 @@ TEST(Smoothing, RigidMotionsKeepTheMinimum)
           .toRotationMatrix();
       const auto move = [&](const Row& x) -> Row { return x * turn + Row(4, 0, 1) * degrees; };
       const Points target = targets(mesh, outerPartition(mesh), move);
-      for (const Target shape : { Target::Ideal, Target::Initial })
+      for (const TargetConstruction shape :
+        { TargetConstruction::Ideal, TargetConstruction::Initial })
       {
         const Points result = morphed(mesh, target, toTarget(shape));
         EXPECT_GE(qualityOf(mesh, result).minimum, minimum - 1e-12) << name << ' ' << degrees;
-        if (shape == Target::Initial)
+        if (shape == TargetConstruction::Initial)
         {
           EXPECT_LT(difference(result, mapped(mesh.points, move)), 1e-9 * (1 + degrees)) << name;
         }
@@ -327,7 +334,7 @@ TEST(Smoothing, ABodyHeldByAPlaneOrALineTurnsWithIt)
   {
     const NodePartition partition = held(planes);
     Smoothing method;
-    method.setOptions(toTarget(Target::Initial));
+    method.setOptions(toTarget(TargetConstruction::Initial));
     ThreadedMonitor monitor;
     method.prepare(mesh, partition, monitor);
     Points result;
@@ -356,7 +363,7 @@ TEST(Smoothing, EveryBodyFollowsItsOwnBoundary)
   const auto move = [](const Row& x) -> Row
   { return x[0] < 5 ? x : Row(30 - x[0], 3 - x[1], x[2]); };
   const Points result =
-    morphed(two, targets(two, outerPartition(two), move), toTarget(Target::Initial));
+    morphed(two, targets(two, outerPartition(two), move), toTarget(TargetConstruction::Initial));
   EXPECT_LT(difference(result, mapped(two.points, move)), 1e-9);
 }
 
@@ -384,8 +391,8 @@ TEST(Smoothing, ABoundaryAtRestNeverLosesTheMinimum)
     const EvaluateReport report =
       method.evaluate(rows(layer.points, partition.prescribed), result, monitor);
     EXPECT_GE(minimumOf(result), minimum) << name;
-    EXPECT_EQ(report.counts[5].name, "NodesTakenBack");
-    taken += report.counts[5].value > 0 ? 1 : 0;
+    EXPECT_EQ(report.statistics[5].name, "NodesTakenBack");
+    taken += report.statistics[5].value > 0 ? 1 : 0;
   }
   EXPECT_GT(taken, 0);
 }
@@ -455,8 +462,8 @@ TEST(Smoothing, ABoundaryThatInvertsCellsIsNamed)
   ASSERT_FALSE(monitor.warnings.empty());
   EXPECT_NE(monitor.warnings.front().find("cell ids 0."), std::string::npos)
     << monitor.warnings.front();
-  EXPECT_EQ(report.counts.back().name, "BoundaryDeterminedCells");
-  EXPECT_EQ(report.counts.back().value, 1);
+  EXPECT_EQ(report.statistics.back().name, "BoundaryDeterminedCells");
+  EXPECT_EQ(report.statistics.back().value, 1);
 }
 
 TEST(Smoothing, WhatCannotBeUntangledComesWithAWarning)

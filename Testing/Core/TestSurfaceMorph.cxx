@@ -21,7 +21,7 @@ namespace
 using Map = std::function<Row(const Row&)>;
 using Method = SurfaceMorphOptions::Method;
 
-constexpr Method Methods[] = { Method::WeightedResidual, Method::Smoothing };
+constexpr Method Methods[] = { Method::WeightedResidual, Method::HarmonicExtension };
 
 struct Case
 {
@@ -199,7 +199,7 @@ TEST(SurfaceMorph, CurvedCurvesFollowAffineMotions)
   const Map map = randomAffine(meshes::seed());
   BoundaryMotion motion = c.begin(c.upTo(0), map);
   Monitor monitor;
-  morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+  morphCurves(c.geometry, UnattachedMotion::FollowAffinely, motion, monitor);
   const Points moved = motion.moved();
   for (Index node : c.upTo(1))
   {
@@ -216,14 +216,14 @@ TEST(SurfaceMorph, GivenNodesAreExactAndTheOthersBlend)
   BoundaryMotion motion = c.begin(one, [&](const Row&) { return to; });
   EXPECT_EQ(motion.count(BoundaryMotion::Held), 7);
   Monitor monitor;
-  morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+  morphCurves(c.geometry, UnattachedMotion::FollowAffinely, motion, monitor);
   for (Index i = 0; i <= 4; ++i)
   {
     EXPECT_LE((motion.displacement.row(i) - (1 - i / 4.) * to).norm(), 1e-15);
   }
   // A node given on a curve splits it.
   BoundaryMotion split = c.begin({ 2 }, [](const Row& x) { return Row(x + Row(0, 1, 0)); });
-  morphCurves(c.geometry, Unattached::FollowAffinely, split, monitor);
+  morphCurves(c.geometry, UnattachedMotion::FollowAffinely, split, monitor);
   const double expected[] = { 0, 0.5, 1, 0.5, 0 };
   for (Index i = 0; i <= 4; ++i)
   {
@@ -242,7 +242,7 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
 {
   const Case hole(shapes::boxWithHole(32, 4, 3));
   const Map stretch = [](const Row& x) { return Row(2 * x[0], x[1], x[2] + 1); };
-  const auto radii = [&](Unattached how)
+  const auto radii = [&](UnattachedMotion how)
   {
     SurfaceMorphOptions options;
     options.unattached = how;
@@ -265,13 +265,13 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
         }
       }
     }
-    EXPECT_NEAR(lowest, how == Unattached::Stay ? 0 : 1, 1e-12);
+    EXPECT_NEAR(lowest, how == UnattachedMotion::Stay ? 0 : 1, 1e-12);
     return range;
   };
-  EXPECT_NEAR(radii(Unattached::FollowAffinely).second, 2, 1e-12);
-  EXPECT_NEAR(radii(Unattached::FollowRigidly).first, 1, 1e-12);
-  EXPECT_NEAR(radii(Unattached::FollowRigidly).second, 1, 1e-12);
-  EXPECT_NEAR(radii(Unattached::Stay).second, 1, 1e-12);
+  EXPECT_NEAR(radii(UnattachedMotion::FollowAffinely).second, 2, 1e-12);
+  EXPECT_NEAR(radii(UnattachedMotion::FollowRigidly).first, 1, 1e-12);
+  EXPECT_NEAR(radii(UnattachedMotion::FollowRigidly).second, 1, 1e-12);
+  EXPECT_NEAR(radii(UnattachedMotion::Stay).second, 1, 1e-12);
 
   // A cavity: the outer surface is given and turns.
   const Case ball(shapes::hollowBall(8));
@@ -286,8 +286,8 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
       outer.push_back(node);
     }
   }
-  for (const Unattached how :
-    { Unattached::FollowAffinely, Unattached::FollowRigidly, Unattached::Stay })
+  for (const UnattachedMotion how :
+    { UnattachedMotion::FollowAffinely, UnattachedMotion::FollowRigidly, UnattachedMotion::Stay })
   {
     SurfaceMorphOptions options;
     options.unattached = how;
@@ -296,7 +296,7 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
     EXPECT_EQ(report.unattached.size(), 1u);
     for (Index node : ball.faces.nodes)
     {
-      const bool stays = how == Unattached::Stay && ball.mesh.points.row(node).norm() < 0.9;
+      const bool stays = how == UnattachedMotion::Stay && ball.mesh.points.row(node).norm() < 0.9;
       const Row expected =
         stays ? Row(ball.mesh.points.row(node)) : turn(ball.mesh.points.row(node));
       EXPECT_LE((moved.row(node) - expected).norm(), 1e-12);
@@ -319,7 +319,8 @@ TEST(SurfaceMorph, BodiesDoNotPullEachOther)
       outer.push_back(node);
     }
   }
-  for (const Unattached how : { Unattached::FollowAffinely, Unattached::FollowRigidly })
+  for (const UnattachedMotion how :
+    { UnattachedMotion::FollowAffinely, UnattachedMotion::FollowRigidly })
   {
     SurfaceMorphOptions options;
     options.unattached = how;
@@ -392,7 +393,7 @@ TEST(SurfaceMorph, SmoothingStaysWithinTheResiduals)
   // One vertex of a box is pulled: u is affine, and what is left of the vertices' motion bounds what is left inside.
   const Case c(meshes::hexes(5, 5, 5));
   SurfaceMorphOptions options;
-  options.method = Method::Smoothing;
+  options.method = Method::HarmonicExtension;
   const Points moved = c.morph(
     { 0 }, [](const Row& x) { return Row(x - Row(1, 1, 1)); }, options);
   for (Index node : c.faces.nodes)
@@ -446,7 +447,7 @@ TEST(SurfaceMorph, Cancels)
   meshes::ThreadedMonitor monitor;
   monitor.cancelAt = 0.5;
   BoundaryMotion motion = c.begin(c.upTo(0), twist);
-  EXPECT_THROW(morphCurves(c.geometry, Unattached::Stay, motion, monitor), Error);
+  EXPECT_THROW(morphCurves(c.geometry, UnattachedMotion::Stay, motion, monitor), Error);
 }
 
 TEST(SurfaceLoops, OuterRimAndHole)
@@ -548,7 +549,7 @@ TEST(SurfaceMorph, KeptWeightsAreUsedAgainAndDoNotShow)
     { return Row(x[0] + amount * x[2] * x[2], x[1] * (1 + amount * x[0]), x[2]); };
     Monitor monitor;
     BoundaryMotion motion = c.begin(ids, map);
-    morphCurves(c.geometry, Unattached::FollowAffinely, motion, monitor);
+    morphCurves(c.geometry, UnattachedMotion::FollowAffinely, motion, monitor);
     morphSurfaces(c.faces, c.geometry, {}, motion, monitor, &kept);
     const Points moved = motion.moved();
     EXPECT_EQ(moved, c.morph(ids, map));

@@ -104,7 +104,7 @@ public:
 };
 }
 
-TEST(SurfaceImprovement, GoodSurfacesStayBitForBit)
+TEST(SurfaceSmoothing, GoodSurfacesStayBitForBit)
 {
   for (const auto& [name, mesh] : meshes::all(3, 3, 3))
   {
@@ -112,15 +112,14 @@ TEST(SurfaceImprovement, GoodSurfacesStayBitForBit)
     Case c(mesh);
     BoundaryMotion motion = c.moved([](const Row& x) { return Row(1.1 * x + Row(1, 2, 3)); });
     const Points before = motion.displacement;
-    const SurfaceImprovement report =
-      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     EXPECT_EQ(report.poor, 0);
     EXPECT_TRUE(report.moved.empty());
     EXPECT_EQ(motion.displacement, before);
   }
 }
 
-TEST(SurfaceImprovement, AffineImagesStay)
+TEST(SurfaceSmoothing, AffineImagesStay)
 {
   for (const Mesh& mesh : { meshes::hexes(6, 6, 2), meshes::tets(6, 6, 2) })
   {
@@ -128,15 +127,14 @@ TEST(SurfaceImprovement, AffineImagesStay)
     // Sheared until the angles are poor.
     BoundaryMotion motion = c.moved([](const Row& x) { return Row(x[0] + 8 * x[1], x[1], x[2]); });
     const Points before = motion.displacement;
-    const SurfaceImprovement report =
-      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     EXPECT_GT(report.poor, 0);
     EXPECT_TRUE(report.moved.empty());
     EXPECT_EQ(motion.displacement, before);
   }
 }
 
-TEST(SurfaceImprovement, FoldsOpenInThePlane)
+TEST(SurfaceSmoothing, FoldsOpenInThePlane)
 {
   for (const Mesh& mesh :
     { meshes::hexes(8, 8, 2), meshes::tets(8, 8, 2), meshes::quadraticHexes(8, 8, 2, true) })
@@ -147,8 +145,7 @@ TEST(SurfaceImprovement, FoldsOpenInThePlane)
     motion.displacement.row(node) += Row(1.6, 0.3, 0);
     const Points before = motion.displacement;
     ASSERT_FALSE(c.quality(motion).folded.empty());
-    const SurfaceImprovement report =
-      improveSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     EXPECT_GT(report.poor, 0);
     const FaceQuality after = c.quality(motion);
     EXPECT_TRUE(after.folded.empty());
@@ -171,7 +168,7 @@ TEST(SurfaceImprovement, FoldsOpenInThePlane)
   }
 }
 
-TEST(SurfaceImprovement, KeepsToTheTarget)
+TEST(SurfaceSmoothing, KeepsToTheTarget)
 {
   Case c(shapes::cylinder(10, 6));
   BoundaryMotion motion = c.moved(same);
@@ -192,8 +189,8 @@ TEST(SurfaceImprovement, KeepsToTheTarget)
                                       x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2]) -
                                     x;
   ASSERT_FALSE(c.quality(motion).folded.empty());
-  const SurfaceImprovement report =
-    improveSurfaces(c.faces, c.geometry, std::make_unique<Cylinder>().get(), motion, c.monitor);
+  const SurfaceSmoothing report =
+    smoothSurfaces(c.faces, c.geometry, std::make_unique<Cylinder>().get(), motion, c.monitor);
   EXPECT_TRUE(c.quality(motion).folded.empty());
   const Points moved = motion.moved();
   for (Index node : report.moved)

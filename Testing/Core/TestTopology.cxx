@@ -164,7 +164,7 @@ TEST(Topology, BodiesUnusedPointsAndLowerDimensions)
   meshes::add(mesh, Quad, { 0, 1, 4, 3 }); // a surface cell on the first body
   meshes::add(mesh, Vertex, { 28 });       // an unused point with a vertex cell
 
-  const Bodies parts = bodies(mesh);
+  const ConnectedComponents parts = connectedComponents(mesh);
   EXPECT_EQ(parts.count, 2);
   EXPECT_EQ(parts.ofCell[0], 0);
   EXPECT_EQ(parts.ofCell[8], 1);
@@ -179,7 +179,7 @@ TEST(Topology, BodiesUnusedPointsAndLowerDimensions)
 
   const NodePartition partition = partitionNodes(mesh, faces.nodes);
   EXPECT_EQ(partition.free, (std::vector<Index>{ 13 }));
-  EXPECT_TRUE(partition.followers.empty());
+  EXPECT_TRUE(partition.higherOrderNodes.empty());
 }
 
 TEST(Topology, FacesSharedByMoreThanTwoCellsAreNotBoundary)
@@ -195,17 +195,17 @@ TEST(Topology, FacesSharedByMoreThanTwoCellsAreNotBoundary)
 TEST(Topology, OrientationFollowsTheBody)
 {
   Mesh mesh = meshes::wedges(2, 2, 2);
-  EXPECT_EQ(orientation(mesh, bodies(mesh)), std::vector<std::int8_t>(16, 1));
+  EXPECT_EQ(cellSigns(mesh, connectedComponents(mesh)), std::vector<std::int8_t>(16, 1));
   // One inverted cell stays the exception; a mirrored body does not.
   std::swap(mesh.connectivity[0], mesh.connectivity[1]);
   std::swap(mesh.connectivity[3], mesh.connectivity[4]);
-  EXPECT_EQ(orientation(mesh, bodies(mesh)), std::vector<std::int8_t>(16, 1));
+  EXPECT_EQ(cellSigns(mesh, connectedComponents(mesh)), std::vector<std::int8_t>(16, 1));
   mesh.points.col(0) *= -1;
-  EXPECT_EQ(orientation(mesh, bodies(mesh)), std::vector<std::int8_t>(16, -1));
+  EXPECT_EQ(cellSigns(mesh, connectedComponents(mesh)), std::vector<std::int8_t>(16, -1));
 
   Mesh single = meshes::hexes(1, 1, 1);
   single.points.col(0) *= -1;
-  EXPECT_EQ(orientation(single, bodies(single)), std::vector<std::int8_t>(1, 1));
+  EXPECT_EQ(cellSigns(single, connectedComponents(single)), std::vector<std::int8_t>(1, 1));
 }
 
 TEST(Mesh, ValidateNamesWhatIsWrong)
@@ -257,7 +257,7 @@ TEST(NodePartition, QuadraticCellsSplitIntoFreeAndFollowers)
   const Mesh mesh = meshes::quadraticHexes(3, 3, 3, true);
   Monitor monitor;
   const NodePartition partition = partitionNodes(mesh, boundaryFaces(mesh, monitor).nodes);
-  EXPECT_EQ(partition.prescribed.size(), 218u); // 7^3 - 5^3
-  EXPECT_EQ(partition.free.size(), 8u);         // inner lattice points
-  EXPECT_EQ(partition.followers.size(), 117u);  // 5^3 - 8
+  EXPECT_EQ(partition.prescribed.size(), 218u);       // 7^3 - 5^3
+  EXPECT_EQ(partition.free.size(), 8u);               // inner lattice points
+  EXPECT_EQ(partition.higherOrderNodes.size(), 117u); // 5^3 - 8
 }

@@ -11,10 +11,10 @@
 
 namespace
 {
-using morph::CornerAngles;
 using morph::Index;
 using morph::Mesh;
 using morph::Points;
+using morph::WorstCornerNorm;
 
 std::vector<Index> volumeCells(const Mesh& mesh)
 {
@@ -31,18 +31,18 @@ std::vector<Index> volumeCells(const Mesh& mesh)
 
 std::vector<std::int8_t> orientationOf(const Mesh& mesh)
 {
-  return morph::orientation(mesh, morph::bodies(mesh));
+  return morph::cellSigns(mesh, morph::connectedComponents(mesh));
 }
 }
 
-TEST(CornerAngles, GradientIsThatOfFiniteDifferences)
+TEST(WorstCornerNorm, GradientIsThatOfFiniteDifferences)
 {
   meshes::ThreadedMonitor monitor;
   for (auto& [name, mesh] : motions::jittered())
   {
     SCOPED_TRACE(name);
     const std::vector<Index> free = motions::outerPartition(mesh).free;
-    const CornerAngles angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7);
+    const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7);
     Points gradient;
     angles.gradient(mesh.points, gradient, monitor);
     ASSERT_TRUE(angles.value(mesh.points, monitor).allowed);
@@ -62,12 +62,12 @@ TEST(CornerAngles, GradientIsThatOfFiniteDifferences)
   }
 }
 
-TEST(CornerAngles, OneWhereAllCornersAreTheLeastAndInfiniteWhereOneIsInverted)
+TEST(WorstCornerNorm, OneWhereAllCornersAreTheLeastAndInfiniteWhereOneIsInverted)
 {
   meshes::ThreadedMonitor monitor;
   Mesh mesh = meshes::hexes(3, 3, 3);
   const std::vector<Index> free = motions::outerPartition(mesh).free;
-  const CornerAngles angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 1);
+  const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 1);
   EXPECT_NEAR(angles.value(mesh.points, monitor).energy, 1, 1e-14);
   mesh.points.row(free[0]) += Eigen::RowVector3d(1.5, 0, 0);
   const morph::Objective::Value value = angles.value(mesh.points, monitor);
@@ -91,14 +91,14 @@ TEST(RaiseWorstCells, RaisesTheLeastAndKeepsTheRest)
     const double before = least(mesh.points);
     ASSERT_GT(before, 0);
     Points points = mesh.points, again = points;
-    EXPECT_GT(morph::raiseWorstCells(mesh, orientation, partition.free, points, one), 0);
+    EXPECT_GT(morph::raiseMinimumQuality(mesh, orientation, partition.free, points, one), 0);
     EXPECT_GT(least(points), 1.2 * before);
     EXPECT_GT(least(points), 0.8 * least(rest.points));
     for (Index node : partition.prescribed)
     {
       EXPECT_EQ(points.row(node), mesh.points.row(node));
     }
-    morph::raiseWorstCells(mesh, orientation, partition.free, again, three);
+    morph::raiseMinimumQuality(mesh, orientation, partition.free, again, three);
     EXPECT_EQ(points, again);
   }
 }
@@ -121,12 +121,12 @@ TEST(RaiseWorstCells, GoesUpToTheWorstCellThatTheBoundaryDeterminesAndNoFurther)
   ASSERT_GT(before.minimum, 0);
   ASSERT_LT(before.minimum, 0.9 * flat.minimum);
   Points points = mesh.points;
-  EXPECT_GT(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_GT(morph::raiseMinimumQuality(mesh, orientation, partition.free, points, monitor), 0);
   const morph::Quality after = morph::measureQuality(mesh, points, orientation, {}, monitor);
   EXPECT_EQ(after.minimum, flat.minimum);
   EXPECT_EQ(after.worstCell, flat.worstCell);
   const Points done = points;
-  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(morph::raiseMinimumQuality(mesh, orientation, partition.free, points, monitor), 0);
   EXPECT_EQ(points, done);
 }
 
@@ -137,10 +137,10 @@ TEST(RaiseWorstCells, LeavesTangledAndPerfectMeshesBitForBit)
   const std::vector<std::int8_t> orientation = orientationOf(mesh);
   meshes::ThreadedMonitor monitor;
   Points points = mesh.points;
-  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(morph::raiseMinimumQuality(mesh, orientation, partition.free, points, monitor), 0);
   EXPECT_EQ(points, mesh.points);
   points.row(partition.free[0]) += Eigen::RowVector3d(1.5, 0, 0);
   const Points tangled = points;
-  EXPECT_EQ(morph::raiseWorstCells(mesh, orientation, partition.free, points, monitor), 0);
+  EXPECT_EQ(morph::raiseMinimumQuality(mesh, orientation, partition.free, points, monitor), 0);
   EXPECT_EQ(points, tangled);
 }

@@ -409,7 +409,7 @@ TEST(BoundaryDisplacement, HeldPatchesStayButForSharedNodes)
         followed += x.row(i) != rest.row(i);
       }
     }
-    EXPECT_EQ(followed > 0, surroundings != vtkBoundaryDisplacement::STAY);
+    EXPECT_EQ(followed > 0, surroundings != vtkBoundaryDisplacement::SURROUNDINGS_STAY);
     EXPECT_GE(filter->GetHeldPoints(), 20);
   }
 }
@@ -454,7 +454,8 @@ TEST(BoundaryDisplacement, MidSideNodesKeepTheirPlaceBetweenCorners)
     }
   }
   ASSERT_EQ(corners.size(), 9u);
-  for (const int surroundings : { vtkBoundaryDisplacement::STAY, vtkBoundaryDisplacement::FADE })
+  for (const int surroundings :
+    { vtkBoundaryDisplacement::SURROUNDINGS_STAY, vtkBoundaryDisplacement::SURROUNDINGS_FADE })
   {
     auto filter = movesUp(grid);
     filter->SetMovingToSelection();

@@ -78,7 +78,7 @@ TEST(BoundaryDisplacementCaching, DraggingRepeatsNothing)
     const Counts first(filter);
     EXPECT_EQ(first.classify, 1);
     EXPECT_EQ(first.choose, 1);
-    EXPECT_EQ(first.prepare > 0, surroundings != vtkBoundaryDisplacement::STAY);
+    EXPECT_EQ(first.prepare > 0, surroundings != vtkBoundaryDisplacement::SURROUNDINGS_STAY);
     for (int step = 0; step < 4; ++step)
     {
       transform->RotateWXYZ(5, 0.1 * step, 1, 0);

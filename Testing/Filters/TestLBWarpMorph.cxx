@@ -53,7 +53,7 @@ TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
 {
   auto grid = withNodeOutside();
   auto filter = morph1(grid, grids::boundary(grid, grids::affine));
-  EXPECT_EQ(filter->GetOutsideHull(), vtkLBWarpMorph::ERROR_OUTSIDE_HULL);
+  EXPECT_EQ(filter->GetOutsideHull(), vtkLBWarpMorph::OUTSIDE_HULL_ERROR);
   {
     grids::Listener listener(filter);
     filter->Update();

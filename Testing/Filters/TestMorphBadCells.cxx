@@ -135,7 +135,8 @@ TEST_F(MorphBadCells, GoWithTheResult)
 
 TEST_F(MorphBadCells, AreThoseOfTheTimeThatTheirPortIsAskedFor)
 {
-  for (const int stepping : { vtkMorphAlgorithm::ABSOLUTE, vtkMorphAlgorithm::RELATIVE })
+  for (const int stepping :
+    { vtkMorphAlgorithm::STEPPING_ABSOLUTE, vtkMorphAlgorithm::STEPPING_RELATIVE })
   {
     SCOPED_TRACE(stepping);
     this->Filter->SetNumberOfSteps(2);

@@ -45,10 +45,10 @@ TEST(SimplexNaturalNeighborMorph, CoordinatesDiffer)
 TEST(SimplexNaturalNeighborMorph, IntegersAreClamped)
 {
   vtkNew<vtkSimplexNaturalNeighborMorph> filter;
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::SIBSON);
+  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_SIBSON);
   filter->SetCoordinates(7);
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::LAPLACE);
+  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_LAPLACE);
   filter->SetCoordinatesToSibson();
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::SIBSON);
+  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_SIBSON);
   EXPECT_EQ(filter->GetMemoryLimit(), 4000);
 }

@@ -94,7 +94,7 @@ TEST(SmoothingMorph, NoMotionSmoothsTheIdealAndKeepsTheInitialShapes)
 {
   auto grid = jittered(4);
   auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, same));
-  EXPECT_EQ(filter->GetTargetShape(), vtkSmoothingMorph::IDEAL);
+  EXPECT_EQ(filter->GetTargetShape(), vtkSmoothingMorph::TARGET_SHAPE_IDEAL);
   filter->Update();
   // Back to the lattice
   EXPECT_LT(farthest(grids::points(filter->GetOutput()), meshes::hexes(4, 4, 4).points), 1e-3);
@@ -217,7 +217,8 @@ TEST(PostSmooth, MidSideNodesFollow)
     const morph::Index* cell = mesh.cell(c);
     for (int e = 0; e < 6; ++e)
     {
-      if (std::binary_search(partition.followers.begin(), partition.followers.end(), cell[4 + e]))
+      if (std::binary_search(
+            partition.higherOrderNodes.begin(), partition.higherOrderNodes.end(), cell[4 + e]))
       {
         const Eigen::RowVector3d middle =
           (moved.row(cell[Edges[e][0]]) + moved.row(cell[Edges[e][1]])) / 2;

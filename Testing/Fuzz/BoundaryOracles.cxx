@@ -96,7 +96,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning.
   const bool isAffine = made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
                         made.choices.value("property.FeatureAngle") < 60 &&
-                        filter->GetUnattachedMotion() == vtkMorphBoundary::FOLLOW_AFFINELY &&
+                        filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_AFFINELY &&
                         made.choices.value("hostile.mesh") == 0 &&
                         isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
   for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)

@@ -550,7 +550,7 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor)
 {
   Classification result = classify(ConstPoints(mesh.points), faces, options, monitor);
-  const Bodies parts = bodies(mesh);
+  const ConnectedComponents parts = connectedComponents(mesh);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     for (Index k = 0; parts.ofCell[c] >= 0 && k < mesh.cellSize(c); ++k)

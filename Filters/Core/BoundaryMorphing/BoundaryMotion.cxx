@@ -98,7 +98,7 @@ void validate(Index numberOfNodes, const BoundaryFaces& faces, const std::vector
 BoundaryMotion beginMotion(const Mesh& rest, const BoundaryFaces& faces,
   const Classification& geometry, const std::vector<Index>& ids, const ConstPoints& targets)
 {
-  return beginMotion(rest.points, bodies(rest).ofNode, faces, geometry, ids, targets);
+  return beginMotion(rest.points, connectedComponents(rest).ofNode, faces, geometry, ids, targets);
 }
 
 BoundaryMotion beginMotion(const ConstPoints& rest, const std::vector<Index>& bodyOfNode,

@@ -11,7 +11,7 @@
 namespace morph
 {
 /// What moves a closed curve without a vertex, or a closed surface without a curve, on which nothing is given.
-enum class Unattached : std::uint8_t
+enum class UnattachedMotion : std::uint8_t
 {
   FollowAffinely, ///< the affine map nearest to the motion around it
   FollowRigidly,  ///< the rotation and shift nearest to it: keeps its shape

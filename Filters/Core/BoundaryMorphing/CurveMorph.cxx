@@ -72,8 +72,8 @@ std::vector<Anchor> findAnchors(const GeometryCurve& curve, const BoundaryMotion
 }
 }
 
-Index morphCurves(
-  const Classification& geometry, Unattached unattached, BoundaryMotion& motion, Monitor& monitor)
+Index morphCurves(const Classification& geometry, UnattachedMotion unattached,
+  BoundaryMotion& motion, Monitor& monitor)
 {
   const BoundaryMotion before = motion;
   KnownMotion known(geometry, before);
@@ -96,7 +96,7 @@ Index morphCurves(
     const std::vector<Anchor> anchors = findAnchors(curve, before);
     if (anchors.empty())
     {
-      follow(around, unknown, unattached, motion);
+      extrapolate(around, unknown, unattached, motion);
     }
     else
     {

@@ -25,6 +25,6 @@ namespace morph
 /// Returns how many known nodes the fits summed up: it grows linearly with the boundary, however
 /// many curves there are, as does the rest of the cost. The sums of a surface, body or of all are
 /// made once; see KnownMotion.
-Index morphCurves(
-  const Classification& geometry, Unattached unattached, BoundaryMotion& motion, Monitor& monitor);
+Index morphCurves(const Classification& geometry, UnattachedMotion unattached,
+  BoundaryMotion& motion, Monitor& monitor);
 }

@@ -52,7 +52,7 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
     throw Error("No node moves, so there is nothing that could fade.");
   }
   this->places_ = places.rows();
-  this->sites_ = PrescribedSites(moving, all(moving.rows()));
+  this->sites_ = InterpolationSites(moving, all(moving.rows()));
   this->reached_.clear();
   this->factor_.clear();
   const std::vector<double> distance2 =

@@ -33,7 +33,7 @@ public:
 
 private:
   Index places_ = 0;
-  PrescribedSites sites_;
+  InterpolationSites sites_;
   std::vector<Index> reached_;
   std::vector<double> factor_; ///< #reached, f
   WeightMatrix weights_;       ///< #reached x #sites

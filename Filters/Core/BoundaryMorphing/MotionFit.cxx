@@ -50,7 +50,7 @@ void MotionSums::add(const MotionSums& other)
   this->count_ += other.count_;
 }
 
-Flat::Flat(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread)
+AffineSpan::AffineSpan(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread)
   : centre_(centre)
   , normal_(Eigen::Matrix3d::Identity())
 {
@@ -64,7 +64,7 @@ Flat::Flat(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread)
   }
 }
 
-double Flat::distance(const Eigen::RowVector3d& x) const
+double AffineSpan::distance(const Eigen::RowVector3d& x) const
 {
   return ((x - this->centre_) * this->normal_).norm();
 }
@@ -113,8 +113,8 @@ AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids)
   return MotionSums(motion, ids).affineFit();
 }
 
-void follow(
-  const MotionSums& sums, const std::vector<Index>& nodes, Unattached how, BoundaryMotion& motion)
+void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, UnattachedMotion how,
+  BoundaryMotion& motion)
 {
   const auto set = [&](const auto& fit)
   {
@@ -123,14 +123,14 @@ void follow(
       motion.displacement.row(node) = fit.displacement(Eigen::RowVector3d(motion.rest.row(node)));
     }
   };
-  if (sums.empty() || how == Unattached::Stay)
+  if (sums.empty() || how == UnattachedMotion::Stay)
   {
     for (Index node : nodes)
     {
       motion.displacement.row(node).setZero();
     }
   }
-  else if (how == Unattached::FollowAffinely)
+  else if (how == UnattachedMotion::FollowAffinely)
   {
     set(sums.affineFit());
   }

@@ -10,11 +10,11 @@ namespace morph
 {
 /// The points that lie in the flat through some nodes: their common point, line, plane or all
 /// space.
-class Flat
+class AffineSpan
 {
 public:
   /// `centre`: the nodes' mean position; `spread`: their second moments about it.
-  Flat(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread);
+  AffineSpan(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread);
   /// How far `x` is from it.
   double distance(const Eigen::RowVector3d& x) const;
 
@@ -34,7 +34,7 @@ public:
   void add(const MotionSums& other);
 
   bool empty() const { return this->count_ == 0; }
-  Flat flat() const { return Flat(this->centre_, this->spread_); }
+  AffineSpan flat() const { return AffineSpan(this->centre_, this->spread_); }
 
   /// The affine displacement field nearest to the nodes' displacements. It is zero where those are.
   AffineFit affineFit() const;
@@ -67,6 +67,6 @@ AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids)
 
 /// Gives `nodes` the displacement by which `how` makes them follow the nodes of `sums`; zero where
 /// that is empty.
-void follow(
-  const MotionSums& sums, const std::vector<Index>& nodes, Unattached how, BoundaryMotion& motion);
+void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, UnattachedMotion how,
+  BoundaryMotion& motion);
 }

@@ -141,9 +141,9 @@ private:
     }
     if (largestResidual > 1e-13 * largestMotion) // else it is rounding
     {
-      SparseMatrix matrix(n, n);
+      CsrMatrix matrix(n, n);
       matrix.setFromTriplets(entries.begin(), entries.end());
-      SparseSolver solver;
+      SpdSolver solver;
       solver.prepare(matrix, place, monitor);
       solver.solve(b, x, 1e-12, 2000, monitor);
     }
@@ -160,7 +160,7 @@ private:
 };
 }
 
-void smoothSurface(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
+void extendHarmonically(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
   const std::vector<Index>& fixed, const std::vector<Index>& free, BoundaryMotion& motion,
   Monitor& monitor)
 {

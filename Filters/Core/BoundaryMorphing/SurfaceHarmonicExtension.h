@@ -15,7 +15,7 @@ namespace morph
 /// face node has the mean r of the corners it lies between.
 ///
 /// `faceIds`: the surface's faces; `fixed`, `free`: its nodes, ascending. Cost: one sparse solve per surface.
-void smoothSurface(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
+void extendHarmonically(const BoundaryFaces& faces, const std::vector<Index>& faceIds,
   const std::vector<Index>& fixed, const std::vector<Index>& free, BoundaryMotion& motion,
   Monitor& monitor);
 }

@@ -109,14 +109,14 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
     if (fixed.empty())
     {
       const Index body = motion.bodyOfNode[faces.connectivity[faces.offsets[surface.faces[0]]]];
-      follow(known->around(body, free), free, options.unattached, motion);
+      extrapolate(known->around(body, free), free, options.unattached, motion);
       report.unattached.push_back(static_cast<Index>(s));
     }
     else if (moves && !free.empty())
     {
-      if (options.method == SurfaceMorphOptions::Method::Smoothing)
+      if (options.method == SurfaceMorphOptions::Method::HarmonicExtension)
       {
-        smoothSurface(faces, surface.faces, fixed, free, motion, monitor);
+        extendHarmonically(faces, surface.faces, fixed, free, motion, monitor);
       }
       else
       {

@@ -15,11 +15,11 @@ struct SurfaceMorphOptions
   enum class Method : std::uint8_t
   {
     WeightedResidual, ///< the paper's choice: SurfaceResidual.h
-    Smoothing         ///< SurfaceHarmonicExtension.h
+    HarmonicExtension ///< SurfaceHarmonicExtension.h
   };
   Method method = Method::WeightedResidual;
   Index neighbors = 20; ///< of the weighted residual, at least 1
-  Unattached unattached = Unattached::FollowAffinely;
+  UnattachedMotion unattached = UnattachedMotion::FollowAffinely;
 };
 
 struct SurfaceMorphReport

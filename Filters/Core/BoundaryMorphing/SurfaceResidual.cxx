@@ -141,7 +141,7 @@ void SurfaceResidual::prepare(
   this->loops_ = loops;
   std::vector<Index> rows(prescribed.rows());
   std::iota(rows.begin(), rows.end(), Index(0));
-  this->sites_ = PrescribedSites(prescribed, rows);
+  this->sites_ = InterpolationSites(prescribed, rows);
   this->fit_ = AffineLeastSquares(this->sites_.coordinates());
   this->weights_ =
     inverseDistanceWeights(this->sites_, points, { this->numberOfNeighbors_ }, monitor);

@@ -67,7 +67,7 @@ private:
   bool prepared_ = false;
   Points prescribed_, points_;
   Loops loops_;
-  PrescribedSites sites_;
+  InterpolationSites sites_;
   AffineLeastSquares fit_;
   WeightMatrix weights_;
 };

@@ -56,7 +56,7 @@ public:
   {
   }
 
-  SurfaceImprovement run()
+  SurfaceSmoothing run()
   {
     const FaceQuality now = this->quality(this->position_);
     const FaceQuality rest = this->quality(this->motion_.rest);
@@ -69,7 +69,7 @@ public:
         poor.push_back(static_cast<Index>(f));
       }
     }
-    SurfaceImprovement result;
+    SurfaceSmoothing result;
     result.poor = static_cast<Index>(poor.size());
     if (poor.empty())
     {
@@ -127,7 +127,7 @@ private:
       }
     }
     this->cornersAt_ =
-      placesOfRows(static_cast<Index>(3 * this->corners_.size()), this->motion_.rest.rows(),
+      gatherMap(static_cast<Index>(3 * this->corners_.size()), this->motion_.rest.rows(),
         [this](Index place) { return this->corners_[place / 3].node[place % 3]; });
     for (Index& corner : this->cornersAt_.values)
     {
@@ -332,7 +332,7 @@ private:
 };
 }
 
-SurfaceImprovement improveSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+SurfaceSmoothing smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor)
 {
   return Improvement(faces, geometry, target, motion, monitor).run();

@@ -5,8 +5,8 @@
 
 namespace morph
 {
-/// What improveSurfaces() did.
-struct SurfaceImprovement
+/// What smoothSurfaces() did.
+struct SurfaceSmoothing
 {
   Index poor = 0;           ///< faces it set out from
   std::vector<Index> moved; ///< node ids, ascending
@@ -24,6 +24,6 @@ struct SurfaceImprovement
 /// that. Affine images of the surface at rest are stationary. Mid-side and face nodes go along with their
 /// corners. To be called after morphSurfaces(), and after projectSurfaces() where there is a target. Cost: a few
 /// passes over the faces, and some 20 evaluations a sweep for nodes near poor faces.
-SurfaceImprovement improveSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+SurfaceSmoothing smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor);
 }

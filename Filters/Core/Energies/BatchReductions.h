@@ -13,24 +13,24 @@ namespace morph
 {
 namespace detail
 {
-constexpr Index GroupGrain = 128;
+constexpr Index BatchGrain = 128;
 }
 
-/// What Body::run(group, groups, arguments..., sum) adds to a Sum for each group, see SimdDispatch.h. Sums of fixed blocks, in their
+/// What Body::run(batch, batches, arguments..., sum) adds to a Sum for each batch, see SimdDispatch.h. Sums of fixed blocks, in their
 /// order: no thread shows.
 template <typename Body, typename Sum, typename... Arguments>
-Sum sumOverGroups(const CellGroups& groups, Monitor& monitor, const Arguments&... arguments)
+Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments&... arguments)
 {
-  const Index count = groups.size();
-  const Index blocks = (count + detail::GroupGrain - 1) / detail::GroupGrain;
+  const Index count = batches.size();
+  const Index blocks = (count + detail::BatchGrain - 1) / detail::BatchGrain;
   std::vector<Sum> part(blocks);
   monitor.parallelFor(blocks, 1,
     [&](Index first, Index last)
     {
       for (Index b = first; b < last; ++b)
       {
-        vectorLoop<Body>(b * detail::GroupGrain, std::min(count, (b + 1) * detail::GroupGrain),
-          groups, arguments..., part[b]);
+        dispatchedFor<Body>(b * detail::BatchGrain, std::min(count, (b + 1) * detail::BatchGrain),
+          batches, arguments..., part[b]);
       }
     });
   Sum sum{};
@@ -41,15 +41,16 @@ Sum sumOverGroups(const CellGroups& groups, Monitor& monitor, const Arguments&..
   return sum;
 }
 
-/// Body::run(group, groups, arguments..., parts) writes what the group gives to its corners at their places in `parts`, whose room is
+/// Body::run(batch, batches, arguments..., parts) writes what the batch gives to its corners at their places in `parts`, whose room is
 /// used again; `result` becomes each row's sum over its places, in their order.
 template <typename Body, typename... Arguments>
-void gatherFromGroups(const CellGroups& groups, Points& parts, Points& result, Monitor& monitor,
+void gatherFromBatches(const CellBatches& batches, Points& parts, Points& result, Monitor& monitor,
   const Arguments&... arguments)
 {
-  parts.resize(groups.places(), 3);
-  monitor.parallelFor(groups.size(), detail::GroupGrain,
-    [&](Index first, Index last) { vectorLoop<Body>(first, last, groups, arguments..., parts); });
-  sumOverPlaces(groups.uses(), parts, result, monitor);
+  parts.resize(batches.places(), 3);
+  monitor.parallelFor(batches.size(), detail::BatchGrain,
+    [&](Index first, Index last)
+    { dispatchedFor<Body>(first, last, batches, arguments..., parts); });
+  gatherSum(batches.uses(), parts, result, monitor);
 }
 }

@@ -7,22 +7,22 @@
 
 namespace morph
 {
-/// What a function on a group of cells needs first: corners, and the Jacobians of their tetrahedra. Included by few sources.
+/// What a function on a batch of cells needs first: corners, and the Jacobians of their tetrahedra. Included by few sources.
 namespace foldover
 {
-using LaneVector = Vector3<Lanes>;
-using LaneMatrix = Matrix3<Lanes>;
+using SimdVector = Vector3<SimdDouble4>;
+using SimdMatrix = Matrix3<SimdDouble4>;
 
-MORPH_LANES_INLINE void cornersOf(
-  const CellGroups& groups, Index group, const Points& points, LaneVector (&x)[8])
+MORPH_SIMD_INLINE void cornersOf(
+  const CellBatches& batches, Index batch, const Points& points, SimdVector (&x)[8])
 {
-  const std::int32_t* nodes = groups.nodes(group);
-  const int n = groups.corners(group);
+  const std::int32_t* nodes = batches.nodes(batch);
+  const int n = batches.corners(batch);
   for (int a = 0; a < n; ++a)
   {
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
-      const double* point = points.data() + 3 * static_cast<Index>(nodes[a * LaneCount + lane]);
+      const double* point = points.data() + 3 * static_cast<Index>(nodes[a * SimdWidth + lane]);
       x[a][0][lane] = point[0];
       x[a][1][lane] = point[1];
       x[a][2][lane] = point[2];
@@ -31,7 +31,7 @@ MORPH_LANES_INLINE void cornersOf(
 }
 
 /// From a tetrahedron's first corner to the others, by columns.
-MORPH_LANES_INLINE void edgesOf(const LaneVector (&x)[8], const int* corner, LaneMatrix& D)
+MORPH_SIMD_INLINE void edgesOf(const SimdVector (&x)[8], const int* corner, SimdMatrix& D)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -42,15 +42,15 @@ MORPH_LANES_INLINE void edgesOf(const LaneVector (&x)[8], const int* corner, Lan
   }
 }
 
-/// Writes what a group gives to its corners to their places.
-MORPH_LANES_INLINE void storeAtPlaces(
-  const CellGroups& groups, Index group, const LaneVector (&sum)[8], Points& parts)
+/// Writes what a batch gives to its corners to their places.
+MORPH_SIMD_INLINE void storeAtPlaces(
+  const CellBatches& batches, Index batch, const SimdVector (&sum)[8], Points& parts)
 {
-  double* out = parts.data() + 3 * groups.firstPlace(group);
-  const int corners = groups.corners(group);
+  double* out = parts.data() + 3 * batches.firstPlace(batch);
+  const int corners = batches.corners(batch);
   for (int a = 0; a < corners; ++a)
   {
-    for (int lane = 0; lane < LaneCount; ++lane, out += 3)
+    for (int lane = 0; lane < SimdWidth; ++lane, out += 3)
     {
       out[0] = sum[a][0][lane];
       out[1] = sum[a][1][lane];
@@ -59,7 +59,7 @@ MORPH_LANES_INLINE void storeAtPlaces(
   }
 }
 
-MORPH_LANES_INLINE void inverseOf(const CellGroups::Tetrahedra& tetrahedra, LaneMatrix& inverse)
+MORPH_SIMD_INLINE void inverseOf(const CellBatches::Tetrahedra& tetrahedra, SimdMatrix& inverse)
 {
   for (int j = 0; j < 3; ++j)
   {
@@ -71,14 +71,14 @@ MORPH_LANES_INLINE void inverseOf(const CellGroups::Tetrahedra& tetrahedra, Lane
 }
 
 /// The identity in lanes of weight 0, which then are harmless numbers.
-MORPH_LANES_INLINE void jacobian(const LaneVector (&x)[8], const int* corner,
-  const CellGroups::Tetrahedra& tetrahedra, const LaneMatrix& inverse, LaneMatrix& J)
+MORPH_SIMD_INLINE void jacobian(const SimdVector (&x)[8], const int* corner,
+  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& inverse, SimdMatrix& J)
 {
-  LaneMatrix D;
+  SimdMatrix D;
   edgesOf(x, corner, D);
   multiply(D, inverse, J);
   const auto counts = load(tetrahedra.weight) > 0.;
-  const Lanes zero = {}, one = zero + 1.;
+  const SimdDouble4 zero = {}, one = zero + 1.;
   for (int j = 0; j < 3; ++j)
   {
     for (int i = 0; i < 3; ++i)
@@ -88,8 +88,8 @@ MORPH_LANES_INLINE void jacobian(const LaneVector (&x)[8], const int* corner,
   }
 }
 
-MORPH_LANES_INLINE void parametersOf(const FoldoverDensity& density,
-  const CellGroups::Tetrahedra& tetrahedra, Parameters<Lanes>& parameters)
+MORPH_SIMD_INLINE void parametersOf(const FoldoverDensity& density,
+  const CellBatches::Tetrahedra& tetrahedra, Parameters<SimdDouble4>& parameters)
 {
   parameters.theta = load(tetrahedra.theta);
   parameters.stiffness = density.stiffness * load(tetrahedra.stiffened);

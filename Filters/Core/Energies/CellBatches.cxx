@@ -34,89 +34,88 @@ Index leastRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& ro
 }
 }
 
-CellGroups::CellGroups(const Mesh& mesh, const std::vector<Index>& free)
-  : CellGroups(mesh, free, allCells(mesh))
+CellBatches::CellBatches(const Mesh& mesh, const std::vector<Index>& free)
+  : CellBatches(mesh, free, allCells(mesh))
 {
 }
 
-CellGroups::CellGroups(
+CellBatches::CellBatches(
   const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells)
 {
   const auto rows = static_cast<Index>(free.size());
-  const std::vector<std::int32_t> row = placesIn(free, mesh.numberOfNodes());
-  std::array<Group, Volumes.size()> open{};
-  const auto close = [&](Group& group)
+  const std::vector<std::int32_t> row = inverseIndex(free, mesh.numberOfNodes());
+  std::array<Batch, Volumes.size()> open{};
+  const auto close = [&](Batch& batch)
   {
-    if (group.cells > 0)
+    if (batch.cells > 0)
     {
-      this->addPlaces(mesh, row, group);
-      this->groups_.push_back(group);
-      group.cells = 0;
+      this->addPlaces(mesh, row, batch);
+      this->batches_.push_back(batch);
+      batch.cells = 0;
     }
   };
   // In the order of their least rows, so that what a row gathers is near in memory.
-  const Adjacency order = placesOfRows(
+  const Adjacency order = gatherMap(
     static_cast<Index>(cells.size()), rows, [&](Index i) { return leastRow(mesh, cells[i], row); });
   for (Index i : order.values)
   {
     const Shape shape = cellShape(mesh.types[cells[i]])->shape;
-    Group& group = open[std::find(Volumes.begin(), Volumes.end(), shape) - Volumes.begin()];
-    group.shape = shape;
-    group.cell[group.cells++] = cells[i];
-    if (group.cells == LaneCount)
+    Batch& batch = open[std::find(Volumes.begin(), Volumes.end(), shape) - Volumes.begin()];
+    batch.shape = shape;
+    batch.cell[batch.cells++] = cells[i];
+    if (batch.cells == SimdWidth)
     {
-      close(group);
+      close(batch);
     }
   }
   std::for_each(open.begin(), open.end(), close);
-  this->uses_ =
-    placesOfRows(this->places(), rows, [this](Index place) { return this->row(place); });
+  this->uses_ = gatherMap(this->places(), rows, [this](Index place) { return this->row(place); });
 }
 
-void CellGroups::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group)
+void CellBatches::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Batch& batch)
 {
-  std::fill(group.cell + group.cells, group.cell + LaneCount, group.cell[0]);
-  group.firstPlace = this->places();
-  const int corners = numberOfCorners(group.shape);
+  std::fill(batch.cell + batch.cells, batch.cell + SimdWidth, batch.cell[0]);
+  batch.firstPlace = this->places();
+  const int corners = numberOfCorners(batch.shape);
   for (int a = 0; a < corners; ++a)
   {
-    this->groupOf_.push_back(static_cast<std::int32_t>(this->size()));
-    for (int lane = 0; lane < LaneCount; ++lane)
+    this->batchOf_.push_back(static_cast<std::int32_t>(this->size()));
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
-      const Index c = group.cell[lane];
+      const Index c = batch.cell[lane];
       const Index node = mesh.cell(c)[cellShape(mesh.types[c])->cornerNode[a]];
       this->node_.push_back(static_cast<std::int32_t>(node));
-      this->row_.push_back(lane < group.cells ? row[node] : -1);
+      this->row_.push_back(lane < batch.cells ? row[node] : -1);
     }
   }
 }
 
-bool CellGroups::moves(Index group, int lane, const int* corner) const
+bool CellBatches::moves(Index batch, int lane, const int* corner) const
 {
   return std::any_of(corner, corner + 4,
-    [&](int a) { return this->row(this->firstPlace(group) + a * LaneCount + lane) >= 0; });
+    [&](int a) { return this->row(this->firstPlace(batch) + a * SimdWidth + lane) >= 0; });
 }
 
-void CellGroups::setTargets(const TargetShapes& targets)
+void CellBatches::setTargets(const TargetMatrices& targets)
 {
   this->target_.clear();
   for (Index index = 0; index < this->size(); ++index)
   {
-    Group& group = this->groups_[index];
-    group.firstTarget = static_cast<Index>(this->target_.size());
-    const SimplicialDecomposition parts = simplicialDecomposition(group.shape);
+    Batch& batch = this->batches_[index];
+    batch.firstTarget = static_cast<Index>(this->target_.size());
+    const SimplicialDecomposition parts = simplicialDecomposition(batch.shape);
     this->target_.resize(this->target_.size() + parts.count, Tetrahedra{});
-    for (int lane = 0; lane < group.cells; ++lane)
+    for (int lane = 0; lane < batch.cells; ++lane)
     {
-      const Index c = group.cell[lane], first = targets.start[c];
+      const Index c = batch.cell[lane], first = targets.start[c];
       for (Index t = 0; t < targets.start[c + 1] - first; ++t)
       {
-        const TargetShapes::Tetrahedron& from = targets.tetrahedra[first + t];
+        const TargetMatrices::Tetrahedron& from = targets.tetrahedra[first + t];
         if (!(from.weight > 0 && this->moves(index, lane, parts.tets[t].corner)))
         {
           continue;
         }
-        Tetrahedra& to = this->target_[group.firstTarget + t];
+        Tetrahedra& to = this->target_[batch.firstTarget + t];
         for (int i = 0; i < 9; ++i)
         {
           to.inverse[i][lane] = from.inverse[i];

@@ -10,66 +10,66 @@
 
 namespace morph
 {
-/// Cells with a free node, four of one shape side by side, so that the same formula runs on four tetrahedra at once. The last group
+/// Cells with a free node, four of one shape side by side, so that the same formula runs on four tetrahedra at once. The last batch
 /// of a shape may have fewer; the lanes left over repeat its first cell, with weight 0.
-class CellGroups
+class CellBatches
 {
 public:
-  /// One tetrahedron of each cell of a group. Lanes of weight 0 count for nothing.
+  /// One tetrahedron of each cell of a batch. Lanes of weight 0 count for nothing.
   struct Tetrahedra
   {
-    double inverse[9][LaneCount]; ///< of the target, by columns
-    double weight[LaneCount], theta[LaneCount];
-    double stiffened[LaneCount]; ///< 1 or 0
+    double inverse[9][SimdWidth]; ///< of the target, by columns
+    double weight[SimdWidth], theta[SimdWidth];
+    double stiffened[SimdWidth]; ///< 1 or 0
   };
 
-  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors near, see rowOrder().
-  CellGroups(const Mesh& mesh, const std::vector<Index>& free);
+  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors near, see unknownOrdering().
+  CellBatches(const Mesh& mesh, const std::vector<Index>& free);
   /// Of the volume cells with these ids alone.
-  CellGroups(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);
+  CellBatches(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);
 
   /// Tetrahedra without a free node have weight 0: nothing moves them.
-  void setTargets(const TargetShapes& targets);
+  void setTargets(const TargetMatrices& targets);
 
-  Index size() const { return static_cast<Index>(this->groups_.size()); }
-  Shape shape(Index group) const { return this->groups_[group].shape; }
-  int cells(Index group) const { return this->groups_[group].cells; }
-  Index cell(Index group, int lane) const { return this->groups_[group].cell[lane]; }
-  int corners(Index group) const { return numberOfCorners(this->shape(group)); }
-  /// Lane l of corner a is at a * LaneCount + l, here and in places().
-  const std::int32_t* nodes(Index group) const
+  Index size() const { return static_cast<Index>(this->batches_.size()); }
+  Shape shape(Index batch) const { return this->batches_[batch].shape; }
+  int cells(Index batch) const { return this->batches_[batch].cells; }
+  Index cell(Index batch, int lane) const { return this->batches_[batch].cell[lane]; }
+  int corners(Index batch) const { return numberOfCorners(this->shape(batch)); }
+  /// Lane l of corner a is at a * SimdWidth + l, here and in places().
+  const std::int32_t* nodes(Index batch) const
   {
-    return this->node_.data() + this->groups_[group].firstPlace;
+    return this->node_.data() + this->batches_[batch].firstPlace;
   }
-  /// Of the group's first corner in its first cell, among all lanes of all corners.
-  Index firstPlace(Index group) const { return this->groups_[group].firstPlace; }
+  /// Of the batch's first corner in its first cell, among all lanes of all corners.
+  Index firstPlace(Index batch) const { return this->batches_[batch].firstPlace; }
   Index places() const { return static_cast<Index>(this->node_.size()); }
-  Index groupOf(Index place) const { return this->groupOf_[place / LaneCount]; }
+  Index batchOf(Index place) const { return this->batchOf_[place / SimdWidth]; }
   /// The row of the place's node, or negative: its node is prescribed, or its lane repeats another.
   std::int32_t row(Index place) const { return this->row_[place]; }
   /// The places of each row, ascending.
   const Adjacency& uses() const { return this->uses_; }
-  /// Whether a free node moves the tetrahedron of these four corners in that cell of the group.
-  bool moves(Index group, int lane, const int* corner) const;
+  /// Whether a free node moves the tetrahedron of these four corners in that cell of the batch.
+  bool moves(Index batch, int lane, const int* corner) const;
 
-  const Tetrahedra* targets(Index group) const
+  const Tetrahedra* targets(Index batch) const
   {
-    return this->target_.data() + this->groups_[group].firstTarget;
+    return this->target_.data() + this->batches_[batch].firstTarget;
   }
 
 private:
-  struct Group
+  struct Batch
   {
     Shape shape;
     int cells;
-    Index cell[LaneCount]; ///< ids
+    Index cell[SimdWidth]; ///< ids
     Index firstPlace, firstTarget;
   };
-  void addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Group& group);
+  void addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Batch& batch);
 
-  std::vector<Group> groups_;
+  std::vector<Batch> batches_;
   std::vector<std::int32_t> node_, row_;
-  std::vector<std::int32_t> groupOf_; ///< of each corner
+  std::vector<std::int32_t> batchOf_; ///< of each corner
   Adjacency uses_;
   std::vector<Tetrahedra> target_;
 };

@@ -7,25 +7,25 @@
 
 namespace morph
 {
-/// The formulas of FoldoverDensity, for a number type T that is double or Lanes. Included by few sources: all is inlined.
+/// The formulas of FoldoverDensity, for a number type T that is double or SimdDouble4. Included by few sources: all is inlined.
 namespace foldover
 {
 template <typename T>
 struct Vector3
 {
   T x[3];
-  MORPH_LANES_INLINE T& operator[](int i) { return this->x[i]; }
-  MORPH_LANES_INLINE const T& operator[](int i) const { return this->x[i]; }
+  MORPH_SIMD_INLINE T& operator[](int i) { return this->x[i]; }
+  MORPH_SIMD_INLINE const T& operator[](int i) const { return this->x[i]; }
 };
 
 template <typename T>
-MORPH_LANES_INLINE void dot(const Vector3<T>& a, const Vector3<T>& b, T& result)
+MORPH_SIMD_INLINE void dot(const Vector3<T>& a, const Vector3<T>& b, T& result)
 {
   result = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <typename T>
-MORPH_LANES_INLINE void cross(const Vector3<T>& a, const Vector3<T>& b, Vector3<T>& result)
+MORPH_SIMD_INLINE void cross(const Vector3<T>& a, const Vector3<T>& b, Vector3<T>& result)
 {
   result[0] = a[1] * b[2] - a[2] * b[1];
   result[1] = a[2] * b[0] - a[0] * b[2];
@@ -37,12 +37,12 @@ template <typename T>
 struct Matrix3
 {
   Vector3<T> column[3];
-  MORPH_LANES_INLINE Vector3<T>& operator[](int j) { return this->column[j]; }
-  MORPH_LANES_INLINE const Vector3<T>& operator[](int j) const { return this->column[j]; }
+  MORPH_SIMD_INLINE Vector3<T>& operator[](int j) { return this->column[j]; }
+  MORPH_SIMD_INLINE const Vector3<T>& operator[](int j) const { return this->column[j]; }
 };
 
 template <typename T>
-MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Vector3<T>& x, Vector3<T>& result)
+MORPH_SIMD_INLINE void multiply(const Matrix3<T>& A, const Vector3<T>& x, Vector3<T>& result)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -51,7 +51,7 @@ MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Vector3<T>& x, Vecto
 }
 
 template <typename T>
-MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Matrix3<T>& B, Matrix3<T>& result)
+MORPH_SIMD_INLINE void multiply(const Matrix3<T>& A, const Matrix3<T>& B, Matrix3<T>& result)
 {
   for (int j = 0; j < 3; ++j)
   {
@@ -60,7 +60,7 @@ MORPH_LANES_INLINE void multiply(const Matrix3<T>& A, const Matrix3<T>& B, Matri
 }
 
 template <typename T>
-MORPH_LANES_INLINE void cofactor(const Matrix3<T>& J, Matrix3<T>& result)
+MORPH_SIMD_INLINE void cofactor(const Matrix3<T>& J, Matrix3<T>& result)
 {
   cross(J[1], J[2], result[0]);
   cross(J[2], J[0], result[1]);
@@ -68,7 +68,7 @@ MORPH_LANES_INLINE void cofactor(const Matrix3<T>& J, Matrix3<T>& result)
 }
 
 template <typename T>
-MORPH_LANES_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
+MORPH_SIMD_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
 {
   result = T{};
   for (int j = 0; j < 3; ++j)
@@ -93,7 +93,7 @@ struct Regularised
 {
   T chi, first, second;
 
-  MORPH_LANES_INLINE Regularised(const T& D, double epsilon)
+  MORPH_SIMD_INLINE Regularised(const T& D, double epsilon)
   {
     const double square = epsilon * epsilon;
     const T root = squareRoot(square + D * D);
@@ -106,7 +106,7 @@ struct Regularised
 
 /// phi, without the stiffness. `I`: squared norm of J; `D`: its determinant.
 template <typename T>
-MORPH_LANES_INLINE void distortion(const Parameters<T>& p, const T& I, const T& D, T& phi)
+MORPH_SIMD_INLINE void distortion(const Parameters<T>& p, const T& I, const T& D, T& phi)
 {
   const Regularised<T> r(D, p.epsilon);
   const T root = inverseCubeRoot(r.chi);
@@ -114,7 +114,7 @@ MORPH_LANES_INLINE void distortion(const Parameters<T>& p, const T& I, const T& 
 }
 
 template <typename T>
-MORPH_LANES_INLINE void stiffen(const T& stiffness, const T& phi, T& value)
+MORPH_SIMD_INLINE void stiffen(const T& stiffness, const T& phi, T& value)
 {
   const T gap = 1. - stiffness * phi;
   const T infinity = T{} + std::numeric_limits<double>::infinity();
@@ -129,7 +129,7 @@ struct Derivatives
 };
 
 template <typename T>
-MORPH_LANES_INLINE void derivatives(
+MORPH_SIMD_INLINE void derivatives(
   const Parameters<T>& parameters, const T& I, const T& D, Derivatives<T>& d)
 {
   const T a = (1. - parameters.theta) / 3., b = parameters.theta / 2.;
@@ -160,7 +160,7 @@ MORPH_LANES_INLINE void derivatives(
 
 /// One rotation of Jacobi's method for eigenvalues, of axes p and q; r is the third.
 template <typename T>
-MORPH_LANES_INLINE void rotate(
+MORPH_SIMD_INLINE void rotate(
   T& app, T& aqq, T& apq, T& apr, T& aqr, Vector3<T>& vp, Vector3<T>& vq)
 {
   const T gap = aqq - app, one = T{} + 1.;
@@ -184,7 +184,7 @@ MORPH_LANES_INLINE void rotate(
 
 /// Eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix, of which the lower triangle is read.
 template <typename T>
-MORPH_LANES_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matrix3<T>& V)
+MORPH_SIMD_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matrix3<T>& V)
 {
   constexpr int Sweeps = 4; // the error is squared in each
   T a00 = A[0][0], a11 = A[1][1], a22 = A[2][2], a01 = A[0][1], a02 = A[0][2], a12 = A[1][2];
@@ -207,7 +207,7 @@ MORPH_LANES_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matri
 }
 
 template <typename T>
-MORPH_LANES_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
+MORPH_SIMD_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
 {
   const auto swap = a < b;
   const T first = swap ? b : a;
@@ -223,7 +223,7 @@ MORPH_LANES_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
 
 /// Some unit vector at a right angle to the unit vector `u`.
 template <typename T>
-MORPH_LANES_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
+MORPH_SIMD_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
 {
   // Of its three products with the axes, one of the longer ones.
   const auto alongZ = u[2] * u[2] > u[0] * u[0];
@@ -242,7 +242,7 @@ MORPH_LANES_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
 
 /// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.
 template <typename T>
-MORPH_LANES_INLINE void signedSingularValues(
+MORPH_SIMD_INLINE void signedSingularValues(
   const Matrix3<T>& J, Matrix3<T>& U, Vector3<T>& S, Matrix3<T>& V)
 {
   Matrix3<T> A;
@@ -301,7 +301,7 @@ MORPH_LANES_INLINE void signedSingularValues(
 
 /// Sets the negative eigenvalues of a symmetric matrix to 0.
 template <typename T>
-MORPH_LANES_INLINE void makeSemiDefinite(Matrix3<T>& A)
+MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
 {
   // Most matrices are definite, which their leading minors tell sooner.
   const T minor = A[0][0] * A[1][1] - A[0][1] * A[0][1];
@@ -333,7 +333,7 @@ MORPH_LANES_INLINE void makeSemiDefinite(Matrix3<T>& A)
 
 /// FoldoverDensity::hessian(); `g` and the blocks by columns.
 template <typename T>
-MORPH_LANES_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
+MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
   const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
 {
   Matrix3<T> U, V;

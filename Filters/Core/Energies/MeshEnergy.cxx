@@ -31,82 +31,82 @@ struct Sum
   }
 };
 
-struct GroupEnergy
+struct BatchEnergy
 {
-  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
     const FoldoverDensity& density, const Points& points, Sum& sum)
   {
-    LaneVector x[8];
-    cornersOf(groups, group, points, x);
-    const SimplicialDecomposition parts = simplicialDecomposition(groups.shape(group));
-    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
-    const Lanes zero = {};
-    const Lanes one = zero + 1.;
-    Lanes energy = {}, most = {}, inverted = {},
-          least = zero + std::numeric_limits<double>::infinity();
+    SimdVector x[8];
+    cornersOf(batches, batch, points, x);
+    const SimplicialDecomposition parts = simplicialDecomposition(batches.shape(batch));
+    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
+    const SimdDouble4 zero = {};
+    const SimdDouble4 one = zero + 1.;
+    SimdDouble4 energy = {}, most = {}, inverted = {},
+                least = zero + std::numeric_limits<double>::infinity();
     for (int t = 0; t < parts.count; ++t, ++tetrahedra)
     {
-      LaneMatrix inverse, J;
+      SimdMatrix inverse, J;
       inverseOf(*tetrahedra, inverse);
       jacobian(x, parts.tets[t].corner, *tetrahedra, inverse, J);
-      LaneVector normal;
+      SimdVector normal;
       cross(J[1], J[2], normal);
-      Lanes determinant, square, phi, value;
+      SimdDouble4 determinant, square, phi, value;
       dot(J[0], normal, determinant);
       squaredNorm(J, square);
-      Parameters<Lanes> parameters;
+      Parameters<SimdDouble4> parameters;
       parametersOf(density, *tetrahedra, parameters);
       distortion(parameters, square, determinant, phi);
       stiffen(parameters.stiffness, phi, value);
-      const Lanes weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
+      const SimdDouble4 weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
       energy += weight * value;
       least = ((weight > 0.) & (determinant < least)) ? determinant : least;
       inverted += ((weight > 0.) & (determinant <= 0.)) ? one : zero;
       most = ((stiffened > 0.) & (phi > most)) ? phi : most;
     }
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
       sum += { energy[lane], least[lane], most[lane], inverted[lane] };
     }
   }
 };
 
-/// What each group gives to its corners, at their places in `parts`.
-struct GroupGradient
+/// What each batch gives to its corners, at their places in `parts`.
+struct BatchGradient
 {
-  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
     const FoldoverDensity& density, const Points& points, Points& parts)
   {
-    LaneVector x[8], sum[8] = {};
-    cornersOf(groups, group, points, x);
-    const SimplicialDecomposition decomposition = simplicialDecomposition(groups.shape(group));
-    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
+    SimdVector x[8], sum[8] = {};
+    cornersOf(batches, batch, points, x);
+    const SimplicialDecomposition decomposition = simplicialDecomposition(batches.shape(batch));
+    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
     for (int t = 0; t < decomposition.count; ++t, ++tetrahedra)
     {
       const int* corner = decomposition.tets[t].corner;
-      LaneMatrix inverse, J, normal;
+      SimdMatrix inverse, J, normal;
       inverseOf(*tetrahedra, inverse);
       jacobian(x, corner, *tetrahedra, inverse, J);
       cofactor(J, normal);
-      Lanes determinant, square;
+      SimdDouble4 determinant, square;
       dot(J[0], normal[0], determinant);
       squaredNorm(J, square);
-      Parameters<Lanes> parameters;
+      Parameters<SimdDouble4> parameters;
       parametersOf(density, *tetrahedra, parameters);
-      Derivatives<Lanes> d;
+      Derivatives<SimdDouble4> d;
       derivatives(parameters, square, determinant, d);
-      const Lanes weight = load(tetrahedra->weight);
-      const Lanes byNorm = 2. * weight * d.I, byVolume = weight * d.D;
+      const SimdDouble4 weight = load(tetrahedra->weight);
+      const SimdDouble4 byNorm = 2. * weight * d.I, byVolume = weight * d.D;
       for (int i = 0; i < 3; ++i)
       {
-        Lanes row[3], all = {};
+        SimdDouble4 row[3], all = {};
         for (int j = 0; j < 3; ++j)
         {
           row[j] = byNorm * J[j][i] + byVolume * normal[j][i];
         }
         for (int k = 0; k < 3; ++k)
         {
-          const Lanes force =
+          const SimdDouble4 force =
             row[0] * inverse[0][k] + row[1] * inverse[1][k] + row[2] * inverse[2][k];
           sum[corner[k + 1]][i] += force;
           all += force;
@@ -114,20 +114,21 @@ struct GroupGradient
         sum[corner[0]][i] -= all;
       }
     }
-    storeAtPlaces(groups, group, sum, parts);
+    storeAtPlaces(batches, batch, sum, parts);
   }
 };
 }
 
 MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
-  : free_(rowOrder(mesh, free))
-  , groups_(mesh, this->free_)
+  : free_(unknownOrdering(mesh, free))
+  , batches_(mesh, this->free_)
 {
 }
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const auto sum = sumOverGroups<GroupEnergy, Sum>(this->groups_, monitor, this->density_, points);
+  const auto sum =
+    sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
   return { sum.energy, sum.least, static_cast<Index>(sum.inverted), sum.most };
 }
 
@@ -139,7 +140,7 @@ Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  gatherFromGroups<GroupGradient>(
-    this->groups_, this->parts_, result, monitor, this->density_, points);
+  gatherFromBatches<BatchGradient>(
+    this->batches_, this->parts_, result, monitor, this->density_, points);
 }
 }

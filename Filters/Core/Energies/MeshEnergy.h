@@ -15,13 +15,13 @@ namespace morph
 class MeshEnergy : public SecondOrderObjective
 {
 public:
-  /// `free`: ids of the nodes that move, ascending; free() has them in the order of rowOrder(). Cost: passes over the cells; 100 bytes
+  /// `free`: ids of the nodes that move, ascending; free() has them in the order of unknownOrdering(). Cost: passes over the cells; 100 bytes
   /// a cell.
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
 
   /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of weight 0 are left out. 96 bytes a
   /// tetrahedron.
-  void setTargets(const TargetShapes& targets) { this->groups_.setTargets(targets); }
+  void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
   /// The regularisation and the stiffness; theta is that of the targets. With a regularisation below 1e-9 no step may end with an inverted tetrahedron.
   void setDensity(const FoldoverDensity& density) { this->density_ = density; }
   const FoldoverDensity& density() const { return this->density_; }
@@ -38,16 +38,16 @@ public:
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
-  void hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const override;
+  void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const override;
 
 private:
-  void openMatrix(BlockMatrix& matrix, Monitor& monitor) const;
+  void openMatrix(BlockCsr3f& matrix, Monitor& monitor) const;
   void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
-    BlockMatrix& result, Monitor& monitor) const;
+    BlockCsr3f& result, Monitor& monitor) const;
 
   PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;
-  CellGroups groups_;
+  CellBatches batches_;
   mutable Points parts_; ///< of the gradient, kept from call to call
   FoldoverDensity density_;
 };

@@ -13,13 +13,13 @@ namespace
 {
 using namespace foldover;
 
-constexpr Index Grain = 64;                                // groups
-constexpr Index RowGrain = 256;                            // rows
-constexpr Index GroupsToCheck = 4096, RowsToCheck = 16384; // whether it is cancelled
+constexpr Index Grain = 64;                                 // batches
+constexpr Index RowGrain = 256;                             // rows
+constexpr Index BatchesToCheck = 4096, RowsToCheck = 16384; // whether it is cancelled
 constexpr double Largest = 1e20; // of an entry: its square still is a float
 
 /// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
-MORPH_LANES_INLINE Index blockOf(Index a, Index b, Index n)
+MORPH_SIMD_INLINE Index blockOf(Index a, Index b, Index n)
 {
   return a * n - a * (a - 1) / 2 + b - a;
 }
@@ -30,8 +30,8 @@ constexpr Index blocksOf(Index corners)
 }
 
 /// to += block, or its transpose where the corners stand the other way round.
-MORPH_LANES_INLINE void addBlock(
-  const LaneMatrix& block, bool transposed, const Lanes& factor, LaneMatrix& to)
+MORPH_SIMD_INLINE void addBlock(
+  const SimdMatrix& block, bool transposed, const SimdDouble4& factor, SimdMatrix& to)
 {
   for (int j = 0; j < 3; ++j)
   {
@@ -43,12 +43,12 @@ MORPH_LANES_INLINE void addBlock(
 }
 
 /// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the other.
-MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, Index count, float* to)
+MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, float* to)
 {
   Index e = 0;
-  for (; e + LaneCount <= count; e += LaneCount)
+  for (; e + SimdWidth <= count; e += SimdWidth)
   {
-    const FloatLanes *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
+    const SimdFloat4 *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
                      AB = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7),
                      cd = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5),
                      CD = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7),
@@ -56,61 +56,61 @@ MORPH_LANES_INLINE void separateCells(const FloatLanes* entries, Index count, fl
                        __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
                        __builtin_shufflevector(AB, CD, 0, 1, 4, 5),
                        __builtin_shufflevector(AB, CD, 2, 3, 6, 7) };
-    for (Index lane = 0; lane < LaneCount; ++lane)
+    for (Index lane = 0; lane < SimdWidth; ++lane)
     {
-      std::memcpy(to + lane * count + e, &cell[lane], sizeof(FloatLanes));
+      std::memcpy(to + lane * count + e, &cell[lane], sizeof(SimdFloat4));
     }
   }
   for (; e < count; ++e)
   {
-    for (Index lane = 0; lane < LaneCount; ++lane)
+    for (Index lane = 0; lane < SimdWidth; ++lane)
     {
       to[lane * count + e] = entries[e][lane];
     }
   }
 }
 
-/// The second derivatives of a group's tetrahedra, by pairs of corners a <= b of the cell, in single precision: cell, block, column, row.
-struct GroupHessian
+/// The second derivatives of a batch's tetrahedra, by pairs of corners a <= b of the cell, in single precision: cell, block, column, row.
+struct BatchHessian
 {
-  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups,
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
     const FoldoverDensity& density, const Points& points, const std::vector<Index>& start,
     std::vector<float>& out)
   {
-    LaneVector x[8];
-    cornersOf(groups, group, points, x);
-    const int n = groups.corners(group);
-    LaneMatrix sum[blocksOf(8)];
+    SimdVector x[8];
+    cornersOf(batches, batch, points, x);
+    const int n = batches.corners(batch);
+    SimdMatrix sum[blocksOf(8)];
     for (Index k = 0; k < blocksOf(n); ++k)
     {
       sum[k] = {};
     }
-    const SimplicialDecomposition parts = simplicialDecomposition(groups.shape(group));
-    const CellGroups::Tetrahedra* tetrahedra = groups.targets(group);
+    const SimplicialDecomposition parts = simplicialDecomposition(batches.shape(batch));
+    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
     for (int t = 0; t < parts.count; ++t, ++tetrahedra)
     {
       addTetrahedra(x, parts.tets[t].corner, *tetrahedra, density, n, sum);
     }
-    FloatLanes entries[9 * blocksOf(8)];
+    SimdFloat4 entries[9 * blocksOf(8)];
     for (Index k = 0; k < blocksOf(n); ++k)
     {
       for (Index j = 0; j < 3; ++j)
       {
         for (Index i = 0; i < 3; ++i)
         {
-          entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], FloatLanes);
+          entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], SimdFloat4);
         }
       }
     }
-    separateCells(entries, 9 * blocksOf(n), out.data() + start[group]);
+    separateCells(entries, 9 * blocksOf(n), out.data() + start[batch]);
   }
 
 private:
-  static MORPH_LANES_INLINE void addTetrahedra(const LaneVector (&x)[8], const int* corner,
-    const CellGroups::Tetrahedra& tetrahedra, const FoldoverDensity& density, int n,
-    LaneMatrix* sum)
+  static MORPH_SIMD_INLINE void addTetrahedra(const SimdVector (&x)[8], const int* corner,
+    const CellBatches::Tetrahedra& tetrahedra, const FoldoverDensity& density, int n,
+    SimdMatrix* sum)
   {
-    LaneMatrix inverse, J, g, block[3][3];
+    SimdMatrix inverse, J, g, block[3][3];
     inverseOf(tetrahedra, inverse);
     jacobian(x, corner, tetrahedra, inverse, J);
     for (int j = 0; j < 3; ++j)
@@ -120,10 +120,10 @@ private:
         g[j][i] = inverse[i][j];
       }
     }
-    Parameters<Lanes> parameters;
+    Parameters<SimdDouble4> parameters;
     parametersOf(density, tetrahedra, parameters);
     hessian(parameters, J, g, block);
-    Lanes most = {};
+    SimdDouble4 most = {};
     for (int a = 0; a < 3; ++a)
     {
       for (int i = 0; i < 3; ++i)
@@ -131,16 +131,17 @@ private:
         most = block[a][a][i][i] > most ? block[a][a][i][i] : most;
       }
     }
-    const Lanes weight = load(tetrahedra.weight) * (most > Largest ? Largest / most : Lanes{} + 1.);
+    const SimdDouble4 weight =
+      load(tetrahedra.weight) * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
 
     // Moving all four corners alike changes nothing: the blocks of corner 0 follow from the others.
-    LaneMatrix first = {};
+    SimdMatrix first = {};
     for (int b = 0; b < 3; ++b)
     {
-      LaneMatrix column = {};
+      SimdMatrix column = {};
       for (int a = 0; a < 3; ++a)
       {
-        const LaneMatrix& own = block[std::min(a, b)][std::max(a, b)];
+        const SimdMatrix& own = block[std::min(a, b)][std::max(a, b)];
         for (int j = 0; j < 3; ++j)
         {
           for (int i = 0; i < 3; ++i)
@@ -165,15 +166,15 @@ private:
     addPair(first, corner[0], corner[0], weight, n, sum);
   }
 
-  static MORPH_LANES_INLINE void addPair(
-    const LaneMatrix& block, int a, int b, const Lanes& weight, int n, LaneMatrix* sum)
+  static MORPH_SIMD_INLINE void addPair(
+    const SimdMatrix& block, int a, int b, const SimdDouble4& weight, int n, SimdMatrix* sum)
   {
     addBlock(block, a > b, weight, sum[a > b ? blockOf(b, a, n) : blockOf(a, b, n)]);
   }
 };
 }
 
-void MeshEnergy::openMatrix(BlockMatrix& matrix, Monitor& monitor) const
+void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
 {
   BlockPattern pattern;
   std::vector<std::int32_t> row, found;
@@ -184,14 +185,14 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix, Monitor& monitor) const
       monitor.check();
     }
     found.clear();
-    for (const Index* use = this->groups_.uses().begin(i); use != this->groups_.uses().end(i);
+    for (const Index* use = this->batches_.uses().begin(i); use != this->batches_.uses().end(i);
          ++use)
     {
-      const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
-      const Index lane = (*use - first) % LaneCount;
-      for (int a = 0; a < this->groups_.corners(group); ++a)
+      const Index batch = this->batches_.batchOf(*use), first = this->batches_.firstPlace(batch);
+      const Index lane = (*use - first) % SimdWidth;
+      for (int a = 0; a < this->batches_.corners(batch); ++a)
       {
-        found.push_back(this->groups_.row(first + a * LaneCount + lane));
+        found.push_back(this->batches_.row(first + a * SimdWidth + lane));
       }
     }
     row.assign(1, static_cast<std::int32_t>(i));
@@ -211,30 +212,30 @@ void MeshEnergy::openMatrix(BlockMatrix& matrix, Monitor& monitor) const
   matrix.open(this->pattern_, std::move(pattern));
 }
 
-void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const
+void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const
 {
   if (!result.isOpenFor(this->pattern_))
   {
     this->openMatrix(result, monitor);
   }
-  // The blocks of each group; then each row gathers its own, cell by cell.
-  std::vector<Index> start(this->groups_.size() + 1, 0);
-  for (Index group = 0; group < this->groups_.size(); ++group)
+  // The blocks of each batch; then each row gathers its own, cell by cell.
+  std::vector<Index> start(this->batches_.size() + 1, 0);
+  for (Index batch = 0; batch < this->batches_.size(); ++batch)
   {
-    start[group + 1] = start[group] + 9 * LaneCount * blocksOf(this->groups_.corners(group));
+    start[batch + 1] = start[batch] + 9 * SimdWidth * blocksOf(this->batches_.corners(batch));
   }
   std::vector<float>& blocks = result.scratch();
   blocks.resize(start.back());
   // In pieces that end within tenths of a second, and between them a look at whether it is
   // cancelled.
-  for (Index begin = 0; begin < this->groups_.size(); begin += GroupsToCheck)
+  for (Index begin = 0; begin < this->batches_.size(); begin += BatchesToCheck)
   {
     monitor.check();
-    monitor.parallelFor(std::min(GroupsToCheck, this->groups_.size() - begin), Grain,
+    monitor.parallelFor(std::min(BatchesToCheck, this->batches_.size() - begin), Grain,
       [&](Index first, Index last)
       {
-        vectorLoop<GroupHessian>(
-          begin + first, begin + last, this->groups_, this->density_, points, start, blocks);
+        dispatchedFor<BatchHessian>(
+          begin + first, begin + last, this->batches_, this->density_, points, start, blocks);
       });
   }
   monitor.check();
@@ -242,7 +243,7 @@ void MeshEnergy::hessian(const Points& points, BlockMatrix& result, Monitor& mon
 }
 
 void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
-  BlockMatrix& result, Monitor& monitor) const
+  BlockCsr3f& result, Monitor& monitor) const
 {
   monitor.parallelFor(result.rows(), RowGrain,
     [&](Index firstRow, Index lastRow)
@@ -252,13 +253,14 @@ void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vecto
         float* out = result.blocks(row);
         std::fill(out, result.blocks(row + 1), 0.f);
         const std::int32_t* place = result.places(row);
-        for (const Index* use = this->groups_.uses().begin(row);
-             use != this->groups_.uses().end(row); ++use)
+        for (const Index* use = this->batches_.uses().begin(row);
+             use != this->batches_.uses().end(row); ++use)
         {
-          const Index group = this->groups_.groupOf(*use), first = this->groups_.firstPlace(group);
-          const int n = this->groups_.corners(group);
-          const Index own = (*use - first) / LaneCount, lane = (*use - first) % LaneCount;
-          const float* cell = blocks.data() + start[group] + lane * 9 * blocksOf(n);
+          const Index batch = this->batches_.batchOf(*use),
+                      first = this->batches_.firstPlace(batch);
+          const int n = this->batches_.corners(batch);
+          const Index own = (*use - first) / SimdWidth, lane = (*use - first) % SimdWidth;
+          const float* cell = blocks.data() + start[batch] + lane * 9 * blocksOf(n);
           for (Index other = 0; other < n; ++other, ++place)
           {
             if (*place < 0)

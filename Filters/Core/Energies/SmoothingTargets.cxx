@@ -74,10 +74,10 @@ std::vector<double> volumes(const Mesh& rest)
   return result;
 }
 
-TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation)
+TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation)
 {
   const std::vector<double> volume = volumes(rest);
-  TargetShapes result;
+  TargetMatrices result;
   result.start.assign(1, 0);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
@@ -98,7 +98,7 @@ TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orie
         }
       }
       D.row(0) *= orientation[c];
-      TargetShapes::Tetrahedron tetrahedron;
+      TargetMatrices::Tetrahedron tetrahedron;
       Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
       tetrahedron.weight = 1. / corners;
       tetrahedron.theta = 0;
@@ -111,15 +111,16 @@ TargetShapes idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orie
 }
 }
 
-TargetShapes smoothingTargets(
-  const Mesh& rest, const std::vector<std::int8_t>& orientation, Target target, Monitor& monitor)
+TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  TargetConstruction target, Monitor& monitor)
 {
-  if (target == Target::Ideal)
+  if (target == TargetConstruction::Ideal)
   {
     return idealTargets(rest, orientation);
   }
-  TargetShapes result = targetShapes(rest, orientation, rest.points, Target::Initial, monitor);
-  for (TargetShapes::Tetrahedron& tetrahedron : result.tetrahedra)
+  TargetMatrices result =
+    targetMatrices(rest, orientation, rest.points, TargetConstruction::Initial, monitor);
+  for (TargetMatrices::Tetrahedron& tetrahedron : result.tetrahedra)
   {
     tetrahedron.theta = 0;
   }

@@ -219,15 +219,16 @@ Lengths lengthsAround(
                    : lengths(shape.shape, cornersOf(rest, cell, rest.points));
 }
 
-Corners targetOf(Shape shape, const Corners& rest, const Corners& guide, double sign, Target target)
+Corners targetOf(
+  Shape shape, const Corners& rest, const Corners& guide, double sign, TargetConstruction target)
 {
-  if (target == Target::Ideal)
+  if (target == TargetConstruction::Ideal)
   {
     Corners x = idealShape(shape, lengths(shape, guide));
     x.row(0) *= sign;
     return x;
   }
-  if (target == Target::Initial || shape == Shape::Tet)
+  if (target == TargetConstruction::Initial || shape == Shape::Tet)
   {
     return rest;
   }
@@ -238,11 +239,11 @@ Corners targetOf(Shape shape, const Corners& rest, const Corners& guide, double 
 }
 }
 
-TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, Target target, Monitor& monitor)
+TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, TargetConstruction target, Monitor& monitor)
 {
   const Index cells = rest.numberOfCells();
-  TargetShapes result;
+  TargetMatrices result;
   result.start.assign(cells + 1, 0);
   for (Index c = 0; c < cells; ++c)
   {
@@ -297,7 +298,7 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
         const double least = LeastVolume * meanVolume(parts, x);
         for (int t = 0; t < parts.count; ++t)
         {
-          TargetShapes::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
+          TargetMatrices::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
           tetrahedron = {};
           const Eigen::Matrix3d D = edges(parts.tets[t], x);
           const double volume = sign * D.determinant() / 6;
@@ -313,7 +314,7 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
       }
     });
 
-  const double total = blockSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
+  const double total = reproducibleSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
     [&](Index t) { return result.tetrahedra[t].weight; });
   const auto count = static_cast<double>(result.tetrahedra.size());
   monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain,
@@ -327,8 +328,8 @@ TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orie
   return result;
 }
 
-void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
-  TargetShapes& targets)
+void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
+  const std::vector<Index>& folded, TargetMatrices& targets)
 {
   for (Index f : folded)
   {
@@ -351,7 +352,7 @@ void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<
 namespace
 {
 bool isPositive(
-  const std::array<Index, 4>& node, const TargetShapes::Tetrahedron& target, const Points& points)
+  const std::array<Index, 4>& node, const TargetMatrices::Tetrahedron& target, const Points& points)
 {
   Eigen::Matrix3d D;
   for (int k = 0; k < 3; ++k)
@@ -362,7 +363,8 @@ bool isPositive(
 }
 }
 
-std::vector<Index> tangledCells(const Mesh& mesh, const Points& points, const TargetShapes& targets)
+std::vector<Index> tangledCells(
+  const Mesh& mesh, const Points& points, const TargetMatrices& targets)
 {
   std::vector<Index> result;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -381,15 +383,15 @@ std::vector<Index> tangledCells(const Mesh& mesh, const Points& points, const Ta
   return result;
 }
 
-Index dropFolded(
-  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets)
+Index excludeInvertedAtFixedNodes(
+  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetMatrices& targets)
 {
   Index dropped = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
     {
-      TargetShapes::Tetrahedron& tetrahedron = targets.tetrahedra[t];
+      TargetMatrices::Tetrahedron& tetrahedron = targets.tetrahedra[t];
       const std::array<Index, 4> node = nodesOf(mesh, c, t - targets.start[c]);
       if (tetrahedron.weight > 0 &&
           std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) >= 2 &&

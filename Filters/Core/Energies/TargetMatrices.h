@@ -11,7 +11,7 @@
 namespace morph
 {
 /// What a cell should look like in the morphed mesh, up to a rotation.
-enum class Target
+enum class TargetConstruction
 {
   Initial,   ///< the cell at rest
   Stretched, ///< the cell at rest, stretched along its own axes to the edge lengths of a guide: keeps angles, accepts sizes
@@ -19,7 +19,7 @@ enum class Target
 };
 
 /// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their target and their weight.
-struct TargetShapes
+struct TargetMatrices
 {
   /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its target's shape and size. Its
   /// corners are those of the same place in the shape's simplicialDecomposition(), of which a cell has the first ones or all.
@@ -34,24 +34,24 @@ struct TargetShapes
   std::vector<Tetrahedron> tetrahedra;
 };
 
-/// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's orientation().
+/// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see Topology's cellSigns().
 /// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A cell at rest whose scaled
 /// Jacobian is 1e-3 or less, which Initial and Stretched would divide by, takes the Ideal shape with the edge lengths of its valid
 /// neighbors at rest. Tetrahedra inside a valid cell that are not positive there have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
-TargetShapes targetShapes(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, Target target, Monitor& monitor);
+TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const Points& guide, TargetConstruction target, Monitor& monitor);
 
 /// Gives weight 0 to the tetrahedra that have three corners on one of the boundary `faces` numbered in `folded`, which are turned
 /// over: either these are inverted or their neighbors.
-void dropBehind(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<Index>& folded,
-  TargetShapes& targets);
+void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
+  const std::vector<Index>& folded, TargetMatrices& targets);
 
 /// Ids of the cells with a tetrahedron of positive weight that is inverted or flat at `points` (#nodes x 3).
 std::vector<Index> tangledCells(
-  const Mesh& mesh, const Points& points, const TargetShapes& targets);
+  const Mesh& mesh, const Points& points, const TargetMatrices& targets);
 
 /// Gives weight 0 to the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have at least two corners whose `isFixed`
 /// (#nodes) is not 0: behind a fold of the boundary, where none can be positive. Returns how many.
-Index dropFolded(
-  const Mesh& mesh, const std::vector<char>& isFixed, const Points& points, TargetShapes& targets);
+Index excludeInvertedAtFixedNodes(const Mesh& mesh, const std::vector<char>& isFixed,
+  const Points& points, TargetMatrices& targets);
 }

@@ -21,21 +21,21 @@ public:
   /// `free`: ids of the nodes that move, ascending. `margin`: b, relative to the targets' volumes.
   /// Cost: passes over the cells; 8 bytes a tetrahedron and 50 a corner of a cell.
   UntangleEnergy(
-    const Mesh& mesh, const std::vector<Index>& free, const TargetShapes& targets, double margin);
+    const Mesh& mesh, const std::vector<Index>& free, const TargetMatrices& targets, double margin);
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// Of one tetrahedron in each cell of a group: 1 / determinant of the target, with its sign; 0 where the tetrahedron does not count.
+  /// Of one tetrahedron in each cell of a batch: 1 / determinant of the target, with its sign; 0 where the tetrahedron does not count.
   struct Volumes
   {
-    double inverse[LaneCount];
+    double inverse[SimdWidth];
   };
-  /// Those of each group in turn.
+  /// Those of each batch in turn.
   struct Tetrahedra
   {
-    std::vector<Index> first{ 0 }; ///< #groups + 1
+    std::vector<Index> first{ 0 }; ///< #batches + 1
     std::vector<Volumes> volumes;
     double margin;
     Index count = 0; ///< that count
@@ -43,7 +43,7 @@ public:
 
 private:
   std::vector<Index> free_;
-  CellGroups groups_;
+  CellBatches batches_;
   Tetrahedra tetrahedra_;
   mutable Points parts_; ///< of the gradient, kept from call to call
 };

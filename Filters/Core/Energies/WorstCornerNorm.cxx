@@ -15,7 +15,7 @@ namespace morph
 namespace
 {
 using namespace foldover;
-using Corners = CornerAngles::Corners;
+using Corners = WorstCornerNorm::Corners;
 constexpr int Power = 8;
 
 /// A tetrahedron's corners in positive order; the decomposition has one of them.
@@ -44,14 +44,14 @@ double scaleOf(Shape shape)
   }
 }
 
-/// One corner of each cell of a group.
+/// One corner of each cell of a batch.
 struct Corner
 {
-  LaneMatrix edges, normals; ///< the normals: of each two edges, by which the determinant grows
-  Lanes determinant, squares[3];
-  Lanes s; ///< over `least`, 1 where the corner does not count
+  SimdMatrix edges, normals; ///< the normals: of each two edges, by which the determinant grows
+  SimdDouble4 determinant, squares[3];
+  SimdDouble4 s; ///< over `least`, 1 where the corner does not count
 
-  MORPH_LANES_INLINE Corner(const LaneVector (&x)[8], const int* corner, const Lanes& scale)
+  MORPH_SIMD_INLINE Corner(const SimdVector (&x)[8], const int* corner, const SimdDouble4& scale)
   {
     edgesOf(x, corner, this->edges);
     cofactor(this->edges, this->normals);
@@ -60,18 +60,18 @@ struct Corner
     {
       dot(this->edges[k], this->edges[k], this->squares[k]);
     }
-    const Lanes zero = {}, one = zero + 1.;
-    const Lanes square = this->squares[0] * this->squares[1] * this->squares[2];
+    const SimdDouble4 zero = {}, one = zero + 1.;
+    const SimdDouble4 square = this->squares[0] * this->squares[1] * this->squares[2];
     const auto some = square > 0.;
-    const Lanes quotient = scale * this->determinant / squareRoot(some ? square : one);
+    const SimdDouble4 quotient = scale * this->determinant / squareRoot(some ? square : one);
     this->s = scale == 0. ? one : some ? quotient : zero;
   }
 
   /// s^-8, infinite where s is not positive.
-  MORPH_LANES_INLINE void power(Lanes& result) const
+  MORPH_SIMD_INLINE void power(SimdDouble4& result) const
   {
     static_assert(Power == 8, "three squarings");
-    const Lanes infinity = Lanes{} + std::numeric_limits<double>::infinity();
+    const SimdDouble4 infinity = SimdDouble4{} + std::numeric_limits<double>::infinity();
     result = this->s > 0. ? 1. / this->s : infinity;
     result *= result;
     result *= result;
@@ -79,61 +79,61 @@ struct Corner
   }
 };
 
-struct GroupValue
+struct BatchValue
 {
-  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups, const Corners& corners,
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
     const Points& points, double& sum)
   {
-    LaneVector x[8];
-    cornersOf(groups, group, points, x);
-    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
-    const CornerAngles::Scales* scales =
-      corners.scales.data() + groups.firstPlace(group) / LaneCount;
-    const Lanes zero = {};
-    Lanes all = {};
+    SimdVector x[8];
+    cornersOf(batches, batch, points, x);
+    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+    const WorstCornerNorm::Scales* scales =
+      corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
+    const SimdDouble4 zero = {};
+    SimdDouble4 all = {};
     for (int t = 0; t < parts.count; ++t)
     {
-      const Lanes scale = load(scales[t].factor);
-      Lanes power;
+      const SimdDouble4 scale = load(scales[t].factor);
+      SimdDouble4 power;
       Corner(x, parts.tets[t].corner, scale).power(power);
       all += scale == 0. ? zero : power;
     }
-    for (int lane = 0; lane < LaneCount; ++lane)
+    for (int lane = 0; lane < SimdWidth; ++lane)
     {
       sum += all[lane];
     }
   }
 };
 
-struct GroupGradient
+struct BatchGradient
 {
-  static MORPH_LANES_INLINE void run(Index group, const CellGroups& groups, const Corners& corners,
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
     const Points& points, Points& forces)
   {
-    LaneVector x[8], sum[8] = {};
-    cornersOf(groups, group, points, x);
-    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
-    const CornerAngles::Scales* scales =
-      corners.scales.data() + groups.firstPlace(group) / LaneCount;
+    SimdVector x[8], sum[8] = {};
+    cornersOf(batches, batch, points, x);
+    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+    const WorstCornerNorm::Scales* scales =
+      corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
     const double mean = Power / static_cast<double>(corners.count);
-    const Lanes zero = {}, one = zero + 1.;
+    const SimdDouble4 zero = {}, one = zero + 1.;
     for (int t = 0; t < parts.count; ++t)
     {
-      const Lanes scale = load(scales[t].factor);
+      const SimdDouble4 scale = load(scales[t].factor);
       const int* corner = parts.tets[t].corner;
       const Corner own(x, corner, scale);
-      Lanes power;
+      SimdDouble4 power;
       own.power(power);
       const auto counts = (scale != 0.) & (own.s > 0.);
-      const Lanes factor = counts ? mean * power : zero;
-      const Lanes byDeterminant = factor / (counts ? own.determinant : one);
-      LaneVector all = {};
+      const SimdDouble4 factor = counts ? mean * power : zero;
+      const SimdDouble4 byDeterminant = factor / (counts ? own.determinant : one);
+      SimdVector all = {};
       for (int k = 0; k < 3; ++k)
       {
-        const Lanes byLength = factor / (counts ? own.squares[k] : one);
+        const SimdDouble4 byLength = factor / (counts ? own.squares[k] : one);
         for (int i = 0; i < 3; ++i)
         {
-          const Lanes force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
+          const SimdDouble4 force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
           sum[corner[k + 1]][i] += force;
           all[i] += force;
         }
@@ -143,27 +143,27 @@ struct GroupGradient
         sum[corner[0]][i] -= all[i];
       }
     }
-    storeAtPlaces(groups, group, sum, forces);
+    storeAtPlaces(batches, batch, sum, forces);
   }
 };
 
 Corners scaledCorners(
-  const CellGroups& groups, const std::vector<std::int8_t>& orientation, double least)
+  const CellBatches& batches, const std::vector<std::int8_t>& orientation, double least)
 {
   Corners result;
-  result.scales.resize(groups.places() / LaneCount);
-  for (Index group = 0; group < groups.size(); ++group)
+  result.scales.resize(batches.places() / SimdWidth);
+  for (Index batch = 0; batch < batches.size(); ++batch)
   {
-    const SimplicialDecomposition parts = cornerTets(groups.shape(group));
-    CornerAngles::Scales* scales = result.scales.data() + groups.firstPlace(group) / LaneCount;
-    for (int lane = 0; lane < groups.cells(group); ++lane)
+    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+    WorstCornerNorm::Scales* scales = result.scales.data() + batches.firstPlace(batch) / SimdWidth;
+    for (int lane = 0; lane < batches.cells(batch); ++lane)
     {
       for (int t = 0; t < parts.count; ++t)
       {
-        if (groups.moves(group, lane, parts.tets[t].corner))
+        if (batches.moves(batch, lane, parts.tets[t].corner))
         {
           scales[t].factor[lane] =
-            orientation[groups.cell(group, lane)] * scaleOf(groups.shape(group)) / least;
+            orientation[batches.cell(batch, lane)] * scaleOf(batches.shape(batch)) / least;
           ++result.count;
         }
       }
@@ -174,24 +174,24 @@ Corners scaledCorners(
 }
 }
 
-CornerAngles::CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least)
-  : free_(rowOrder(mesh, free))
-  , groups_(mesh, this->free_, cells)
-  , corners_(scaledCorners(this->groups_, orientation, least))
+  : free_(unknownOrdering(mesh, free))
+  , batches_(mesh, this->free_, cells)
+  , corners_(scaledCorners(this->batches_, orientation, least))
 {
 }
 
-Objective::Value CornerAngles::value(const Points& points, Monitor& monitor) const
+Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) const
 {
   const auto sum =
-    sumOverGroups<GroupValue, double>(this->groups_, monitor, this->corners_, points);
+    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->corners_, points);
   return { sum / static_cast<double>(this->corners_.count), std::isfinite(sum) };
 }
 
-void CornerAngles::gradient(const Points& points, Points& result, Monitor& monitor) const
+void WorstCornerNorm::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  gatherFromGroups<GroupGradient>(
-    this->groups_, this->parts_, result, monitor, this->corners_, points);
+  gatherFromBatches<BatchGradient>(
+    this->batches_, this->parts_, result, monitor, this->corners_, points);
 }
 }

@@ -13,33 +13,33 @@ namespace morph
 /// corner's three edges over the product of their lengths, scaled as in the cell's scaled Jacobian. So the worst corners outweigh all others,
 /// and lengths do not count. Infinite, and no step may end, where an s is not positive. Of a pyramid the corners of its base. Corners
 /// without a free node are left out. Not for two threads at once.
-class CornerAngles : public Objective
+class WorstCornerNorm : public Objective
 {
 public:
   /// `cells`: ids of volume cells; `orientation`: #cells of the mesh; `free`: ids of the nodes that move, ascending; `least`: what s is
   /// held against, above 0. Cost: 50 bytes a corner.
-  CornerAngles(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& cells, const std::vector<Index>& free, double least);
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// Of one corner in each cell of a group: what takes s to 1 in the cell of scaled Jacobian 1, with the cell's sign, over `least`;
+  /// Of one corner in each cell of a batch: what takes s to 1 in the cell of scaled Jacobian 1, with the cell's sign, over `least`;
   /// 0 where the corner does not count.
   struct Scales
   {
-    double factor[LaneCount];
+    double factor[SimdWidth];
   };
   struct Corners
   {
-    std::vector<Scales> scales; ///< as the groups' places, of which a corner has LaneCount
+    std::vector<Scales> scales; ///< as the batches' places, of which a corner has SimdWidth
     Index count = 0;            ///< that count
   };
 
 private:
   std::vector<Index> free_;
-  CellGroups groups_;
+  CellBatches batches_;
   Corners corners_;
   mutable Points parts_; ///< of the gradient, kept from call to call
 };

@@ -8,7 +8,7 @@
 
 namespace morph
 {
-PrincipalAxes::PrincipalAxes(const ConstPoints& vectors)
+ThinSvd3::ThinSvd3(const ConstPoints& vectors)
   : dimension(0)
 {
   constexpr double RankTolerance = 1e-11;

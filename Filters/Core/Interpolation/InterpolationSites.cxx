@@ -138,7 +138,7 @@ double diagonal(const Points& places)
 }
 }
 
-PrescribedSites::PrescribedSites(const Points& points, const std::vector<Index>& ids)
+InterpolationSites::InterpolationSites(const Points& points, const std::vector<Index>& ids)
 {
   const Index n = static_cast<Index>(ids.size());
   if (n == 0)
@@ -224,7 +224,7 @@ PrescribedSites::PrescribedSites(const Points& points, const std::vector<Index>&
   }
 }
 
-Points PrescribedSites::average(const Points& prescribed) const
+Points InterpolationSites::average(const Points& prescribed) const
 {
   Points result(this->size(), 3);
   for (Index s = 0; s < this->size(); ++s)
@@ -245,7 +245,7 @@ Points PrescribedSites::average(const Points& prescribed) const
   return result;
 }
 
-void PrescribedSites::scatterTranspose(const Points& sites, Points& prescribed) const
+void InterpolationSites::scatterTranspose(const Points& sites, Points& prescribed) const
 {
   for (Index i = 0; i < static_cast<Index>(this->siteOf_.size()); ++i)
   {
@@ -255,7 +255,7 @@ void PrescribedSites::scatterTranspose(const Points& sites, Points& prescribed) 
   }
 }
 
-std::size_t PrescribedSites::memory() const
+std::size_t InterpolationSites::memory() const
 {
   return sizeof(double) * this->coordinates_.size() +
          sizeof(Index) * (this->prescribed_.offsets.size() + this->prescribed_.values.size() +

@@ -15,13 +15,13 @@ namespace morph
 /// Sites are numbered by x, then y, then z of their coordinates, so neither the numbers nor the coordinates depend
 /// on how the nodes are numbered; no two sites have equal coordinates, so the order has no ties. A site lies at its
 /// node of smallest x, then y, then z.
-class PrescribedSites
+class InterpolationSites
 {
 public:
-  PrescribedSites() = default;
+  InterpolationSites() = default;
   /// `points`: all nodes; `ids`: the prescribed ones, at least one. Throws Error where there is none, or where the
   /// squares of the extents overflow or underflow. Cost: a sort of the ids; independent of where the nodes lie.
-  PrescribedSites(const Points& points, const std::vector<Index>& ids);
+  InterpolationSites(const Points& points, const std::vector<Index>& ids);
 
   Index size() const { return this->coordinates_.rows(); }
   /// #sites x 3.

@@ -44,7 +44,7 @@ void searchGroup(const NearestNodes& nearest, const Points& places, const Group&
 }
 
 /// Whether the neighbors of a place surround it, or one of them alone decides.
-bool surrounded(const PrescribedSites& prescribed, const Eigen::RowVector3d& x,
+bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& x,
   const NearestNodes::Neighbors& neighbors)
 {
   const double* d = neighbors.squaredDistances;
@@ -62,7 +62,7 @@ bool surrounded(const PrescribedSites& prescribed, const Eigen::RowVector3d& x,
 }
 
 /// Moves the places that their neighbors do not surround on to groups of twice as many neighbors, and so on.
-std::vector<Group> grownGroups(const NearestNodes& nearest, const PrescribedSites& sites,
+std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationSites& sites,
   const Points& places, Group all, Monitor& monitor)
 {
   std::vector<Group> groups;
@@ -133,7 +133,7 @@ void requireModerate(const Points& places)
 }
 }
 
-WeightMatrix inverseDistanceWeights(const PrescribedSites& sites, const Points& places,
+WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
   const Neighborhood& neighborhood, Monitor& monitor)
 {
   requireModerate(sites.coordinates());

@@ -23,6 +23,6 @@ struct Neighborhood
 /// Cost: O(log #sites + count) a place, see NearestNodes; where neighborhoods grow, a second search over all of
 /// them and a hull test (insideConvexHull) for each size tried. Throws Error where the memory does not suffice, and
 /// for coordinates of 1e150 and beyond. Progress runs from 0.1 to 1.
-WeightMatrix inverseDistanceWeights(const PrescribedSites& sites, const Points& places,
+WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
   const Neighborhood& neighborhood, Monitor& monitor);
 }

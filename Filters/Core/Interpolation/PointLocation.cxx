@@ -16,7 +16,7 @@ namespace
 {
 constexpr Index BlockLength = 256;
 constexpr double FlatVolume = 1e-13; // 6 V over the cube of the longest edge
-constexpr double InsideTolerance = EnclosingTetrahedra::InsideTolerance;
+constexpr double InsideTolerance = PointLocation::InsideTolerance;
 constexpr double LinearPrecision = 1e-10; // of the sites' size
 constexpr std::size_t MostCandidates = 200;
 
@@ -128,7 +128,7 @@ Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& fram
 }
 }
 
-EnclosingTetrahedra enclosingTetrahedra(
+PointLocation locatePoints(
   const Delaunay& delaunay, const Points& points, const std::vector<Index>& ids, Monitor& monitor)
 {
   // spatialOrder gives node ids; the rows are wanted.
@@ -143,7 +143,7 @@ EnclosingTetrahedra enclosingTetrahedra(
   monitor.check();
 
   const Index n = static_cast<Index>(ids.size());
-  EnclosingTetrahedra result;
+  PointLocation result;
   result.tetrahedron.resize(n);
   result.barycentric.resize(n, 4);
   std::vector<char> state(n, 0); // 1: outside, 2: not found

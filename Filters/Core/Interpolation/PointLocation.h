@@ -18,7 +18,7 @@ namespace morph
 /// A node on the hull, or beyond it by rounding (coordinates above -1e-9), takes the nearest tetrahedron, the one in which
 /// its least coordinate is largest. The coordinates stay as they are rather than being cut off at 0, so that linear fields are
 /// reproduced exactly; beyond -1e-9 that is extrapolation, and counted.
-struct EnclosingTetrahedra
+struct PointLocation
 {
   static constexpr double InsideTolerance = 1e-9; ///< of a barycentric coordinate
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
@@ -30,6 +30,6 @@ struct EnclosingTetrahedra
 
 /// `points`: all nodes; `ids`: those to find. Throws Error naming nodes that no tetrahedron near them can carry to 1e-10 of the
 /// sites' size. Cost: a microsecond a node, in parallel, and a sort.
-EnclosingTetrahedra enclosingTetrahedra(
+PointLocation locatePoints(
   const Delaunay& delaunay, const Points& points, const std::vector<Index>& ids, Monitor& monitor);
 }

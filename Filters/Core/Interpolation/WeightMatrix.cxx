@@ -101,7 +101,7 @@ void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor)
   free.resize(this->rows(), 3);
   monitor.parallelFor(this->rows(), Grain,
     [&](Index first, Index last)
-    { vectorLoop<MultiplyRow>(first, last, *this, std::as_const(padded), free); });
+    { dispatchedFor<MultiplyRow>(first, last, *this, std::as_const(padded), free); });
 }
 
 void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const

@@ -20,7 +20,7 @@ Eigen::Matrix3d completed(
   const AffineLeastSquares& points, const Points& arms, const AffineFit& fit)
 {
   Eigen::Matrix3d map = Eigen::Matrix3d::Identity() + fit.gradient();
-  const Eigen::Matrix3d axes = PrincipalAxes(arms).axes;
+  const Eigen::Matrix3d axes = ThinSvd3(arms).axes;
   if (points.rank() == 2)
   {
     const Eigen::Vector3d normal = axes.col(0).cross(axes.col(1));
@@ -46,7 +46,7 @@ Eigen::Matrix3d completed(
 
 /// Rows of `all` at those places of the list that belong to each body.
 std::vector<std::vector<Index>> prescribedOfBodies(
-  const Bodies& bodies, const NodePartition& partition)
+  const ConnectedComponents& bodies, const NodePartition& partition)
 {
   std::vector<std::vector<Index>> result(bodies.count);
   for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
@@ -97,7 +97,7 @@ Motion motionOf(const Points& rest, const Points& displacement)
 bool followAffinely(
   const Mesh& rest, const NodePartition& partition, const Points& displacement, Points& points)
 {
-  const Bodies parts = bodies(rest);
+  const ConnectedComponents parts = connectedComponents(rest);
   const std::vector<std::vector<Index>> prescribed = prescribedOfBodies(parts, partition);
   const double size =
     rest.points.rows() > 0

@@ -112,7 +112,8 @@ struct Sectors
 Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& monitor)
 {
   const BoundaryFaces faces = boundaryFaces(mesh, monitor);
-  const std::vector<std::int8_t> sign = orientation(mesh, bodies(mesh)); // of mirrored meshes too
+  const std::vector<std::int8_t> sign =
+    cellSigns(mesh, connectedComponents(mesh)); // of mirrored meshes too
   std::vector<Index> place(mesh.numberOfNodes(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
@@ -152,7 +153,7 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
 /// The cells fill the tessellation: a convex mesh. Much cheaper to find out than its outer faces.
 bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 {
-  const double cells = blockSum(mesh.numberOfCells(), monitor, 0.,
+  const double cells = reproducibleSum(mesh.numberOfCells(), monitor, 0.,
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
@@ -166,12 +167,13 @@ bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
       return n == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
     });
   const auto& tetrahedra = delaunay.tetrahedra();
-  const double hull = blockSum(static_cast<Index>(tetrahedra.size()), monitor, 0.,
+  const double hull = reproducibleSum(static_cast<Index>(tetrahedra.size()), monitor, 0.,
     [&](Index t) { return Delaunay::sixVolumes(tetrahedra[t], delaunay.sites()) / 6; });
   return std::abs(cells - hull) < SameVolume * hull;
 }
 
-bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site, const Vector& d)
+bool leavesMesh(
+  const InterpolationSites& sites, const Sectors& sectors, Index site, const Vector& d)
 {
   // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave by.
   const Index* end = sites.prescribed().end(site);
@@ -185,7 +187,7 @@ bool leavesMesh(const PrescribedSites& sites, const Sectors& sectors, Index site
 }
 
 std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& prescribed,
-  const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used,
+  const InterpolationSites& sites, const Delaunay& delaunay, const std::vector<int>& used,
   Monitor& monitor)
 {
   if (fillsHull(mesh, delaunay, monitor))

@@ -16,6 +16,6 @@ namespace morph
 /// (Baerentzen, Aanaes, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243-253). `prescribed`: the ids the sites are made from.
 /// Cost: the volumes of cells and tetrahedra; where they differ also Topology's boundaryFaces and a few tests a tetrahedron.
 std::vector<int> bridgingTetrahedra(const Mesh& mesh, const std::vector<Index>& prescribed,
-  const PrescribedSites& sites, const Delaunay& delaunay, const std::vector<int>& used,
+  const InterpolationSites& sites, const Delaunay& delaunay, const std::vector<int>& used,
   Monitor& monitor);
 }

@@ -35,14 +35,14 @@ Points rowPositions(const Points& points, const std::vector<Index>& rows)
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
-  const RowComponents& components, const SparseMatrix& coupling)
+  const RowComponents& components, const CsrMatrix& coupling)
   : components_(components)
   , coupled_(components.count)
 {
   for (Index row = 0; row < coupling.rows(); ++row)
   {
     std::vector<int>& columns = this->coupled_[components.of(row)];
-    for (SparseMatrix::InnerIterator entry(coupling, row); entry; ++entry)
+    for (CsrMatrix::InnerIterator entry(coupling, row); entry; ++entry)
     {
       columns.push_back(static_cast<int>(entry.col()));
     }
@@ -88,8 +88,9 @@ std::size_t AffineGuess::memory() const
   return bytes;
 }
 
-void startSystem(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
-  const SparseMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Monitor& monitor)
+void rightHandSideAndGuess(const Points& points, const std::vector<Index>& rows,
+  const AffineGuess& guess, const CsrMatrix& coupling, const Points& prescribed, Points& rhs,
+  Points& x, Monitor& monitor)
 {
   const std::vector<AffineFit> fits = guess.fits(prescribed);
   const Index n = static_cast<Index>(rows.size());
@@ -102,7 +103,7 @@ void startSystem(const Points& points, const std::vector<Index>& rows, const Aff
       {
         x.row(i) = fits[guess.component(i)].displacement(points.row(rows[i]));
         Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (SparseMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+        for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
         {
           sum -= entry.value() * prescribed.row(entry.col());
         }
@@ -111,17 +112,17 @@ void startSystem(const Points& points, const std::vector<Index>& rows, const Aff
     });
 }
 
-Points toRows(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
+Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
 {
   Points result(free.rows(), 3);
   for (Index i = 0; i < free.rows(); ++i)
   {
-    result.row(i) = free.row(placeInFree(rows, partition.free, i));
+    result.row(i) = free.row(indexInFree(rows, partition.free, i));
   }
   return result;
 }
 
-void fromRows(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
+void unpermute(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
   Points& free, Monitor& monitor)
 {
   monitor.parallelFor(x.rows(), Grain,
@@ -129,7 +130,7 @@ void fromRows(const Points& x, const std::vector<Index>& rows, const NodePartiti
     {
       for (Index i = first; i < last; ++i)
       {
-        free.row(placeInFree(rows, partition.free, i)) = x.row(i);
+        free.row(indexInFree(rows, partition.free, i)) = x.row(i);
       }
     });
 }

@@ -28,7 +28,7 @@ public:
   AffineGuess() = default;
   /// `components`: of A_I, copied. Cost: one pass over `coupling`, which is A_B.
   AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
-    const SparseMatrix& coupling);
+    const CsrMatrix& coupling);
 
   /// The fit of each component; `prescribed`: #prescribed x 3 displacements.
   std::vector<AffineFit> fits(const Points& prescribed) const;
@@ -43,13 +43,14 @@ private:
 };
 
 /// `rhs` becomes -A_B U_B, `x` the first guess; both #rows x 3.
-void startSystem(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
-  const SparseMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Monitor& monitor);
+void rightHandSideAndGuess(const Points& points, const std::vector<Index>& rows,
+  const AffineGuess& guess, const CsrMatrix& coupling, const Points& prescribed, Points& rhs,
+  Points& x, Monitor& monitor);
 
 /// From NodePartition::free's order to that of the rows, and back; #free x 3.
 ///@{
-Points toRows(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
-void fromRows(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
+Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
+void unpermute(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
   Points& free, Monitor& monitor);
 ///@}
 }

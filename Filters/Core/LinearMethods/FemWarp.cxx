@@ -47,10 +47,10 @@ bool isCollapsed(const Mesh& mesh, Index cell)
 
 /// Warns of cells that are inverted by their scaled Jacobian or that have no usable volume.
 /// `sign`: #cells, from elementStiffness().
-void reportBadCells(
-  const Mesh& mesh, const Bodies& bodies, const std::vector<std::int8_t>& sign, Monitor& monitor)
+void reportBadCells(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<std::int8_t>& sign, Monitor& monitor)
 {
-  const std::vector<std::int8_t> expected = orientation(mesh, bodies);
+  const std::vector<std::int8_t> expected = cellSigns(mesh, bodies);
   // The method reads no other nodes of quadratic cells.
   const Quality quality = measureCorners(mesh, mesh.points, expected, {}, monitor);
   std::vector<Index> inverted, flat;
@@ -98,7 +98,7 @@ void reportBadCells(
   monitor.warn(text + " Repair the reference mesh if you can.");
 }
 
-CellMatrices cellMatrices(const Mesh& mesh, const Bodies& bodies, Monitor& monitor)
+CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor)
 {
   const Index cells = mesh.numberOfCells();
   CellMatrices result;
@@ -162,13 +162,13 @@ struct TriangleTable
 
 struct System
 {
-  SparseMatrix interior; ///< A_I, #free x #free
-  SparseMatrix coupling; ///< A_B, #free x #prescribed
+  CsrMatrix interior; ///< A_I, #free x #free
+  CsrMatrix coupling; ///< A_B, #free x #prescribed
 };
 
 /// Entries of the free nodes' rows, gathered node by node from the cells around, in ascending order of the cells: the
 /// sums do not depend on the threads.
-System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>& free,
+System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, Monitor& monitor)
 {
   const CellMatrices matrices = cellMatrices(mesh, bodies, monitor);
@@ -241,8 +241,8 @@ System assemble(const Mesh& mesh, const Bodies& bodies, const std::vector<Index>
   monitor.progress(0.4);
 
   System system;
-  openRows(system.interior, rows, interiorSize);
-  openRows(system.coupling, columns, couplingSize);
+  allocateRows(system.interior, rows, interiorSize);
+  allocateRows(system.coupling, columns, couplingSize);
 
   monitor.parallelFor(rows, Grain,
     [&](Index first, Index last)
@@ -296,9 +296,9 @@ void FemWarp::setTolerance(double tolerance)
 void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const NodePartition& partition = this->partition();
-  const Bodies parts = bodies(rest);
+  const ConnectedComponents parts = connectedComponents(rest);
   requirePrescribedBodies(rest, parts, partition);
-  this->rows_ = rowOrder(rest, partition.free);
+  this->rows_ = unknownOrdering(rest, partition.free);
   System system = assemble(rest, parts, this->rows_, partition.prescribed, monitor);
   monitor.check();
   monitor.progress(0.6);
@@ -326,11 +326,11 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   Points rhs, x;
-  startSystem(
+  rightHandSideAndGuess(
     this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
-  fromRows(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
@@ -338,7 +338,7 @@ EvaluateReport FemWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = -A_I^-1 A_B and A_I is symmetric, so M^T g = -A_B^T A_I^-1 g.
-  const Points rhs = toRows(free, this->rows_, this->partition());
+  const Points rhs = permute(free, this->rows_, this->partition());
   Points solution = Points::Zero(free.rows(), 3);
   const SolveReport report =
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);

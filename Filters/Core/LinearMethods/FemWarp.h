@@ -34,9 +34,9 @@ public:
   /// The node id of each matrix row: NodePartition::free, or those ids in a better order for the memory.
   const std::vector<Index>& rows() const { return this->rows_; }
   /// The solver with its matrix A_I (#free x #free, in the order of rows()), for benchmarks and checks.
-  const SparseSolver& solver() const { return this->solver_; }
+  const SpdSolver& solver() const { return this->solver_; }
   /// A_B, #free x #prescribed; rows as above, columns in the order of NodePartition::prescribed.
-  const SparseMatrix& coupling() const { return this->coupling_; }
+  const CsrMatrix& coupling() const { return this->coupling_; }
   /// Bytes that prepare() keeps.
   std::size_t memory() const;
 
@@ -49,8 +49,8 @@ protected:
 private:
   double tolerance_ = 1e-10;
   std::vector<Index> rows_;
-  SparseSolver solver_;
-  SparseMatrix coupling_;
+  SpdSolver solver_;
+  CsrMatrix coupling_;
   AffineGuess guess_;
 };
 }

@@ -36,19 +36,19 @@ struct Chunk
     this->mostIterations = 0;
   }
 
-  void count(Index node, LogBarrierRow::Kind kind, int steps)
+  void count(Index node, NodeWeights::Kind kind, int steps)
   {
     this->iterations += steps;
     this->mostIterations = std::max(this->mostIterations, steps);
-    if (kind == LogBarrierRow::Kind::OneRing)
+    if (kind == NodeWeights::Kind::OneRing)
     {
       return;
     }
     this->outside.push_back(node);
-    this->twoRing += kind == LogBarrierRow::Kind::TwoRing;
-    this->affine += kind == LogBarrierRow::Kind::Affine;
-    this->stiffness += kind == LogBarrierRow::Kind::Stiffness;
-    if (kind == LogBarrierRow::Kind::None)
+    this->twoRing += kind == NodeWeights::Kind::TwoRing;
+    this->affine += kind == NodeWeights::Kind::Affine;
+    this->stiffness += kind == NodeWeights::Kind::Stiffness;
+    if (kind == NodeWeights::Kind::None)
     {
       this->empty.push_back(node);
     }
@@ -85,7 +85,7 @@ struct Chunk
 };
 
 /// Puts the chunks' entries one after another into `matrix`. `sizes`, `column`, `value`: the members of Chunk to take.
-void join(SparseMatrix& matrix, Index rows, Index width, std::vector<Chunk>& chunks,
+void join(CsrMatrix& matrix, Index rows, Index width, std::vector<Chunk>& chunks,
   std::vector<int> Chunk::*sizes, std::vector<int> Chunk::*column,
   std::vector<double> Chunk::*value, Monitor& monitor)
 {
@@ -96,7 +96,7 @@ void join(SparseMatrix& matrix, Index rows, Index width, std::vector<Chunk>& chu
   {
     all.insert(all.end(), (chunk.*sizes).begin(), (chunk.*sizes).end());
   }
-  openRows(matrix, width, all);
+  allocateRows(matrix, width, all);
   monitor.parallelFor(static_cast<Index>(chunks.size()), 1,
     [&](Index first, Index last)
     {
@@ -127,16 +127,16 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   monitor.parallelFor(count, 1,
     [&](Index first, Index last)
     {
-      LogBarrierRow row(mesh, around, columns);
+      NodeWeights row(mesh, around, columns);
       Chunk scratch; // keeps its capacity from chunk to chunk
       for (Index c = first; c < last; ++c)
       {
         scratch.clear();
         for (Index i = c * ChunkRows; i < std::min(n, (c + 1) * ChunkRows); ++i)
         {
-          const LogBarrierRow::Kind kind = row.compute(rows[i], relax);
+          const NodeWeights::Kind kind = row.compute(rows[i], relax);
           scratch.count(rows[i], kind, row.iterations());
-          if (kind == LogBarrierRow::Kind::None)
+          if (kind == NodeWeights::Kind::None)
           {
             scratch.append(static_cast<int>(i), static_cast<int>(n), {}, {});
           }

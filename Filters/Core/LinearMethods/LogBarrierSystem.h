@@ -13,8 +13,8 @@ namespace morph
 /// The equations of LBWARP, (I - W_I) U_I - W_B U_B = 0: rows of sum zero.
 struct LogBarrierSystem
 {
-  SparseMatrix interior; ///< I - W_I, #rows x #rows
-  SparseMatrix coupling; ///< -W_B, #rows x #prescribed
+  CsrMatrix interior; ///< I - W_I, #rows x #rows
+  CsrMatrix coupling; ///< -W_B, #rows x #prescribed
 
   std::vector<Index>
     outside; ///< nodes without log-barrier weights among their neighbors, in the order of the rows
@@ -25,7 +25,7 @@ struct LogBarrierSystem
 };
 
 /// `rows`: the free nodes in the order of the matrix rows. With `relax` nodes outside take the fall-backs of
-/// LogBarrierRow::Kind; without it each of them is in `empty`. Cost: 1 to 2 microseconds a node of a hexahedral mesh.
+/// NodeWeights::Kind; without it each of them is in `empty`. Cost: 1 to 2 microseconds a node of a hexahedral mesh.
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, bool relax, Monitor& monitor);
 }

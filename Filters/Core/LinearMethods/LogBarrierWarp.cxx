@@ -46,8 +46,8 @@ void LogBarrierWarp::setTolerance(double tolerance)
 void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const NodePartition& partition = this->partition();
-  requirePrescribedBodies(rest, bodies(rest), partition);
-  this->rows_ = rowOrder(rest, partition.free);
+  requirePrescribedBodies(rest, connectedComponents(rest), partition);
+  this->rows_ = unknownOrdering(rest, partition.free);
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
   LogBarrierSystem system =
     logBarrierSystem(rest, this->rows_, partition.prescribed, relax, monitor);
@@ -74,16 +74,15 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 
-EvaluateReport LogBarrierWarp::report(
-  const NonsymmetricSolver::Report& solved, Monitor& monitor) const
+EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monitor& monitor) const
 {
   reportRounding(solved, this->tolerance_, monitor);
   EvaluateReport result;
   result.iterations = solved.iterations;
   result.relativeResidual = solved.relativeResidual;
   result.bytesMoved = solved.bytesMoved;
-  result.counts = this->outsideCounts_;
-  result.counts.push_back({ "FallBackIterations", solved.fallBackIterations });
+  result.statistics = this->outsideCounts_;
+  result.statistics.push_back({ "FallBackIterations", solved.fallBackIterations });
   return result;
 }
 
@@ -91,11 +90,11 @@ EvaluateReport LogBarrierWarp::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   Points rhs, x;
-  startSystem(
+  rightHandSideAndGuess(
     this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
-  const NonsymmetricSolver::Report solved =
+  const GeneralSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  fromRows(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
   return this->report(solved, monitor);
 }
 
@@ -103,9 +102,9 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = (I - W_I)^-1 W_B, so M^T g = W_B^T (I - W_I)^-T g.
-  const Points rhs = toRows(free, this->rows_, this->partition());
+  const Points rhs = permute(free, this->rows_, this->partition());
   Points solution = Points::Zero(free.rows(), 3);
-  const NonsymmetricSolver::Report solved =
+  const GeneralSolver::Report solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   return this->report(solved, monitor);

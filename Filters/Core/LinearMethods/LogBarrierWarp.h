@@ -46,9 +46,9 @@ public:
   /// The node id of each matrix row: NodePartition::free, or those ids in a better order for the memory.
   const std::vector<Index>& rows() const { return this->rows_; }
   /// The solver with its matrix I - W_I (#free x #free, in the order of rows()), for benchmarks and checks.
-  const NonsymmetricSolver& solver() const { return this->solver_; }
+  const GeneralSolver& solver() const { return this->solver_; }
   /// -W_B, #free x #prescribed; rows as above, columns in the order of NodePartition::prescribed.
-  const SparseMatrix& coupling() const { return this->coupling_; }
+  const CsrMatrix& coupling() const { return this->coupling_; }
   /// Newton steps that the weights took: the mean over the nodes, and the most.
   double meanWeightIterations() const { return this->meanWeightIterations_; }
   int mostWeightIterations() const { return this->mostWeightIterations_; }
@@ -64,16 +64,16 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  EvaluateReport report(const NonsymmetricSolver::Report& solved, Monitor& monitor) const;
+  EvaluateReport report(const GeneralSolver::Report& solved, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
   OutsideHull outsideHull_ = OutsideHull::Error;
   std::vector<Index> rows_;
-  NonsymmetricSolver solver_;
-  SparseMatrix coupling_;
+  GeneralSolver solver_;
+  CsrMatrix coupling_;
   AffineGuess guess_;
   double meanWeightIterations_ = 0;
   int mostWeightIterations_ = 0;
-  std::vector<Count> outsideCounts_;
+  std::vector<Statistic> outsideCounts_;
 };
 }

@@ -114,7 +114,7 @@ bool LogBarrierWeights::whiten(const double (*offsets)[3], int k, double scale)
 int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double scale)
 {
   const Points d = scale * Eigen::Map<const Points>(offsets[0], k, 3);
-  const PrincipalAxes principal(d);
+  const ThinSvd3 principal(d);
   Eigen::Matrix3d toWhite = Eigen::Matrix3d::Zero();
   for (int c = 0; c < principal.dimension; ++c)
   {

@@ -27,8 +27,7 @@ WeightColumns::WeightColumns(
   }
 }
 
-LogBarrierRow::LogBarrierRow(
-  const Mesh& mesh, const Adjacency& around, const WeightColumns& columns)
+NodeWeights::NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns)
   : mesh_(&mesh)
   , around_(&around)
   , numbers_(&columns)
@@ -36,7 +35,7 @@ LogBarrierRow::LogBarrierRow(
 }
 
 /// Adds the nodes that share a volume cell with `node` and have not been met since the last clear.
-void LogBarrierRow::gather(Index node)
+void NodeWeights::gather(Index node)
 {
   for (const Index* cell = this->around_->begin(node); cell != this->around_->end(node); ++cell)
   {
@@ -55,7 +54,7 @@ void LogBarrierRow::gather(Index node)
 }
 
 /// Adds the neighbors' neighbors.
-void LogBarrierRow::widen()
+void NodeWeights::widen()
 {
   const std::vector<int> ring = this->columns_;
   for (int column : ring)
@@ -65,7 +64,7 @@ void LogBarrierRow::widen()
   std::sort(this->columns_.begin(), this->columns_.end());
 }
 
-void LogBarrierRow::takeOffsets(Index node)
+void NodeWeights::takeOffsets(Index node)
 {
   const double* origin = this->mesh_->points.data() + 3 * node;
   this->offsets_.resize(this->columns_.size());
@@ -76,7 +75,7 @@ void LogBarrierRow::takeOffsets(Index node)
   }
 }
 
-bool LogBarrierRow::logBarrier()
+bool NodeWeights::logBarrier()
 {
   this->weights_.resize(this->columns_.size());
   const LogBarrierWeights::Result result =
@@ -88,7 +87,7 @@ bool LogBarrierRow::logBarrier()
 
 /// min |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) / k, m the mean and C the
 /// covariance of the d_j.
-bool LogBarrierRow::leastNormAffine()
+bool NodeWeights::leastNormAffine()
 {
   const Index k = static_cast<Index>(this->offsets_.size());
   if (k == 0)
@@ -99,7 +98,7 @@ bool LogBarrierRow::leastNormAffine()
   const double size = d.cwiseAbs().maxCoeff();
   const Eigen::RowVector3d mean = d.colwise().mean() / size;
   const Points centred = (d / size).rowwise() - mean;
-  const PrincipalAxes principal(centred);
+  const ThinSvd3 principal(centred);
   Eigen::VectorXd w = Eigen::VectorXd::Constant(k, 1. / static_cast<double>(k));
   for (int c = 0; c < principal.dimension; ++c)
   {
@@ -117,7 +116,7 @@ bool LogBarrierRow::leastNormAffine()
   return true;
 }
 
-bool LogBarrierRow::stiffness(Index node)
+bool NodeWeights::stiffness(Index node)
 {
   const int own = this->numbers_->ofNode[node];
   double diagonal = 0;
@@ -159,7 +158,7 @@ bool LogBarrierRow::stiffness(Index node)
   return diagonal > 0 && std::isfinite(1 / diagonal);
 }
 
-LogBarrierRow::Kind LogBarrierRow::compute(Index node, bool relax)
+NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
 {
   const auto oneRing = [&]
   {

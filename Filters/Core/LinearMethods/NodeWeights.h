@@ -22,7 +22,7 @@ struct WeightColumns
 
 /// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them. One object per
 /// thread.
-class LogBarrierRow
+class NodeWeights
 {
 public:
   /// Where the weights come from.
@@ -36,7 +36,7 @@ public:
   };
 
   /// The arguments must outlive this object. `around`: nodeToCells(mesh).
-  LogBarrierRow(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
+  NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
 
   /// Weights of `node`. With `relax` the kinds are tried in their order, without it only the first is.
   Kind compute(Index node, bool relax);

@@ -24,7 +24,7 @@ std::vector<int> distinct(std::vector<int> values)
 
 /// Outside the hull a tetrahedron's weights are of any size, and its corners' motions count by them.
 void warnOfLargeWeights(
-  const EnclosingTetrahedra& enclosing, const std::vector<Index>& ids, Monitor& monitor)
+  const PointLocation& enclosing, const std::vector<Index>& ids, Monitor& monitor)
 {
   constexpr double Large = 10;
   double largest = 0;
@@ -49,8 +49,8 @@ void warnOfLargeWeights(
   }
 }
 
-void fillWeights(const Delaunay& delaunay, const EnclosingTetrahedra& enclosing,
-  WeightMatrix& weights, Monitor& monitor)
+void fillWeights(
+  const Delaunay& delaunay, const PointLocation& enclosing, WeightMatrix& weights, Monitor& monitor)
 {
   const Index rows = static_cast<Index>(enclosing.tetrahedron.size());
   weights.open(rows, delaunay.sites().rows(), 4);
@@ -69,12 +69,12 @@ void fillWeights(const Delaunay& delaunay, const EnclosingTetrahedra& enclosing,
 
 void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  this->sites_ = PrescribedSites(rest.points, this->partition().prescribed);
+  this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   monitor.progress(0.1);
   this->delaunay_.build(this->sites_.coordinates(), monitor);
   monitor.progress(0.6);
-  const EnclosingTetrahedra enclosing =
-    enclosingTetrahedra(this->delaunay_, rest.points, this->partition().free, monitor);
+  const PointLocation enclosing =
+    locatePoints(this->delaunay_, rest.points, this->partition().free, monitor);
   monitor.progress(0.8);
   warnOfLargeWeights(enclosing, this->partition().free, monitor);
   fillWeights(this->delaunay_, enclosing, this->weights_, monitor);
@@ -93,7 +93,7 @@ EvaluateReport SimplexLinear::displace(
   monitor.check();
 
   const Points moved = this->delaunay_.sites() + displacement;
-  const Index folded = blockSum(static_cast<Index>(this->used_.size()), monitor, Index(0),
+  const Index folded = reproducibleSum(static_cast<Index>(this->used_.size()), monitor, Index(0),
     [&](Index i)
     {
       const Delaunay::Tetrahedron& tetrahedron = this->delaunay_.tetrahedra()[this->used_[i]];
@@ -102,7 +102,7 @@ EvaluateReport SimplexLinear::displace(
   EvaluateReport report;
   report.bytesMoved =
     static_cast<double>(this->weights_.memory()) + 48. * static_cast<double>(free.rows());
-  report.counts = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
+  report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
     { "ExtrapolatedNodes", this->extrapolated_ } };
   return report;
 }

@@ -30,7 +30,7 @@ class SimplexLinear : public LinearMorpher
 public:
   const Delaunay& tessellation() const { return this->delaunay_; }
   /// The sites that the tessellation's numbers stand for.
-  const PrescribedSites& sites() const { return this->sites_; }
+  const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, four entries a row.
   const WeightMatrix& weights() const { return this->weights_; }
   /// Bytes that prepare() keeps.
@@ -43,7 +43,7 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  PrescribedSites sites_;
+  InterpolationSites sites_;
   Delaunay delaunay_;
   WeightMatrix weights_;
   std::vector<int> used_; ///< tetrahedra with free nodes in them, ascending

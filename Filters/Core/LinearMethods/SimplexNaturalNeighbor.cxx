@@ -40,7 +40,7 @@ bool SimplexNaturalNeighbor::weightsOf(Index place, NaturalNeighbors::Workspace&
   const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
   const int inside = this->enclosing_.tetrahedron[place];
   const auto barycentric = this->enclosing_.barycentric.row(place);
-  if (barycentric.minCoeff() >= -EnclosingTetrahedra::InsideTolerance &&
+  if (barycentric.minCoeff() >= -PointLocation::InsideTolerance &&
       this->neighbors_.compute(x, inside, this->coordinates_, work))
   {
     return true;
@@ -115,9 +115,9 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const std::vector<Index>& free = this->partition().free;
   this->stored_.clear();
-  this->sites_ = PrescribedSites(rest.points, this->partition().prescribed);
+  this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   this->delaunay_.build(this->sites_.coordinates(), monitor);
-  this->enclosing_ = enclosingTetrahedra(this->delaunay_, rest.points, free, monitor);
+  this->enclosing_ = locatePoints(this->delaunay_, rest.points, free, monitor);
   this->neighbors_ = NaturalNeighbors(this->delaunay_, monitor);
   this->order_ = placesInOrder(rest.points, free);
   monitor.progress(0.05);
@@ -187,7 +187,7 @@ EvaluateReport SimplexNaturalNeighbor::displace(
   {
     report.bytesMoved += static_cast<double>(weights.memory());
   }
-  report.counts = { { "BarycentricNodes", barycentric },
+  report.statistics = { { "BarycentricNodes", barycentric },
     { "ExtrapolatedNodes", static_cast<Index>(this->enclosing_.extrapolated.size()) },
     { "WeightsStored", this->stored_.empty() ? 0 : 1 } };
   return report;

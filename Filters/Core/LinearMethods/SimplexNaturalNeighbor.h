@@ -37,7 +37,7 @@ public:
   void setMemoryLimit(std::size_t bytes) { this->memoryLimit_ = bytes; }
 
   /// The sites that the numbers in weightsOf() stand for.
-  const PrescribedSites& sites() const { return this->sites_; }
+  const InterpolationSites& sites() const { return this->sites_; }
   /// Calls `use` with the place in NodePartition::free, the sites and the weights of one node after another, for checks.
   void forEachNode(
     const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
@@ -62,10 +62,10 @@ private:
 
   Coordinates coordinates_ = Coordinates::Sibson;
   std::size_t memoryLimit_ = 4000000000;
-  PrescribedSites sites_;
+  InterpolationSites sites_;
   Delaunay delaunay_;
   NaturalNeighbors neighbors_;
-  EnclosingTetrahedra enclosing_;
+  PointLocation enclosing_;
   std::vector<Index> order_; ///< places in NodePartition::free, along a space-filling curve
   std::vector<WeightMatrix>
     stored_; ///< one a block of nodes in that order; empty where they are computed anew

@@ -42,7 +42,7 @@ void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const std::vector<Index>& free = this->partition().free;
   const Index rows = static_cast<Index>(free.size());
-  this->sites_ = PrescribedSites(rest.points, this->partition().prescribed);
+  this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   this->fit_ = AffineLeastSquares(this->sites_.coordinates());
   this->freePlaces_.resize(rows, 3);
   for (Index i = 0; i < rows; ++i)

@@ -13,7 +13,7 @@ namespace morph
 ///
 /// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of
 /// Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the square that least squares
-/// have. With sites b_k (see PrescribedSites), their displacements U_k and the fit L:
+/// have. With sites b_k (see InterpolationSites), their displacements U_k and the fit L:
 ///
 ///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),    w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
 ///
@@ -43,7 +43,7 @@ public:
   bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
 
   /// The sites that the weights' columns stand for.
-  const PrescribedSites& sites() const { return this->sites_; }
+  const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
   const WeightMatrix& weights() const { return this->weights_; }
   /// Bytes that prepare() keeps.
@@ -61,7 +61,7 @@ private:
 
   Index numberOfNeighbors_ = 80;
   bool adaptiveNeighbors_ = false;
-  PrescribedSites sites_;
+  InterpolationSites sites_;
   AffineLeastSquares fit_;
   Points freePlaces_; ///< #free x 3
   WeightMatrix weights_;

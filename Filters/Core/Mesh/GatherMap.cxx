@@ -3,7 +3,7 @@
 
 namespace morph
 {
-std::vector<std::int32_t> placesIn(const std::vector<Index>& ids, Index nodes)
+std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index nodes)
 {
   std::vector<std::int32_t> place(nodes, -1);
   for (std::size_t i = 0; i < ids.size(); ++i)
@@ -13,7 +13,7 @@ std::vector<std::int32_t> placesIn(const std::vector<Index>& ids, Index nodes)
   return place;
 }
 
-Adjacency placesOfRows(Index places, Index rows, const std::function<Index(Index place)>& rowOf)
+Adjacency gatherMap(Index places, Index rows, const std::function<Index(Index place)>& rowOf)
 {
   Adjacency result;
   result.offsets.assign(rows + 1, 0);
@@ -42,7 +42,7 @@ Adjacency placesOfRows(Index places, Index rows, const std::function<Index(Index
   return result;
 }
 
-void sumOverPlaces(const Adjacency& places, const Points& parts, Points& result, Monitor& monitor)
+void gatherSum(const Adjacency& places, const Points& parts, Points& result, Monitor& monitor)
 {
   constexpr Index Grain = 1024;
   result.resize(static_cast<Index>(places.offsets.size()) - 1, 3);

@@ -66,7 +66,7 @@ void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen:
 
 void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
 {
-  this->ids_ = partition.followers;
+  this->ids_ = partition.higherOrderNodes;
   this->weights_.resize(static_cast<Index>(this->ids_.size()), rest.numberOfNodes());
   if (this->ids_.empty())
   {

@@ -16,16 +16,16 @@ namespace morph
 class HigherOrderNodes
 {
 public:
-  /// Cost: a few Newton steps per follower and cell.
+  /// Cost: a few Newton steps per higher-order node and cell.
   void prepare(const Mesh& rest, const NodePartition& partition);
   bool empty() const { return this->ids_.empty(); }
-  /// `displacement`: #nodes x 3; fills the followers' rows from the corners' rows.
+  /// `displacement`: #nodes x 3; fills the higher-order nodes' rows from the corners' rows.
   void apply(Points& displacement) const;
-  /// Adds the followers' rows to the corners' rows, by the same weights, and sets them to zero.
+  /// Adds the higher-order nodes' rows to the corners' rows, by the same weights, and sets them to zero.
   void applyTranspose(Points& gradient) const;
 
 private:
   std::vector<Index> ids_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> weights_; ///< #followers x #nodes
+  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> weights_; ///< #higherOrderNodes x #nodes
 };
 }

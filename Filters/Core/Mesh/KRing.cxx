@@ -8,10 +8,10 @@
 
 namespace morph
 {
-CellPatch cellPatch(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& seeds, int rings)
 {
-  CellPatch patch;
+  KRing patch;
   patch.cells = seeds;
   std::vector<char> isNode(mesh.numberOfNodes(), 0), isCell(mesh.numberOfCells(), 0);
   for (Index c : seeds)

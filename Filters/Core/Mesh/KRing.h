@@ -7,15 +7,15 @@
 
 namespace morph
 {
-/// Cells with rings of cells round them, for work on a part of a mesh.
-struct CellPatch
+/// The k-ring neighborhood of a set of cells, for work on a part of a mesh.
+struct KRing
 {
-  std::vector<Index> nodes; ///< corners of `inner`, those that are free, ascending
-  std::vector<Index> cells; ///< all that have a corner of `inner`, ascending
+  std::vector<Index> nodes; ///< free corners of the seeds and of the rings, ascending
+  std::vector<Index> cells; ///< all cells with such a corner, ascending
 };
 
-/// `seeds`: cell ids; inner are they and `rings` rings round them. `around`: nodeToCells(); `free`: node ids, ascending. Cost: passes
+/// `seeds`: cell ids, with `rings` rings of cells round them. `around`: nodeToCells(); `free`: node ids, ascending. Cost: passes
 /// over the nodes and the patch.
-CellPatch cellPatch(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& seeds, int rings);
 }

@@ -71,13 +71,14 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
     }
     else if (role[n] == Follower)
     {
-      partition.followers.push_back(n);
+      partition.higherOrderNodes.push_back(n);
     }
   }
   return partition;
 }
 
-void requirePrescribedBodies(const Mesh& mesh, const Bodies& parts, const NodePartition& partition)
+void requirePrescribedBodies(
+  const Mesh& mesh, const ConnectedComponents& parts, const NodePartition& partition)
 {
   std::vector<std::uint8_t> held(parts.count, 0);
   for (Index id : partition.prescribed)

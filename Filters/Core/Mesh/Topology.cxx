@@ -233,7 +233,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   return result;
 }
 
-Bodies bodies(const Mesh& mesh)
+ConnectedComponents connectedComponents(const Mesh& mesh)
 {
   const Index nodes = mesh.numberOfNodes();
   std::vector<Index> parent(nodes);
@@ -248,7 +248,7 @@ Bodies bodies(const Mesh& mesh)
     return n;
   };
 
-  Bodies result;
+  ConnectedComponents result;
   result.ofCell.assign(mesh.numberOfCells(), -1);
   result.ofNode.assign(nodes, -1);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -289,7 +289,7 @@ Bodies bodies(const Mesh& mesh)
   return result;
 }
 
-std::vector<std::int8_t> orientation(const Mesh& mesh, const Bodies& bodies)
+std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies)
 {
   const Index cells = mesh.numberOfCells();
   constexpr int Shapes = static_cast<int>(Shape::Pyramid) + 1;

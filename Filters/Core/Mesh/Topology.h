@@ -32,18 +32,18 @@ Adjacency nodeToCells(const Mesh& mesh);
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor);
 
 /// Bodies: volume cells that hang together through shared corners.
-struct Bodies
+struct ConnectedComponents
 {
   Index count = 0;
   std::vector<Index> ofCell; ///< #cells, body number, or -1 for a cell that is not a volume cell
   std::vector<Index>
     ofNode; ///< #nodes, body number, or -1 for a node that is no corner of a volume cell
 };
-Bodies bodies(const Mesh& mesh);
+ConnectedComponents connectedComponents(const Mesh& mesh);
 
 /// +1 or -1 for each cell: the order its node list was written in, one sign per body and shape, from the
 /// summed signed volume; a single tet, hex or pyramid in a body is taken as VTK orders it (+1).
 /// A body mirrored as a whole, or wedges in VTK's older order, are then measured as valid, while a cell that is
 /// inverted among valid neighbors stays inverted. Cells below dimension 3: +1.
-std::vector<std::int8_t> orientation(const Mesh& mesh, const Bodies& bodies);
+std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
 }

@@ -9,7 +9,7 @@
 
 namespace morph
 {
-std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
+std::vector<Index> unknownOrdering(const Mesh& mesh, const std::vector<Index>& free)
 {
   constexpr Index Small = 10000;       // fits a cache in any order
   constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
@@ -34,7 +34,7 @@ std::vector<Index> rowOrder(const Mesh& mesh, const std::vector<Index>& free)
   return far ? spatialOrder(mesh.points, free) : free;
 }
 
-Index placeInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row)
+Index indexInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row)
 {
   if (rows[row] == free[row])
   {

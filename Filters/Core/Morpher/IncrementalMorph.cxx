@@ -38,12 +38,12 @@ double lastAllowed(const SubStepLimits& limits)
 }
 }
 
-SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
+SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
   const SubStepLimits& limits, Monitor& whole)
 {
-  SubMonitor monitor(whole, 0, 1);
+  ProgressRange monitor(whole, 0, 1);
   const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
   if (!atRest.empty())
   {
@@ -69,7 +69,7 @@ SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
     monitor.check();
     const double end = std::min(1., result.reached + step);
     const double middle = (result.reached + end) / 2;
-    SubMonitor first(monitor, result.reached, middle), second(monitor, middle, end);
+    ProgressRange first(monitor, result.reached, middle), second(monitor, middle, end);
     const double time =
       result.reached + step >= goal - limits.least / 2 ? goal : result.reached + step;
     std::unique_ptr<Morpher> morpher = make();

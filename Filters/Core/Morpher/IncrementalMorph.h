@@ -46,7 +46,7 @@ struct SubStepResult
 /// prepared yet; its setReference() is given `reference`, #nodes x 3. `orientation`: #cells, of the rest mesh. Throws Error for a rest mesh
 /// with inverted cells, and what prepare() throws at the first attempt. Cost: an attempt's prepare() and
 /// evaluate(), at most `limits.attempts` times, of which at most `limits.failures` in vain.
-SubStepResult followInSubSteps(const Mesh& rest, const Points& reference,
+SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
   const SubStepLimits& limits, Monitor& monitor);

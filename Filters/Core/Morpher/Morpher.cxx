@@ -83,11 +83,11 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
   this->rest_ = rest.points;
   this->partition_ = partition;
   this->outside_ = outside(partition, rest.points.rows());
-  this->followers_.prepare(rest, partition);
+  this->higherOrderNodes_.prepare(rest, partition);
   monitor.check();
   if (!partition.free.empty())
   {
-    SubMonitor whole(monitor, 0, 1);
+    ProgressRange whole(monitor, 0, 1);
     this->doPrepare(rest, whole);
   }
   this->prepared_ = true;
@@ -112,7 +112,7 @@ Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) 
 {
   const std::vector<Index>& ids = this->partition_.prescribed;
   Points displacement(static_cast<Index>(ids.size()), 3);
-  const Index bad = blockSum(displacement.rows(), monitor, Index(0),
+  const Index bad = reproducibleSum(displacement.rows(), monitor, Index(0),
     [&](Index i)
     {
       displacement.row(i) = prescribed.row(i) - this->rest_.row(ids[i]);
@@ -148,12 +148,12 @@ EvaluateReport Morpher::evaluate(
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
   EvaluateReport report;
-  SubMonitor whole(monitor, 0, 1);
+  ProgressRange whole(monitor, 0, 1);
   if (freeDisplacement.rows() > 0)
   {
     report = this->displace(displacement, freeDisplacement, whole);
   }
-  if (blockSum(freeDisplacement.rows(), monitor, Index(0),
+  if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
         [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
   {
     throw Error("The positions found are not finite (NaN or infinite) at node ids " +
@@ -167,7 +167,7 @@ EvaluateReport Morpher::evaluate(
   Points fresh;
   Points& result = moved.rows() == this->rest_.rows() && !overlaps ? moved : fresh;
   result.resize(this->rest_.rows(), 3);
-  if (this->followers_.empty())
+  if (this->higherOrderNodes_.empty())
   {
     monitor.parallelFor(freeDisplacement.rows(), Grain,
       [&](Index first, Index last)
@@ -193,7 +193,7 @@ EvaluateReport Morpher::evaluate(
     {
       all.row(ids[i]) = displacement.row(i);
     }
-    this->followers_.apply(all);
+    this->higherOrderNodes_.apply(all);
     for (Index n = 0; n < all.rows(); ++n)
     {
       this->place(n, all.row(n), result);
@@ -222,13 +222,13 @@ EvaluateReport LinearMorpher::applyTranspose(
   {
     throw Error("The gradient has entries that are not finite (NaN or infinite).");
   }
-  // Prescribed nodes go through no weights: what followers hand to them is theirs as well.
-  this->followers_.applyTranspose(all);
+  // Prescribed nodes go through no weights: what higher-order nodes hand to them is theirs as well.
+  this->higherOrderNodes_.applyTranspose(all);
   Points result = rowsOf(all, this->partition().prescribed);
   EvaluateReport report;
   if (!this->partition().free.empty())
   {
-    SubMonitor whole(monitor, 0, 1);
+    ProgressRange whole(monitor, 0, 1);
     report = this->displaceTranspose(rowsOf(all, this->partition().free), result, whole);
   }
   prescribed.swap(result);

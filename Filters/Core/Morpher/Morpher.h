@@ -12,7 +12,7 @@
 namespace morph
 {
 /// A number that the method found worth telling, for instance how many nodes took a fall-back.
-struct Count
+struct Statistic
 {
   std::string name;
   Index value = 0;
@@ -24,7 +24,8 @@ struct EvaluateReport
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
   double relativeResidual = 0; ///< largest over the three coordinates, 0 for direct formulas
   double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
-  std::vector<Count> counts;   ///< always the same names for a method; none where no node is free
+  std::vector<Statistic>
+    statistics; ///< always the same names for a method; none where no node is free
 };
 
 /// A morphing method, one subclass per method. prepare() does all that depends on the rest mesh and on which
@@ -68,7 +69,7 @@ protected:
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
 
-  HigherOrderNodes followers_;
+  HigherOrderNodes higherOrderNodes_;
 
   /// Throws Error unless the last prepare() succeeded.
   void requirePrepared() const;

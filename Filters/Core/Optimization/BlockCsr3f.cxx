@@ -26,10 +26,9 @@ using Row = Eigen::RowVector3d;
 /// A row of the matrix times a vector, a column of a block at once; the fourth lane means nothing.
 struct RowProduct
 {
-  static MORPH_LANES_INLINE void run(
-    Index row, const BlockMatrix& matrix, const Points& x, Points& y)
+  static MORPH_SIMD_INLINE void run(Index row, const BlockCsr3f& matrix, const Points& x, Points& y)
   {
-    Lanes sum[3] = {};
+    SimdDouble4 sum[3] = {};
     const std::int32_t* column = matrix.columns(row);
     const float* end = matrix.blocks(row + 1);
     for (const float* block = matrix.blocks(row); block != end; block += 9, ++column)
@@ -37,12 +36,12 @@ struct RowProduct
       const double* v = x.data() + 3 * static_cast<Index>(*column);
       for (Index j = 0; j < 3; ++j)
       {
-        FloatLanes entries;
+        SimdFloat4 entries;
         std::memcpy(&entries, block + 3 * j, sizeof(entries));
-        sum[j] += __builtin_convertvector(entries, Lanes) * v[j];
+        sum[j] += __builtin_convertvector(entries, SimdDouble4) * v[j];
       }
     }
-    const Lanes whole = sum[0] + sum[1] + sum[2];
+    const SimdDouble4 whole = sum[0] + sum[1] + sum[2];
     for (int i = 0; i < 3; ++i)
     {
       y(row, i) = whole[i];
@@ -52,7 +51,7 @@ struct RowProduct
 
 double dot(const Points& a, const Points& b, Monitor& monitor)
 {
-  return blockSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
+  return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 }
 
@@ -62,21 +61,21 @@ PatternId::PatternId()
   this->number_ = ++last;
 }
 
-void BlockMatrix::open(const PatternId& id, BlockPattern pattern)
+void BlockCsr3f::open(const PatternId& id, BlockPattern pattern)
 {
   this->id_ = id.number();
   this->pattern_ = std::move(pattern);
   this->values_.assign(9 * this->pattern_.columns.size() + Padding, 0.f);
 }
 
-void BlockMatrix::multiply(const Points& x, Points& y, Monitor& monitor) const
+void BlockCsr3f::multiply(const Points& x, Points& y, Monitor& monitor) const
 {
   y.resize(this->rows(), 3);
   monitor.parallelFor(this->rows(), Grain,
-    [&](Index first, Index last) { vectorLoop<RowProduct>(first, last, *this, x, y); });
+    [&](Index first, Index last) { dispatchedFor<RowProduct>(first, last, *this, x, y); });
 }
 
-int BlockMatrix::solve(
+int BlockCsr3f::solve(
   const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const
 {
   const Index n = this->rows();
@@ -154,7 +153,7 @@ int BlockMatrix::solve(
   return iteration;
 }
 
-std::size_t BlockMatrix::memory() const
+std::size_t BlockCsr3f::memory() const
 {
   return sizeof(Index) * (this->pattern_.offsets.size() + this->pattern_.placeOffsets.size()) +
          sizeof(std::int32_t) * (this->pattern_.columns.size() + this->pattern_.places.size()) +

@@ -43,7 +43,7 @@ struct BlockPattern
 
 /// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, both triangles, in single precision: it only gives
 /// directions of search, and half the bytes are half the time.
-class BlockMatrix
+class BlockCsr3f
 {
 public:
   /// `id`: the owner's, by which it later recognises its pattern.

@@ -20,7 +20,7 @@ constexpr double FirstStep = 1e-3; // of the mesh's size
 
 double dot(const Points& a, const Points& b, Monitor& monitor)
 {
-  return blockSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
+  return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
 /// to += factor * from
@@ -171,7 +171,7 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
 Objective::~Objective() = default;
 
 Objective::Value newton(const SecondOrderObjective& objective, Points& points,
-  const MinimizerLimits& limits, BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor)
+  const MinimizerLimits& limits, BlockCsr3f& matrix, MinimizerEffort& effort, Monitor& monitor)
 {
   ++effort.evaluations;
   Objective::Value value = objective.value(points, monitor);

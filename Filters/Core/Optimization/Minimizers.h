@@ -26,7 +26,7 @@ struct MinimizerLimits
 /// result out; only the objective's free nodes move, and the energy never rises. `matrix`: room for the second derivatives, kept between calls.
 /// Returns the value at the end. Throws Error of kind Cancelled, leaving `points` at the last step.
 Objective::Value newton(const SecondOrderObjective& objective, Points& points,
-  const MinimizerLimits& limits, BlockMatrix& matrix, MinimizerEffort& effort, Monitor& monitor);
+  const MinimizerLimits& limits, BlockCsr3f& matrix, MinimizerEffort& effort, Monitor& monitor);
 
 /// The limited-memory BFGS method (Liu, Nocedal, Math. Program. 45 (1989) 503-528) with the last ten steps: no matrix, 0.5 kB a
 /// free node. Otherwise as newton().

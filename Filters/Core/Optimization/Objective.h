@@ -35,6 +35,6 @@ class SecondOrderObjective : public Objective
 public:
   /// A positive semi-definite approximation of the second derivatives, #free x #free blocks; a matrix that this
   /// objective has not filled before is opened first.
-  virtual void hessian(const Points& points, BlockMatrix& result, Monitor& monitor) const = 0;
+  virtual void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const = 0;
 };
 }

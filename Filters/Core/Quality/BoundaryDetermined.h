@@ -13,7 +13,7 @@ namespace morph
 /// nodes, it and its neighbors along the edges, are all prescribed and span no positive volume; or
 /// no place of one free node makes all corners of the cell positive of which it is the only free
 /// node (CommonPoint.h: proved, over exact numbers). Ids, ascending. `points`: #nodes x 3, read at
-/// the prescribed nodes alone. `orientation`: #cells, see Topology's orientation(). Cost: one pass
+/// the prescribed nodes alone. `orientation`: #cells, see Topology's cellSigns(). Cost: one pass
 /// over the cells.
 std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points);

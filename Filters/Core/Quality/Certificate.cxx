@@ -161,7 +161,7 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
     return { found == Certificate::Certified, found == Certificate::Inverted,
       found == Certificate::Undecided };
   };
-  const Counts counts = blockSum(cells, monitor, Counts(), examine);
+  const Counts counts = reproducibleSum(cells, monitor, Counts(), examine);
   monitor.check();
   report.certified = counts.certified;
   report.inverted = counts.inverted;

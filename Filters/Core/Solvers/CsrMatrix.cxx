@@ -17,7 +17,7 @@ void requireEntries(Index entries)
   }
 }
 
-void openRows(SparseMatrix& matrix, Index width, const std::vector<int>& sizes)
+void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes)
 {
   const Index entries = std::accumulate(sizes.begin(), sizes.end(), Index(0));
   requireEntries(entries);

@@ -10,12 +10,12 @@
 namespace morph
 {
 /// Compressed rows, 12 bytes an entry.
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 /// Throws Error for more entries than an int can number.
 void requireEntries(Index entries);
 
 /// Gives `matrix` the size (#sizes - 1) x width with room for sizes[i + 1] entries in row i, columns and values not
 /// set; sizes[0] is 0. Throws Error as requireEntries().
-void openRows(SparseMatrix& matrix, Index width, const std::vector<int>& sizes);
+void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes);
 }

@@ -24,8 +24,8 @@ constexpr int StagnationWindow = 24;     // iterations
 constexpr double StagnationFactor = 0.1; // that they must gain
 constexpr int Warm = 8;                  // iterations that a first run may take to find its way
 
-using Row = ThreeColumns;
-using Rows = ThreeColumnRows;
+using Row = MultiVectorRow;
+using Rows = MultiVector;
 using Two = Eigen::Matrix<double, 4, 2>; ///< two sums in one pass
 
 struct Workspace
@@ -64,9 +64,9 @@ Eigen::Array4i above(const Row& norm2, const Row& goal2)
 }
 
 /// A or its transpose, with the hierarchy that goes with it.
-struct NonsymmetricSolver::System
+struct GeneralSolver::System
 {
-  SparseMatrix A;
+  CsrMatrix A;
   RowComponents components;
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
@@ -93,7 +93,7 @@ struct NonsymmetricSolver::System
     for (int i = 0; i < this->A.rows(); ++i)
     {
       double sum = 0;
-      for (SparseMatrix::InnerIterator entry(this->A, i); entry; ++entry)
+      for (CsrMatrix::InnerIterator entry(this->A, i); entry; ++entry)
       {
         sum += std::abs(entry.value());
       }
@@ -121,19 +121,18 @@ struct NonsymmetricSolver::System
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 };
 
-Row NonsymmetricSolver::System::trueResidual(
-  const Points& b, Workspace& work, Monitor& monitor) const
+Row GeneralSolver::System::trueResidual(const Points& b, Workspace& work, Monitor& monitor) const
 {
-  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+  return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index i)
     {
-      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      work.residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, work.solution);
       return Row(work.residual[i].cwiseAbs2());
     });
 }
 
 /// step = B (scale v).
-void NonsymmetricSolver::System::precondition(
+void GeneralSolver::System::precondition(
   const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const
 {
   monitor.parallelFor(this->A.rows(), Grain,
@@ -147,7 +146,7 @@ void NonsymmetricSolver::System::precondition(
   this->preconditioner.apply(work.scaled, step, work.multigrid, monitor);
 }
 
-void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
+void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
   int maxIterations, Report& report, Monitor& monitor,
   const std::function<void(double)>& progress) const
 {
@@ -204,10 +203,10 @@ void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     rescale();
     const Row firstUnscale = unscale;
     this->precondition(direction, scale, work, work.step, monitor);
-    const Row along = blockSum(n, monitor, zero,
+    const Row along = reproducibleSum(n, monitor, zero,
       [&](Index i)
       {
-        image[i] = rowTimes(this->A, i, work.step).cwiseProduct(firstUnscale);
+        image[i] = rowProduct(this->A, i, work.step).cwiseProduct(firstUnscale);
         return Row(image[i].cwiseProduct(work.shadow[i]));
       });
     ++report.iterations;
@@ -216,7 +215,7 @@ void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     {
       return;
     }
-    norm2 = blockSum(n, monitor, zero,
+    norm2 = reproducibleSum(n, monitor, zero,
       [&](Index i)
       {
         residual[i] -= alpha.cwiseProduct(image[i]);
@@ -232,10 +231,10 @@ void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
 
     rescale();
     this->precondition(residual, scale, work, work.secondStep, monitor);
-    const Two products = blockSum(n, monitor, Two(Two::Zero()),
+    const Two products = reproducibleSum(n, monitor, Two(Two::Zero()),
       [&](Index i)
       {
-        second[i] = rowTimes(this->A, i, work.secondStep).cwiseProduct(unscale);
+        second[i] = rowProduct(this->A, i, work.secondStep).cwiseProduct(unscale);
         Two pair;
         pair << second[i].cwiseProduct(residual[i]), second[i].cwiseAbs2();
         return pair;
@@ -246,7 +245,7 @@ void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
     {
       return;
     }
-    const Two sums = blockSum(n, monitor, Two(Two::Zero()),
+    const Two sums = reproducibleSum(n, monitor, Two(Two::Zero()),
       [&](Index i)
       {
         work.solution[i] +=
@@ -292,18 +291,18 @@ void NonsymmetricSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspac
   }
 }
 
-NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
+GeneralSolver::Report GeneralSolver::System::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
-  const Row bNorm2 = blockSum(
-    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
+  const Row bNorm2 = reproducibleSum(
+    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(toRow(b.row(i)).cwiseAbs2()); });
   const auto start = [&]
   {
     for (Index i = 0; i < n; ++i)
     {
-      work->solution[i] = lift(x.row(i));
+      work->solution[i] = toRow(x.row(i));
     }
     return keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, *work, monitor),
       work->solution, work->residual, monitor);
@@ -326,7 +325,7 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
   // The residual that rounding leaves in b - A x for such an x.
   const auto reachable2 = [&]
   {
-    const Row xNorm2 = blockSum(
+    const Row xNorm2 = reproducibleSum(
       n, monitor, Row(Row::Zero()), [&](Index i) { return Row(work->solution[i].cwiseAbs2()); });
     return Row(Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
   };
@@ -413,7 +412,7 @@ NonsymmetricSolver::Report NonsymmetricSolver::System::solve(
   return report;
 }
 
-struct NonsymmetricSolver::Implementation
+struct GeneralSolver::Implementation
 {
   System forward;
   std::mutex mutex;
@@ -435,13 +434,12 @@ struct NonsymmetricSolver::Implementation
   }
 };
 
-NonsymmetricSolver::NonsymmetricSolver() = default;
-NonsymmetricSolver::~NonsymmetricSolver() = default;
-NonsymmetricSolver::NonsymmetricSolver(NonsymmetricSolver&&) noexcept = default;
-NonsymmetricSolver& NonsymmetricSolver::operator=(NonsymmetricSolver&&) noexcept = default;
+GeneralSolver::GeneralSolver() = default;
+GeneralSolver::~GeneralSolver() = default;
+GeneralSolver::GeneralSolver(GeneralSolver&&) noexcept = default;
+GeneralSolver& GeneralSolver::operator=(GeneralSolver&&) noexcept = default;
 
-void NonsymmetricSolver::prepare(
-  SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
   System& system = fresh->forward;
@@ -466,29 +464,29 @@ void NonsymmetricSolver::prepare(
   this->implementation_ = std::move(fresh);
 }
 
-NonsymmetricSolver::Report NonsymmetricSolver::solve(
+GeneralSolver::Report GeneralSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }
 
-NonsymmetricSolver::Report NonsymmetricSolver::solveTransposed(
+GeneralSolver::Report GeneralSolver::solveTransposed(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   return this->implementation_->transposedSystem().solve(b, x, tolerance, maxIterations, monitor);
 }
 
-const SparseMatrix& NonsymmetricSolver::matrix() const
+const CsrMatrix& GeneralSolver::matrix() const
 {
   return this->implementation_->forward.A;
 }
 
-const RowComponents& NonsymmetricSolver::components() const
+const RowComponents& GeneralSolver::components() const
 {
   return this->implementation_->forward.components;
 }
 
-std::size_t NonsymmetricSolver::memory() const
+std::size_t GeneralSolver::memory() const
 {
   const std::lock_guard<std::mutex> lock(this->implementation_->mutex);
   return this->implementation_->forward.memory() +

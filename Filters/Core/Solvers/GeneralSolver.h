@@ -19,13 +19,13 @@ namespace morph
 /// Where that stagnates or breaks down, restarted GMRES (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
 /// 856-869) takes over, preconditioned by an incomplete factorisation, which exists for every M-matrix (Meijerink
 /// and van der Vorst, Math. Comp. 31 (1977) 148-162). It is slower and partly sequential; a warning tells of it.
-class NonsymmetricSolver
+class GeneralSolver
 {
 public:
-  NonsymmetricSolver();
-  ~NonsymmetricSolver();
-  NonsymmetricSolver(NonsymmetricSolver&&) noexcept;
-  NonsymmetricSolver& operator=(NonsymmetricSolver&&) noexcept;
+  GeneralSolver();
+  ~GeneralSolver();
+  GeneralSolver(GeneralSolver&&) noexcept;
+  GeneralSolver& operator=(GeneralSolver&&) noexcept;
 
   struct Report : SolveReport
   {
@@ -34,7 +34,7 @@ public:
 
   /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions: the multigrid
   /// groups near neighbors. Throws SingularRows where a diagonal entry is not positive.
-  void prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
+  void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
   /// not larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <=
@@ -49,7 +49,7 @@ public:
   Report solveTransposed(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 
-  const SparseMatrix& matrix() const;
+  const CsrMatrix& matrix() const;
   const RowComponents& components() const;
   /// Bytes kept: matrix, hierarchy, work vectors, and the transposes where they have been made.
   std::size_t memory() const;

@@ -62,26 +62,26 @@ struct Projected
 };
 }
 
-Gmres::Gmres(const SparseMatrix& matrix)
+Gmres::Gmres(const CsrMatrix& matrix)
   : matrix_(&matrix)
   , preconditioner_(matrix)
 {
 }
 
-int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
-  const ThreeColumns& goal2, ThreeColumnRows& solution, Monitor& monitor)
+int Gmres::run(const MultiVector& residual, const MultiVectorRow& norm2,
+  const MultiVectorRow& goal2, MultiVector& solution, Monitor& monitor)
 {
   monitor.check();
   const Index n = this->matrix_->rows();
-  const ThreeColumns zero = ThreeColumns::Zero();
+  const MultiVectorRow zero = MultiVectorRow::Zero();
   std::array<Projected, 3> columns;
-  ThreeColumns inverse = zero;
+  MultiVectorRow inverse = zero;
   for (int c = 0; c < 3; ++c)
   {
     columns[c].rhs[0] = std::sqrt(norm2[c]);
     inverse[c] = norm2[c] > goal2[c] ? 1 / columns[c].rhs[0] : 0;
   }
-  const auto basis = [&](int j) -> ThreeColumnRows&
+  const auto basis = [&](int j) -> MultiVector&
   {
     if (static_cast<int>(this->basis_.size()) <= j)
     {
@@ -89,8 +89,8 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
     }
     return this->basis_[j];
   };
-  ThreeColumnRows work(n);
-  ThreeColumnRows& start = basis(0);
+  MultiVector work(n);
+  MultiVector& start = basis(0);
   monitor.parallelFor(n, Grain,
     [&](Index first, Index last)
     {
@@ -108,20 +108,20 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
     basis(made + 1);
     work = this->basis_[made];
     this->preconditioner_.apply(work);
-    ThreeColumnRows& next = this->basis_[made + 1];
+    MultiVector& next = this->basis_[made + 1];
     monitor.parallelFor(n, Grain,
       [&](Index first, Index last)
       {
         for (Index i = first; i < last; ++i)
         {
-          next[i] = rowTimes(*this->matrix_, i, work);
+          next[i] = rowProduct(*this->matrix_, i, work);
         }
       });
     for (int k = 0; k <= made; ++k)
     {
-      const ThreeColumnRows& old = this->basis_[k];
-      const ThreeColumns along = blockSum(
-        n, monitor, zero, [&](Index i) { return ThreeColumns(next[i].cwiseProduct(old[i])); });
+      const MultiVector& old = this->basis_[k];
+      const MultiVectorRow along = reproducibleSum(
+        n, monitor, zero, [&](Index i) { return MultiVectorRow(next[i].cwiseProduct(old[i])); });
       monitor.parallelFor(n, Grain,
         [&](Index first, Index last)
         {
@@ -135,9 +135,9 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
         columns[c].H(k, made) = along[c];
       }
     }
-    const ThreeColumns length2 =
-      blockSum(n, monitor, zero, [&](Index i) { return ThreeColumns(next[i].cwiseAbs2()); });
-    ThreeColumns shrink = zero;
+    const MultiVectorRow length2 = reproducibleSum(
+      n, monitor, zero, [&](Index i) { return MultiVectorRow(next[i].cwiseAbs2()); });
+    MultiVectorRow shrink = zero;
     for (int c = 0; c < 3; ++c)
     {
       if (!running[c])
@@ -167,7 +167,7 @@ int Gmres::run(const ThreeColumnRows& residual, const ThreeColumns& norm2,
     ++made;
   }
 
-  std::vector<ThreeColumns> y(made, zero);
+  std::vector<MultiVectorRow> y(made, zero);
   for (int c = 0; c < 3; ++c)
   {
     const Eigen::VectorXd own = columns[c].solution();

@@ -6,7 +6,7 @@
 
 namespace morph
 {
-IncompleteLU::IncompleteLU(const SparseMatrix& matrix)
+IncompleteLU::IncompleteLU(const CsrMatrix& matrix)
   : matrix_(&matrix)
   , value_(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros())
   , diagonal_(matrix.rows())
@@ -45,7 +45,7 @@ IncompleteLU::IncompleteLU(const SparseMatrix& matrix)
   }
 }
 
-void IncompleteLU::apply(ThreeColumnRows& x) const
+void IncompleteLU::apply(MultiVector& x) const
 {
   const int* start = this->matrix_->outerIndexPtr();
   const int* column = this->matrix_->innerIndexPtr();

@@ -13,12 +13,12 @@ class IncompleteLU
 {
 public:
   /// `matrix`: sorted columns, positive diagonal; must outlive this object.
-  explicit IncompleteLU(const SparseMatrix& matrix);
+  explicit IncompleteLU(const CsrMatrix& matrix);
   /// x = (L U)^-1 x.
-  void apply(ThreeColumnRows& x) const;
+  void apply(MultiVector& x) const;
 
 private:
-  const SparseMatrix* matrix_;
+  const CsrMatrix* matrix_;
   std::vector<double>
     value_; ///< L below the diagonal (its own diagonal is 1), U above, and the inverse of U's diagonal
   std::vector<int> diagonal_; ///< place of each diagonal entry

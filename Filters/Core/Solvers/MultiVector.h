@@ -11,20 +11,20 @@
 namespace morph
 {
 /// One row of three right-hand sides, and a zero: one matrix entry serves all three.
-using ThreeColumns = Eigen::Vector4d;
-using ThreeColumnRows = std::vector<ThreeColumns>;
+using MultiVectorRow = Eigen::Vector4d;
+using MultiVector = std::vector<MultiVectorRow>;
 
 template <typename Values>
-ThreeColumns lift(const Values& row)
+MultiVectorRow toRow(const Values& row)
 {
-  return ThreeColumns(row[0], row[1], row[2], 0);
+  return MultiVectorRow(row[0], row[1], row[2], 0);
 }
 
 /// a / b per column, 0 for the columns that have stopped.
-inline ThreeColumns ratio(
-  const ThreeColumns& a, const ThreeColumns& b, const Eigen::Array4i& running)
+inline MultiVectorRow ratio(
+  const MultiVectorRow& a, const MultiVectorRow& b, const Eigen::Array4i& running)
 {
-  ThreeColumns result = ThreeColumns::Zero();
+  MultiVectorRow result = MultiVectorRow::Zero();
   for (int c = 0; c < 3; ++c)
   {
     if (running[c])
@@ -36,16 +36,16 @@ inline ThreeColumns ratio(
 }
 
 /// Largest sqrt(a / b) over the three columns.
-inline double largestRatio(const ThreeColumns& a, const ThreeColumns& b)
+inline double largestRatio(const MultiVectorRow& a, const MultiVectorRow& b)
 {
   return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
 }
 
 /// (A x)_i for x in double or single precision.
 template <typename Vectors>
-ThreeColumns rowTimes(const SparseMatrix& A, Index i, const Vectors& x)
+MultiVectorRow rowProduct(const CsrMatrix& A, Index i, const Vectors& x)
 {
-  ThreeColumns sum = ThreeColumns::Zero();
+  MultiVectorRow sum = MultiVectorRow::Zero();
   const int last = A.outerIndexPtr()[i + 1];
   for (int k = A.outerIndexPtr()[i]; k < last; ++k)
   {

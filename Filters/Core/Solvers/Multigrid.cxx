@@ -26,7 +26,7 @@ constexpr float LanczosMargin = 1.1f; // what its result may be below the larges
 
 /// (A x)_i for a row of four single-precision lanes.
 template <typename M>
-Eigen::Vector4f rowTimes(const M& A, int i, const Multigrid::Vector& x)
+Eigen::Vector4f rowProduct(const M& A, int i, const Multigrid::Vector& x)
 {
   Eigen::Vector4f sum = Eigen::Vector4f::Zero();
   const int last = A.start[i + 1];
@@ -92,7 +92,7 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   return true;
 }
 
-void Multigrid::prepare(const SparseMatrix& matrix, Symmetry symmetry, double unit,
+void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   const ConstPoints& coordinates, Monitor& monitor)
 {
   this->levels_.clear();
@@ -219,11 +219,11 @@ void Multigrid::factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, d
 
 bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
 {
-  using Lanes = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  using FourColumns = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
   using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
   const int n = this->levels_.back().A.rows;
-  const Solution right = Eigen::Map<const Lanes>(rhs[0].data(), n, 4).cast<double>();
-  Eigen::Map<Lanes> left(x[0].data(), n, 4);
+  const Solution right = Eigen::Map<const FourColumns>(rhs[0].data(), n, 4).cast<double>();
+  Eigen::Map<FourColumns> left(x[0].data(), n, 4);
   if (this->symmetricCoarsest_)
   {
     left = Solution(this->symmetricCoarsest_->solve(right)).cast<float>();
@@ -253,8 +253,8 @@ float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
 
   const int steps = std::min(LanczosSteps, A.rows);
   Eigen::VectorXd diagonal(steps), off(steps);
-  double norm = std::sqrt(
-    blockSum(A.rows, monitor, 0., [&](Index i) { return static_cast<double>(now[i]) * now[i]; }));
+  double norm = std::sqrt(reproducibleSum(
+    A.rows, monitor, 0., [&](Index i) { return static_cast<double>(now[i]) * now[i]; }));
   int made = 0;
   while (made < steps && norm > 0)
   {
@@ -269,7 +269,7 @@ float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
           scaled[i] = root[i] * now[i];
         }
       });
-    const double along = blockSum(A.rows, monitor, 0.,
+    const double along = reproducibleSum(A.rows, monitor, 0.,
       [&](Index i)
       {
         float sum = 0;
@@ -280,7 +280,7 @@ float Multigrid::largestEigenvalue(const Level& level, Monitor& monitor)
         next[i] = root[i] * sum - back * before[i];
         return static_cast<double>(next[i]) * now[i];
       });
-    norm = std::sqrt(blockSum(A.rows, monitor, 0.,
+    norm = std::sqrt(reproducibleSum(A.rows, monitor, 0.,
       [&](Index i)
       {
         next[i] -= static_cast<float>(along) * now[i];
@@ -624,8 +624,8 @@ void Multigrid::smooth(const Level& level, const Vector& rhs, bool fromZero, Vec
       {
         for (Index i = first; i < last; ++i)
         {
-          Eigen::Vector4f move =
-            take * level.inverseDiagonal[i] * (rhs[i] - rowTimes(level.A, static_cast<int>(i), x));
+          Eigen::Vector4f move = take * level.inverseDiagonal[i] *
+                                 (rhs[i] - rowProduct(level.A, static_cast<int>(i), x));
           if (SmootherDegree > 1)
           {
             move += keep * work.direction[i];
@@ -660,7 +660,7 @@ void Multigrid::cycle(
     {
       for (Index i = first; i < last; ++i)
       {
-        work.spare[i] = rhs[i] - rowTimes(level.A, static_cast<int>(i), x);
+        work.spare[i] = rhs[i] - rowProduct(level.A, static_cast<int>(i), x);
       }
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
@@ -668,7 +668,7 @@ void Multigrid::cycle(
     {
       for (Index i = first; i < last; ++i)
       {
-        below.rhs[i] = rowTimes(level.R, static_cast<int>(i), work.spare);
+        below.rhs[i] = rowProduct(level.R, static_cast<int>(i), work.spare);
       }
     });
   this->cycle(k + 1, below.rhs, below.x, workspace, monitor);
@@ -677,7 +677,7 @@ void Multigrid::cycle(
     {
       for (Index i = first; i < last; ++i)
       {
-        x[i] += rowTimes(level.P, static_cast<int>(i), below.x);
+        x[i] += rowProduct(level.P, static_cast<int>(i), below.x);
       }
     });
   this->smooth(level, rhs, false, x, work, monitor);

@@ -38,7 +38,7 @@ public:
 
   /// `matrix` must outlive this object and stay where it is: the finest level reads its structure. It is divided by `unit`,
   /// its largest diagonal entry: the unit of length must not show, and single precision ends at 1e38.
-  void prepare(const SparseMatrix& matrix, Symmetry symmetry, double unit,
+  void prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     const ConstPoints& coordinates, Monitor& monitor);
   /// The transpose of `other`, which must outlive this object and stay where it is.
   void prepareTransposed(const Multigrid& other);

@@ -8,7 +8,7 @@
 
 namespace morph
 {
-RowComponents rowComponents(const SparseMatrix& matrix)
+RowComponents rowComponents(const CsrMatrix& matrix)
 {
   const int rows = static_cast<int>(matrix.rows());
   std::vector<int> parent(rows);
@@ -53,21 +53,21 @@ RowComponents rowComponents(const SparseMatrix& matrix)
   return result;
 }
 
-ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
-  const ThreeColumns& bNorm2, const ThreeColumns& norm2, ThreeColumnRows& solution,
-  ThreeColumnRows& residual, Monitor& monitor)
+MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
+  const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
+  MultiVector& residual, Monitor& monitor)
 {
   const Index rows = b.rows();
   const bool single = components.ofRow.empty();
-  std::vector<ThreeColumns> ofB(single ? 1 : components.count, bNorm2),
+  std::vector<MultiVectorRow> ofB(single ? 1 : components.count, bNorm2),
     ofResidual(ofB.size(), norm2);
   if (!single)
   {
-    std::fill(ofB.begin(), ofB.end(), ThreeColumns::Zero());
-    std::fill(ofResidual.begin(), ofResidual.end(), ThreeColumns::Zero());
+    std::fill(ofB.begin(), ofB.end(), MultiVectorRow::Zero());
+    std::fill(ofResidual.begin(), ofResidual.end(), MultiVectorRow::Zero());
     for (Index i = 0; i < rows; ++i)
     {
-      ofB[components.ofRow[i]] += lift(b.row(i)).cwiseAbs2();
+      ofB[components.ofRow[i]] += toRow(b.row(i)).cwiseAbs2();
       ofResidual[components.ofRow[i]] += residual[i].cwiseAbs2();
     }
   }
@@ -85,7 +85,7 @@ ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
   {
     return norm2;
   }
-  return blockSum(rows, monitor, ThreeColumns(ThreeColumns::Zero()),
+  return reproducibleSum(rows, monitor, MultiVectorRow(MultiVectorRow::Zero()),
     [&](Index i)
     {
       const Eigen::Array4i& dropped = drop[components.of(i)];
@@ -97,7 +97,7 @@ ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
           residual[i][j] = b(i, j);
         }
       }
-      return ThreeColumns(residual[i].cwiseAbs2());
+      return MultiVectorRow(residual[i].cwiseAbs2());
     });
 }
 }

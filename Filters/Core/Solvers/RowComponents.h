@@ -19,14 +19,14 @@ struct RowComponents
 
 /// Two rows are connected where either has an entry in the other's column. Cost: one pass over the
 /// matrix.
-RowComponents rowComponents(const SparseMatrix& matrix);
+RowComponents rowComponents(const CsrMatrix& matrix);
 
 /// Replaces the first guess `solution` of A x = b by 0, and its residual by b, in each column of
 /// each component where the residual's norm is larger than that of b. Where b is exactly 0 the
 /// solution then is so too, without an iteration. `bNorm2`, `norm2`: squared norms of b and of the
 /// residual per column. Returns the latter's new value. Cost: a comparison, and a pass over the
 /// vectors where there are several components.
-ThreeColumns keepBetterGuess(const RowComponents& components, const Points& b,
-  const ThreeColumns& bNorm2, const ThreeColumns& norm2, ThreeColumnRows& solution,
-  ThreeColumnRows& residual, Monitor& monitor);
+MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
+  const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
+  MultiVector& residual, Monitor& monitor);
 }

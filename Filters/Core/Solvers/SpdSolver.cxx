@@ -18,8 +18,8 @@ namespace
 {
 constexpr Index Grain = 4096;
 
-using Row = ThreeColumns;
-using Rows = ThreeColumnRows;
+using Row = MultiVectorRow;
+using Rows = MultiVector;
 
 /// The vectors of one solve.
 struct Workspace
@@ -58,9 +58,9 @@ void requireFinite(const Row& norm2, int iterations)
 }
 }
 
-struct SparseSolver::Implementation
+struct SpdSolver::Implementation
 {
-  SparseMatrix A;
+  CsrMatrix A;
   RowComponents components;
   Multigrid preconditioner;
 
@@ -86,12 +86,12 @@ struct SparseSolver::Implementation
     const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
 };
 
-SparseSolver::SparseSolver() = default;
-SparseSolver::~SparseSolver() = default;
-SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
-SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
+SpdSolver::SpdSolver() = default;
+SpdSolver::~SpdSolver() = default;
+SpdSolver::SpdSolver(SpdSolver&&) noexcept = default;
+SpdSolver& SpdSolver::operator=(SpdSolver&&) noexcept = default;
 
-void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
   fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
@@ -124,19 +124,19 @@ void SparseSolver::prepare(SparseMatrix& matrix, const ConstPoints& coordinates,
   this->implementation_ = std::move(fresh);
 }
 
-Row SparseSolver::Implementation::trueResidual(
+Row SpdSolver::Implementation::trueResidual(
   const Points& b, Workspace& work, Monitor& monitor) const
 {
-  return blockSum(this->A.rows(), monitor, Row(Row::Zero()),
+  return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index i)
     {
-      work.residual[i] = lift(b.row(i)) - rowTimes(this->A, i, work.solution);
+      work.residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, work.solution);
       work.direction[i] = Row::Zero();
       return Row(work.residual[i].cwiseAbs2());
     });
 }
 
-SolveReport SparseSolver::Implementation::iterate(
+SolveReport SpdSolver::Implementation::iterate(
   const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
@@ -145,7 +145,7 @@ SolveReport SparseSolver::Implementation::iterate(
   const Row zero = Row::Zero();
 
   const Row bNorm2 =
-    blockSum(n, monitor, zero, [&](Index i) { return Row(lift(b.row(i)).cwiseAbs2()); });
+    reproducibleSum(n, monitor, zero, [&](Index i) { return Row(toRow(b.row(i)).cwiseAbs2()); });
   Row norm2 = keepBetterGuess(
     this->components, b, bNorm2, this->trueResidual(b, work, monitor), solution, residual, monitor);
   if (!bNorm2.allFinite() || !norm2.allFinite())
@@ -212,7 +212,7 @@ SolveReport SparseSolver::Implementation::iterate(
 
       this->preconditioner.apply(work.residual32, work.step32, work.multigrid, monitor);
       const Row rzBefore = rz;
-      rz = blockSum(n, monitor, zero,
+      rz = reproducibleSum(n, monitor, zero,
         [&](Index i) {
           return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
         }).cwiseProduct(unscale);
@@ -226,14 +226,14 @@ SolveReport SparseSolver::Implementation::iterate(
               work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
           }
         });
-      const Row curvature = blockSum(n, monitor, zero,
+      const Row curvature = reproducibleSum(n, monitor, zero,
         [&](Index i)
         {
-          image[i] = rowTimes(this->A, i, direction);
+          image[i] = rowProduct(this->A, i, direction);
           return Row(image[i].cwiseProduct(direction[i]));
         });
       const Row alpha = ratio(rz, curvature, running);
-      norm2 = blockSum(n, monitor, zero,
+      norm2 = reproducibleSum(n, monitor, zero,
         [&](Index i)
         {
           solution[i] += alpha.cwiseProduct(direction[i]);
@@ -266,7 +266,7 @@ SolveReport SparseSolver::Implementation::iterate(
   return report;
 }
 
-SolveReport SparseSolver::solve(
+SolveReport SpdSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
@@ -284,17 +284,17 @@ SolveReport SparseSolver::solve(
   return report;
 }
 
-const SparseMatrix& SparseSolver::matrix() const
+const CsrMatrix& SpdSolver::matrix() const
 {
   return this->implementation_->A;
 }
 
-const RowComponents& SparseSolver::components() const
+const RowComponents& SpdSolver::components() const
 {
   return this->implementation_->components;
 }
 
-std::size_t SparseSolver::memory() const
+std::size_t SpdSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +

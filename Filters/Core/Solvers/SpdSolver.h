@@ -14,17 +14,17 @@ namespace morph
 /// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once: preconditioned
 /// conjugate gradients in which one pass over the matrix serves the three columns, with a smoothed-aggregation
 /// multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
-class SparseSolver
+class SpdSolver
 {
 public:
-  SparseSolver();
-  ~SparseSolver();
-  SparseSolver(SparseSolver&&) noexcept;
-  SparseSolver& operator=(SparseSolver&&) noexcept;
+  SpdSolver();
+  ~SpdSolver();
+  SpdSolver(SpdSolver&&) noexcept;
+  SpdSolver& operator=(SpdSolver&&) noexcept;
 
   /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions: the multigrid groups near
   /// neighbors. Throws SingularRows where a diagonal entry is not positive.
-  void prepare(SparseMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
+  void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
   /// not larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <=
@@ -35,7 +35,7 @@ public:
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 
-  const SparseMatrix& matrix() const;
+  const CsrMatrix& matrix() const;
   const RowComponents& components() const;
   /// Bytes that prepare() keeps: matrix, hierarchy, work vectors.
   std::size_t memory() const;

@@ -9,10 +9,10 @@ namespace morph
 {
 /// A part of a longer computation: its progress from 0 to 1 is the whole's from `first` to `last`.
 /// It never runs backwards: what is less than was told before is not told.
-class SubMonitor : public Monitor
+class ProgressRange : public Monitor
 {
 public:
-  SubMonitor(Monitor& whole, double first, double last)
+  ProgressRange(Monitor& whole, double first, double last)
     : whole_(whole)
     , first_(first)
     , last_(last)

@@ -32,7 +32,7 @@ __attribute__((target("avx2"))) void loopWithAvx2(Index first, Index last, Argum
 /// function that is inlined always, and so is all it calls; without fused multiplication and addition it does
 /// the same operations everywhere, so results are the same to the last bit.
 template <typename Body, typename... Arguments>
-void vectorLoop(Index first, Index last, Arguments&... arguments)
+void dispatchedFor(Index first, Index last, Arguments&... arguments)
 {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2"))

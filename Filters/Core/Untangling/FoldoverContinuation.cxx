@@ -92,7 +92,7 @@ private:
 };
 }
 
-void FoldoverStages::setDensity(double epsilon, double stiffness)
+void FoldoverContinuation::setDensity(double epsilon, double stiffness)
 {
   FoldoverDensity density = this->energy_.density();
   density.epsilon = epsilon;
@@ -100,20 +100,20 @@ void FoldoverStages::setDensity(double epsilon, double stiffness)
   this->energy_.setDensity(density);
 }
 
-void FoldoverStages::include(const MinimizerEffort& effort)
+void FoldoverContinuation::include(const MinimizerEffort& effort)
 {
   this->effort_.steps += effort.steps;
   this->effort_.linearIterations += effort.linearIterations;
   this->effort_.evaluations += effort.evaluations;
 }
 
-MeshEnergy::State FoldoverStages::evaluate(const Points& points, Monitor& monitor)
+MeshEnergy::State FoldoverContinuation::evaluate(const Points& points, Monitor& monitor)
 {
   ++this->effort_.evaluations;
   return this->energy_.evaluate(points, monitor);
 }
 
-MeshEnergy::State FoldoverStages::minimize(Points& points, int steps, Monitor& monitor)
+MeshEnergy::State FoldoverContinuation::minimize(Points& points, int steps, Monitor& monitor)
 {
   MinimizerLimits limits;
   limits.steps = steps;
@@ -129,7 +129,7 @@ MeshEnergy::State FoldoverStages::minimize(Points& points, int steps, Monitor& m
   return this->evaluate(points, monitor);
 }
 
-bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
+bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages)
 {
   this->setDensity(Valid);
   MeshEnergy::State state = this->evaluate(points, monitor);
@@ -165,13 +165,13 @@ bool FoldoverStages::untangle(Points& points, Monitor& monitor, int stages)
   return state.leastDeterminant > 0;
 }
 
-void FoldoverStages::improve(Points& points, int steps, Monitor& monitor)
+void FoldoverContinuation::improve(Points& points, int steps, Monitor& monitor)
 {
   this->setDensity(Valid);
   this->minimize(points, steps, monitor);
 }
 
-void FoldoverStages::stiffen(Points& points, Monitor& monitor)
+void FoldoverContinuation::stiffen(Points& points, Monitor& monitor)
 {
   constexpr int Rounds = 12, Steps = 2;
   this->setDensity(Valid);

@@ -8,7 +8,7 @@ namespace morph
 {
 /// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069 and 43(1)
 /// (2024) 10). `points` in all: #nodes x 3, the start in, the result out.
-class FoldoverStages
+class FoldoverContinuation
 {
 public:
   enum class Minimizer
@@ -17,7 +17,7 @@ public:
     LimitedMemoryBfgs ///< as fast on some 10,000 cells, slower on many; without a matrix
   };
 
-  FoldoverStages(MeshEnergy& energy, Minimizer minimizer)
+  FoldoverContinuation(MeshEnergy& energy, Minimizer minimizer)
     : energy_(energy)
     , minimizer_(minimizer)
   {
@@ -46,7 +46,7 @@ private:
 
   MeshEnergy& energy_;
   Minimizer minimizer_;
-  BlockMatrix matrix_;
+  BlockCsr3f matrix_;
   MinimizerEffort effort_;
 };
 }

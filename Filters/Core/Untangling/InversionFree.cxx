@@ -56,11 +56,11 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
     this->referenceMesh_.points = this->reference_;
     validate(this->referenceMesh_);
   }
-  this->orientation_ = orientation(this->referenceMesh_, bodies(rest));
+  this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest));
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
 
-  SubMonitor first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
+  ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
     last(monitor, 0.5, 0.9);
   this->boundary_ = boundaryFaces(this->referenceMesh_, first);
   monitor.check();
@@ -87,8 +87,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(
-    targetShapes(this->referenceMesh_, this->orientation_, atRest, Target::Initial, monitor));
+  energy.setTargets(targetMatrices(
+    this->referenceMesh_, this->orientation_, atRest, TargetConstruction::Initial, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
 }
 
@@ -104,7 +104,7 @@ Points InversionFree::betterGuess(
   const Points& warped, const Points& boundary, Monitor& monitor) const
 {
   // Who asks for a certain target wants its minimum.
-  if (this->hasSimplexLinear_ && this->target_ == Target::Stretched)
+  if (this->hasSimplexLinear_ && this->target_ == TargetConstruction::Stretched)
   {
     EvaluateReport ignored;
     Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
@@ -117,24 +117,25 @@ Points InversionFree::betterGuess(
 }
 
 void InversionFree::raiseQuality(
-  MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const
+  MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const
 {
   monitor.progress(0.7);
-  for (int refresh = 0; refresh < this->refreshes_ && this->target_ == Target::Stretched; ++refresh)
+  for (int refresh = 0;
+       refresh < this->refreshes_ && this->target_ == TargetConstruction::Stretched; ++refresh)
   {
     const Points guide = points;
     energy.setTargets(
-      targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
+      targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
     stages.improve(points, RefreshSteps, monitor);
   }
   monitor.progress(0.8);
-  if (this->stiffening_ && this->target_ != Target::Initial)
+  if (this->stiffening_ && this->target_ != TargetConstruction::Initial)
   {
     const Points before = points;
     stages.stiffen(points, monitor);
     // It costs the average cell something: only worth it where the worst one gains.
     const double least = this->leastScaledJacobian(before, monitor);
-    if (!(this->leastScaledJacobian(points, monitor) > least + gainFrom(least)))
+    if (!(this->leastScaledJacobian(points, monitor) > least + significantGain(least)))
     {
       points = before;
     }
@@ -145,7 +146,7 @@ void InversionFree::raiseQuality(
 
 void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
 {
-  raiseWorstCells(
+  raiseMinimumQuality(
     this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
 }
 
@@ -160,11 +161,11 @@ InversionFree::Outcome InversionFree::improve(
 {
   monitor.check();
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  FoldoverStages stages(energy, this->minimizer_);
-  const TargetShapes targets =
-    targetShapes(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
+  FoldoverContinuation stages(energy, this->minimizer_);
+  const TargetMatrices targets =
+    targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
   monitor.check();
-  SubMonitor untangle(monitor, 0.1, 0.7);
+  ProgressRange untangle(monitor, 0.1, 0.7);
   const Untangling::Result untangling = Untangling(
     this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
                                           .run(targets, energy, stages, points, untangle);
@@ -208,7 +209,7 @@ EvaluateReport InversionFree::report(
   }
   EvaluateReport report;
   report.iterations = static_cast<int>(outcome.effort.steps);
-  report.counts = { { "NewtonSteps", outcome.effort.steps },
+  report.statistics = { { "NewtonSteps", outcome.effort.steps },
     { "LinearIterations", outcome.effort.linearIterations },
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
@@ -222,7 +223,8 @@ EvaluateReport InversionFree::displace(
 {
   const NodePartition& partition = this->partition();
   // Ideal shapes are not those at rest: they change the mesh without any motion.
-  if (this->validAtRest_ && this->target_ != Target::Ideal && (prescribed.array() == 0).all())
+  if (this->validAtRest_ && this->target_ != TargetConstruction::Ideal &&
+      (prescribed.array() == 0).all())
   {
     free.setZero();
     Outcome nothing;
@@ -240,7 +242,7 @@ EvaluateReport InversionFree::displace(
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
-  SubMonitor first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
+  ProgressRange first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
   const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   if (this->start_ == Start::Method && this->method_)
   {
@@ -252,7 +254,7 @@ EvaluateReport InversionFree::displace(
   }
   const Points alternative = this->betterGuess(warped, boundary, third);
   const Outcome outcome = this->improve(points, warped, alternative, monitor);
-  if (outcome.kept && this->stiffening_ && this->target_ != Target::Initial)
+  if (outcome.kept && this->stiffening_ && this->target_ != TargetConstruction::Initial)
   {
     this->raiseWorst(points, monitor);
   }
@@ -270,7 +272,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
 {
   this->requirePrepared();
   const NodePartition& partition = this->partition();
-  SubMonitor monitor(whole, 0, 1);
+  ProgressRange monitor(whole, 0, 1);
   if (partition.free.empty())
   {
     return this->report({}, {}, monitor);
@@ -281,7 +283,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
     boundary.row(i) = moved.row(partition.prescribed[i]);
   }
   EvaluateReport guesses;
-  SubMonitor first(monitor, 0, 0.1);
+  ProgressRange first(monitor, 0, 0.1);
   const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   const Points before = moved * this->scale_;
   Points points = before;
@@ -299,8 +301,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
     moved.row(node) = points.row(node) / this->scale_;
     displacement.row(node) = moved.row(node) - this->restPoints().row(node);
   }
-  this->followers_.apply(displacement);
-  for (Index node : partition.followers)
+  this->higherOrderNodes_.apply(displacement);
+  for (Index node : partition.higherOrderNodes)
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }

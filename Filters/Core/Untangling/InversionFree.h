@@ -49,11 +49,11 @@ public:
   void setMethod(std::unique_ptr<Morpher> method);
   /// What cells other than tetrahedra aim for. Before evaluate(). Default Stretched; with Initial affine motions of the boundary are
   /// reproduced exactly, since FEMWARP's mesh is stationary then.
-  void setTarget(Target target) { this->target_ = target; }
+  void setTarget(TargetConstruction target) { this->target_ = target; }
   /// Of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
-  void setMinimizer(FoldoverStages::Minimizer minimizer) { this->minimizer_ = minimizer; }
+  void setMinimizer(FoldoverContinuation::Minimizer minimizer) { this->minimizer_ = minimizer; }
   /// Whether to lower the worst distortion in the end, and to raise the least scaled Jacobian (MinQualityAscent.h); never for Initial.
   /// Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
@@ -78,14 +78,14 @@ private:
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
-  /// In coordinates times scale_. `guide`: see TargetShapes; `alternative`: a mesh that the result must not be worse than.
+  /// In coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a mesh that the result must not be worse than.
   Outcome improve(
     Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
   /// `warped`, FEMWARP's mesh, or that of simplex-linear if its least scaled Jacobian is higher.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   /// Of a valid mesh.
   void raiseQuality(
-    MeshEnergy& energy, FoldoverStages& stages, Points& points, Monitor& monitor) const;
+    MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
   /// The method's mesh, in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
@@ -95,8 +95,8 @@ private:
   double leastScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
-  Target target_ = Target::Stretched;
-  FoldoverStages::Minimizer minimizer_ = FoldoverStages::Minimizer::Newton;
+  TargetConstruction target_ = TargetConstruction::Stretched;
+  FoldoverContinuation::Minimizer minimizer_ = FoldoverContinuation::Minimizer::Newton;
   bool stiffening_ = true;
   int refreshes_ = 2;
 

@@ -49,12 +49,12 @@ bool hasFreeCorner(const Mesh& mesh, const std::vector<Index>& free, Index cell)
 }
 }
 
-double gainFrom(double least)
+double significantGain(double least)
 {
   return std::max(1e-6, std::min(1e-3 * least, 1e-2 * (1 - least)));
 }
 
-int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, Monitor& monitor)
 {
   Quality quality = measureCorners(mesh, points, orientation, {}, monitor);
@@ -74,19 +74,19 @@ int raiseWorstCells(const Mesh& mesh, const std::vector<std::int8_t>& orientatio
     {
       break;
     }
-    const CellPatch patch = cellPatch(mesh, around, free, worstCells(mesh, quality), Rings);
+    const KRing patch = kRingOfCells(mesh, around, free, worstCells(mesh, quality), Rings);
     if (patch.nodes.empty())
     {
       break;
     }
-    const CornerAngles angles(mesh, orientation, patch.cells, patch.nodes, quality.minimum);
+    const WorstCornerNorm angles(mesh, orientation, patch.cells, patch.nodes, quality.minimum);
     MinimizerLimits limits;
     limits.steps = Steps;
     MinimizerEffort effort;
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
     quality = measureCorners(mesh, trial, orientation, {}, monitor);
     // The sum can fall while its greatest part grows; the next round, from there, mostly makes up for it.
-    if (quality.minimum > least + gainFrom(least))
+    if (quality.minimum > least + significantGain(least))
     {
       points = trial;
       least = quality.minimum;

@@ -32,7 +32,7 @@ constexpr double Barrier = 1e-10;      // regularisation: none, but for rounding
 double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
   Monitor& monitor)
 {
-  return blockSum(mesh.numberOfCells(), monitor, 0.,
+  return reproducibleSum(mesh.numberOfCells(), monitor, 0.,
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
@@ -184,7 +184,7 @@ private:
   /// Newton's steps until one moves no node far or lowers the measure little. Returns whether it did lower it.
   bool improve(const MeshEnergy& energy, int steps, Points& points)
   {
-    BlockMatrix matrix;
+    BlockCsr3f matrix;
     MinimizerLimits limits;
     limits.steps = 1;
     double last = energy.value(points, this->monitor_).energy;
@@ -233,7 +233,7 @@ private:
         around = nodeToCells(this->mesh_);
       }
       const std::vector<Index> patch =
-        cellPatch(this->mesh_, around, this->free_, bad, Rings).nodes;
+        kRingOfCells(this->mesh_, around, this->free_, bad, Rings).nodes;
       if (patch.empty() ||
           static_cast<double>(patch.size()) > MostOfMesh * static_cast<double>(this->free_.size()))
       {
@@ -269,7 +269,7 @@ private:
   const std::vector<Index>& free_;
   const SmoothingOptions& options_;
   Monitor& monitor_;
-  const TargetShapes targets_;
+  const TargetMatrices targets_;
   std::vector<double> edgeLength_;
   MinimizerEffort newton_;
   SmoothingReport report_;
@@ -286,15 +286,15 @@ bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, cons
 
 void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points)
 {
-  if (partition.followers.empty())
+  if (partition.higherOrderNodes.empty())
   {
     return;
   }
-  HigherOrderNodes followers;
-  followers.prepare(rest, partition);
+  HigherOrderNodes higherOrderNodes;
+  higherOrderNodes.prepare(rest, partition);
   Points displacement = points - rest.points;
-  followers.apply(displacement);
-  for (Index node : partition.followers)
+  higherOrderNodes.apply(displacement);
+  for (Index node : partition.higherOrderNodes)
   {
     points.row(node) = rest.points.row(node) + displacement.row(node);
   }

@@ -14,7 +14,7 @@ namespace morph
 struct SmoothingOptions
 {
   /// Ideal: regular tetrahedra, cubes, ... whatever the mesh looked like at rest. Initial: each cell's shape at rest.
-  Target target = Target::Ideal;
+  TargetConstruction target = TargetConstruction::Ideal;
   /// Most steps of Newton's method, in each of which every node moves once; untangling takes at most twenty steps
   /// of L-BFGS for each. At least 1.
   int iterationLimit = 50;

@@ -13,15 +13,15 @@ namespace morph
 {
 void Smoothing::doPrepare(const Mesh& rest, Monitor&)
 {
-  const Bodies parts = bodies(rest);
+  const ConnectedComponents parts = connectedComponents(rest);
   requirePrescribedBodies(rest, parts, this->partition());
-  this->orientation_ = orientation(rest, parts);
+  this->orientation_ = cellSigns(rest, parts);
   this->mesh_ = rest;
 }
 
 bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
 {
-  if (this->options_.target != Target::Initial || !(prescribed.array() == 0).all())
+  if (this->options_.target != TargetConstruction::Initial || !(prescribed.array() == 0).all())
   {
     return false;
   }
@@ -33,11 +33,11 @@ bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
 
 Quality Smoothing::measure(Points& points, Monitor& monitor) const
 {
-  if (!this->followers_.empty())
+  if (!this->higherOrderNodes_.empty())
   {
     Points displacement = points - this->mesh_.points;
-    this->followers_.apply(displacement);
-    for (Index node : this->partition().followers)
+    this->higherOrderNodes_.apply(displacement);
+    for (Index node : this->partition().higherOrderNodes)
     {
       points.row(node) = this->mesh_.points.row(node) + displacement.row(node);
     }
@@ -104,7 +104,7 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   }
   EvaluateReport report;
   report.iterations = static_cast<int>(smoothing.untangleSteps + smoothing.newtonSteps);
-  report.counts = { { "UntangleSteps", smoothing.untangleSteps },
+  report.statistics = { { "UntangleSteps", smoothing.untangleSteps },
     { "NewtonSteps", smoothing.newtonSteps }, { "LinearIterations", smoothing.linearIterations },
     { "EnergyEvaluations", smoothing.evaluations }, { "SmoothingPatches", smoothing.patches },
     { "NodesTakenBack", takenBack }, { "BoundaryDeterminedCells", determined } };

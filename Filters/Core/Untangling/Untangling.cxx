@@ -35,13 +35,13 @@ Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orienta
   }
 }
 
-bool Untangling::Tangle::operator<(const Tangle& other) const
+bool Untangling::InvertedCounts::operator<(const InvertedCounts& other) const
 {
   return std::make_tuple(this->others, this->onFolds.size()) <
          std::make_tuple(other.others, other.onFolds.size());
 }
 
-std::vector<Index> Untangling::behind(const std::vector<Index>& folded) const
+std::vector<Index> Untangling::cellsBehind(const std::vector<Index>& folded) const
 {
   std::vector<Index> cells(folded.size());
   std::transform(
@@ -51,15 +51,15 @@ std::vector<Index> Untangling::behind(const std::vector<Index>& folded) const
   return cells;
 }
 
-Untangling::Tangle Untangling::tangle(
-  const std::vector<Index>& behind, const Points& points, Monitor& monitor) const
+Untangling::InvertedCounts Untangling::countInverted(
+  const std::vector<Index>& cellsBehind, const Points& points, Monitor& monitor) const
 {
-  Tangle result;
+  InvertedCounts result;
   // By corners: nodes between them follow only in the end.
   for (Index c :
     invertedCells(measureCorners(this->mesh_, points, this->orientation_, {}, monitor)))
   {
-    if (std::binary_search(behind.begin(), behind.end(), c))
+    if (std::binary_search(cellsBehind.begin(), cellsBehind.end(), c))
     {
       result.onFolds.push_back(c);
     }
@@ -71,32 +71,32 @@ Untangling::Tangle Untangling::tangle(
   return result;
 }
 
-bool Untangling::runNear(const std::vector<Index>& cells, const TargetShapes& targets,
-  FoldoverStages& stages, int most, Points& points, Monitor& monitor) const
+bool Untangling::untanglePatch(const std::vector<Index>& cells, const TargetMatrices& targets,
+  FoldoverContinuation& stages, int most, Points& points, Monitor& monitor) const
 {
-  MeshEnergy energy(
-    this->mesh_, cellPatch(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, Rings).nodes);
+  MeshEnergy energy(this->mesh_,
+    kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, Rings).nodes);
   energy.setTargets(targets);
-  FoldoverStages near(energy, stages.minimizer());
+  FoldoverContinuation near(energy, stages.minimizer());
   const bool done = near.untangle(points, monitor, most);
   stages.include(near.effort());
   return done;
 }
 
-bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages,
-  Points& points, Monitor& monitor) const
+bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& energy,
+  FoldoverContinuation& stages, Points& points, Monitor& monitor) const
 {
   for (int round = 0; round <= Rounds; ++round)
   {
     const double part = 1. / (Rounds + 1);
-    SubMonitor own(monitor, part * round, part * (round + 0.5));
-    SubMonitor whole(monitor, part * (round + 0.5), part * (round + 1));
+    ProgressRange own(monitor, part * round, part * (round + 0.5));
+    ProgressRange whole(monitor, part * (round + 0.5), part * (round + 1));
     const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
-    if (round > 0 && dropFolded(this->mesh_, this->isFixed_, points, targets) == 0)
+    if (round > 0 && excludeInvertedAtFixedNodes(this->mesh_, this->isFixed_, points, targets) == 0)
     {
       return false;
     }
-    if (this->runNear(tangled, targets, stages, StagesNear, points, own))
+    if (this->untanglePatch(tangled, targets, stages, StagesNear, points, own))
     {
       energy.setTargets(targets);
       return stages.untangle(points, whole);
@@ -105,14 +105,14 @@ bool Untangling::runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverS
   return false;
 }
 
-Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& energy,
-  FoldoverStages& stages, Points& points, Monitor& monitor) const
+Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& energy,
+  FoldoverContinuation& stages, Points& points, Monitor& monitor) const
 {
   const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
                              this->geometry_, this->isFixed_),
-                           behind = this->behind(folded);
+                           cellsBehind = this->cellsBehind(folded);
   Points besides;
-  SubMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
+  ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
     last(monitor, 0.9, 1);
   if (folded.empty())
   {
@@ -122,21 +122,21 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       return { true, {} };
     }
     besides = points;
-    TargetShapes others = targets;
-    this->runBesides(others, energy, stages, besides, second);
+    TargetMatrices others = targets;
+    this->untangleAwayFromFolds(others, energy, stages, besides, second);
   }
   else
   {
     besides = points;
-    TargetShapes others = targets;
-    dropBehind(this->mesh_, this->faces_, folded, others);
+    TargetMatrices others = targets;
+    excludeOnFoldedFaces(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
     if (!stages.untangle(besides, first, StagesOfAll))
     {
-      this->runBesides(others, energy, stages, besides, second);
+      this->untangleAwayFromFolds(others, energy, stages, besides, second);
     }
     points = besides;
-    if (this->runNear(behind, targets, stages, StagesWithFolds, points, third))
+    if (this->untanglePatch(cellsBehind, targets, stages, StagesWithFolds, points, third))
     {
       energy.setTargets(targets);
       if (stages.untangle(points, last))
@@ -145,8 +145,8 @@ Untangling::Result Untangling::run(const TargetShapes& targets, MeshEnergy& ener
       }
     }
   }
-  Tangle all = this->tangle(behind, points, monitor);
-  const Tangle fewer = this->tangle(behind, besides, monitor);
+  InvertedCounts all = this->countInverted(cellsBehind, points, monitor);
+  const InvertedCounts fewer = this->countInverted(cellsBehind, besides, monitor);
   if (!(all < fewer))
   {
     points = besides;

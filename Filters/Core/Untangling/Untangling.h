@@ -20,7 +20,7 @@ namespace morph
 class Untangling
 {
 public:
-  /// `mesh`: the reference shapes; `orientation`: #cells, see Topology's orientation(); `faces`, `geometry`: of the mesh's boundary, see
+  /// `mesh`: the reference shapes; `orientation`: #cells, see Topology's cellSigns(); `faces`, `geometry`: of the mesh's boundary, see
   /// boundaryFaces() and classify(). All but `partition` are held by reference.
   Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry);
@@ -31,26 +31,27 @@ public:
     std::vector<Index> onFolds; ///< inverted cells on folded faces, ascending
   };
   /// `targets`: of all cells, to which `energy` may be set to others in the end; `points`: #nodes x 3, the start in, the result out.
-  Result run(const TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages,
+  Result run(const TargetMatrices& targets, MeshEnergy& energy, FoldoverContinuation& stages,
     Points& points, Monitor& monitor) const;
 
 private:
-  struct Tangle
+  struct InvertedCounts
   {
     Index others = 0;
     std::vector<Index> onFolds;
-    bool operator<(const Tangle& other) const;
+    bool operator<(const InvertedCounts& other) const;
   };
-  /// The inverted cells. `behind`: those behind folded faces.
-  Tangle tangle(const std::vector<Index>& behind, const Points& points, Monitor& monitor) const;
+  /// The inverted cells. `cellsBehind`: those behind folded faces.
+  InvertedCounts countInverted(
+    const std::vector<Index>& cellsBehind, const Points& points, Monitor& monitor) const;
   /// Ids of the cells behind faces, ascending.
-  std::vector<Index> behind(const std::vector<Index>& folded) const;
+  std::vector<Index> cellsBehind(const std::vector<Index>& folded) const;
   /// Leaves out of `targets` what cannot be made positive at two or more prescribed nodes, for a few rounds. Returns whether the rest is positive.
-  bool runBesides(TargetShapes& targets, MeshEnergy& energy, FoldoverStages& stages, Points& points,
-    Monitor& monitor) const;
+  bool untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& energy,
+    FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
   /// Moves the nodes near these cells alone; returns whether the tetrahedra there are positive.
-  bool runNear(const std::vector<Index>& cells, const TargetShapes& targets, FoldoverStages& stages,
-    int most, Points& points, Monitor& monitor) const;
+  bool untanglePatch(const std::vector<Index>& cells, const TargetMatrices& targets,
+    FoldoverContinuation& stages, int most, Points& points, Monitor& monitor) const;
 
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;

@@ -80,7 +80,7 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 }
 
 morph::Index MirroredBodies(
-  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation)
+  const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation)
 {
   std::vector<bool> mirrored(bodies.count, false);
   for (std::size_t c = 0; c < orientation.size(); ++c)

@@ -27,7 +27,7 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 
 /// Bodies that have cells of orientation -1: mirrored ones. `orientation`: #cells (Topology.h).
 morph::Index MirroredBodies(
-  const morph::Bodies& bodies, const std::vector<std::int8_t>& orientation);
+  const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
 
 /// Adds the field data MirroredBodies (id).
 void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output);

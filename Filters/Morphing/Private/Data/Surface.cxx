@@ -92,7 +92,8 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
   {
     number[faces.nodes[i]] = static_cast<vtkIdType>(i);
   }
-  const std::vector<std::int8_t> orientation = morph::orientation(mesh, morph::bodies(mesh));
+  const std::vector<std::int8_t> orientation =
+    morph::cellSigns(mesh, morph::connectedComponents(mesh));
 
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdTypeArray> owners;

@@ -176,10 +176,10 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   {
     next.Mesh = GridMesh::FromGrid(grid);
     Input::RequireVolumeCells(next.Mesh);
-    const morph::Bodies bodies = morph::bodies(next.Mesh);
+    const morph::ConnectedComponents bodies = morph::connectedComponents(next.Mesh);
     next.BodyOfNode = bodies.ofNode;
     next.Faces = morph::boundaryFaces(next.Mesh, monitor);
-    const std::vector<std::int8_t> ofCell = morph::orientation(next.Mesh, bodies);
+    const std::vector<std::int8_t> ofCell = morph::cellSigns(next.Mesh, bodies);
     next.Orientation.clear();
     for (Index cell : next.Faces.cells)
     {

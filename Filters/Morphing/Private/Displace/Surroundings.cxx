@@ -105,9 +105,9 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
   morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
   const morph::SurfaceMorphReport report =
     morph::morphSurfaces(model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
-  if (options.method == morph::SurfaceMorphOptions::Method::Smoothing)
+  if (options.method == morph::SurfaceMorphOptions::Method::HarmonicExtension)
   {
-    morph::improveSurfaces(model.Faces(), model.Geometry(), nullptr, motion, monitor);
+    morph::smoothSurfaces(model.Faces(), model.Geometry(), nullptr, motion, monitor);
   }
   result.Moved = motion.moved();
   for (Index node : model.Faces().nodes)

@@ -16,7 +16,7 @@ struct StepResult
   morph::Points Moved; ///< #nodes x 3
   Validity::Outcome Valid;
   int Iterations = 0;
-  std::vector<morph::Count> Counts;
+  std::vector<morph::Statistic> Statistics;
   morph::Index Prescribed = 0;
   morph::Index Unmatched = 0;
   morph::Index BoundaryInverted = 0; ///< see vtkMorphAlgorithm::GetBoundaryInvertedCells()

@@ -82,7 +82,7 @@ std::string Validity::Found(const morph::Quality& quality, const morph::Points& 
 
 bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
-  morph::SubMonitor first(monitor, 0, 0.3), second(monitor, 0.3, 1);
+  morph::ProgressRange first(monitor, 0, 0.3), second(monitor, 0.3, 1);
   morph::InversionFree repair;
   repair.setReference(this->Reference);
   repair.prepare(this->Mesh, this->Partition, first);
@@ -138,7 +138,7 @@ Validity::Outcome Validity::SubStep(const std::function<std::unique_ptr<morph::M
     limits.failures = 6;
   }
   limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
-  const morph::SubStepResult result = morph::followInSubSteps(
+  const morph::SubStepResult result = morph::morphIncrementally(
     this->Mesh, this->Reference, this->Partition, this->Orientation, path, make, limits, monitor);
   moved = result.moved;
   Outcome outcome;
@@ -193,7 +193,7 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
       return this->SubStep(this->Make, moved, monitor);
     case vtkMorphAlgorithm::VALIDITY_REPAIR:
     {
-      morph::SubMonitor first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+      morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
       if (this->Repair(moved, first))
       {
         outcome.Status = "Repaired";
