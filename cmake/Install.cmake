@@ -5,13 +5,36 @@ include(CMakePackageConfigHelpers)
 set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
 set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
 
-install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core/"
-  DESTINATION "${headers_destination}/Core"
-  COMPONENT   sdk
-  FILES_MATCHING PATTERN "*.h")
+# The interface: Documentation/API.md has the same list, and Testing/Install/Headers.cmake compiles it.
+set(core_headers
+  Boundary/Classification.h
+  BoundaryMorphing/BoundaryMotion.h
+  LinearMethods/FemWarp.h
+  LinearMethods/LogBarrierWarp.h
+  LinearMethods/SimplexLinear.h
+  LinearMethods/SimplexNaturalNeighbor.h
+  LinearMethods/WeightedResidual.h
+  Mesh/CellShape.h
+  Mesh/Mesh.h
+  Mesh/NodePartition.h
+  Mesh/Topology.h
+  Morpher/Morpher.h
+  Quality/ScaledJacobian.h
+  Support/Error.h
+  Support/Monitor.h
+  Support/Types.h
+  Untangling/InversionFree.h
+  Untangling/Smoothing.h)
+install(CODE "
+  set(PUBLIC_HEADERS \"${core_headers}\")
+  set(CORE \"${CMAKE_CURRENT_SOURCE_DIR}/Filters/Core\")
+  set(DESTINATION \"${headers_destination}\")
+  set(COPIES \"${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/headers\")"
+  COMPONENT sdk)
+install(SCRIPT "${CMAKE_CURRENT_LIST_DIR}/InstallHeaders.cmake" COMPONENT sdk)
 set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
 target_include_directories(morph_core
-  PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing/Core>)
+  PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS morph_core
   EXPORT  MeshMorphing
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
