@@ -3,9 +3,9 @@
  * @class   vtkCompareMorphMethods
  * @brief   runs morphing methods on one mesh and boundary, step by step, and compares them
  *
- * Ports 0 and 1 take a mesh at rest and a displaced boundary, as vtkMorphAlgorithm does. Each chosen
+ * Ports 0 and 1 take an undeformed mesh and a displaced boundary, as vtkMorphAlgorithm does. Each chosen
  * method morphs the mesh in steps (those of a boundary that varies in time, or NumberOfSteps), from
- * the mesh at rest (absolute) and from the mesh of the step before (relative), with the method's
+ * the undeformed mesh (absolute) and from the mesh of the step before (relative), with the method's
  * default options and Validity None: what is counted is what the method itself makes.
  *
  * Output 0 has a row for each method, stepping and step:
@@ -14,14 +14,14 @@
  * mend; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the most memory
  * that the run of the method held, more than before it (Linux; NaN elsewhere).
  *
- * Output 1 is made for a line chart: Time, and a column of least scaled Jacobians for each method and
+ * Output 1 is made for a line chart: Time, and a column of minimum scaled Jacobians for each method and
  * stepping.
  *
  * Output 2 has a row for each method and stepping, best first: Rank, Method, Stepping,
  * FirstInvertedStep (the first with an inverted or degenerate cell, or without a mesh; -1 for none),
  * LastValidTime (of the step before it, the largest motion that the method survives; NaN where there is none),
  * LastValidMinScaledJacobian (there), Seconds (of all steps) and PeakMegabytes. Best is what stays
- * valid for the most steps; among those, what has the higher least scaled Jacobian at the last valid
+ * valid for the most steps; among those, what has the higher minimum scaled Jacobian at the last valid
  * one, to 0.01; among those, what takes less time.
  *
  * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself
@@ -107,7 +107,7 @@ public:
 
   ///@{
   /**
-   * Whether to step from the mesh at rest, and from the mesh of the step before; see
+   * Whether to step from the undeformed mesh, and from the mesh of the step before; see
    * vtkMorphAlgorithm::SetStepping(). Default: both.
    */
   vtkSetMacro(Absolute, bool);

@@ -4,7 +4,7 @@
  * @brief   morphs a mesh by the finite element solution of Laplace's equation (FEMWARP)
  *
  * The displacement of the nodes inside is the finite element solution of Laplace's equation on the
- * mesh at rest, with the boundary's displacement as Dirichlet data. Affine motions of the boundary
+ * undeformed mesh, with the boundary's displacement as Dirichlet data. Affine motions of the boundary
  * are reproduced exactly; small or smooth motions keep the cells valid, large rotations and strong
  * compressions may invert some near the boundary, which the output's InvertedCells tells.
  * Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners
@@ -41,7 +41,7 @@ public:
   ///@{
   /**
    * Residual, relative to the right-hand side and for each coordinate, at which the solver stops.
-   * Changing it does not prepare anew. Default 1e-10, range [1e-15, 0.999].
+   * Changing it does not prepare again. Default 1e-10, range [1e-15, 0.999].
    */
   virtual void SetTolerance(double value);
   vtkGetMacro(Tolerance, double);

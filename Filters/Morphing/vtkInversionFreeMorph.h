@@ -63,7 +63,7 @@ public:
   ///@{
   /**
    * The mesh that the minimisation starts from: that of a method with its default options, or the
-   * mesh at rest with its boundary moved. Default FEMWARP.
+   * undeformed mesh with its boundary moved. Default FEMWARP.
    */
   vtkSetClampMacro(
     InitialGuess, int, INITIAL_GUESS_FEMWARP, INITIAL_GUESS_SIMPLEX_NATURAL_NEIGHBOR);

@@ -3,7 +3,7 @@
  * @class   vtkLBWarpMorph
  * @brief   morphs a mesh by convex combinations of each node's neighbors (LBWARP)
  *
- * On the mesh at rest each node inside is written as a convex combination of all nodes that share a
+ * On the undeformed mesh each node inside is written as a convex combination of all nodes that share a
  * volume cell with it, with the weights that lie furthest from zero in the sense of a logarithmic
  * barrier. The same combinations, with the boundary's new positions, give the new positions inside.
  * So no node leaves the convex hull of the boundary, and affine motions of the boundary are
@@ -40,7 +40,7 @@ public:
   ///@{
   /**
    * Residual, relative to the right-hand side and for each coordinate, at which the solver stops.
-   * Changing it does not prepare anew. Default 1e-10, range [1e-15, 0.999].
+   * Changing it does not prepare again. Default 1e-10, range [1e-15, 0.999].
    */
   virtual void SetTolerance(double value);
   vtkGetMacro(Tolerance, double);

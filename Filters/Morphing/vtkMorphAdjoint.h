@@ -9,7 +9,7 @@
  * the position of every point of the boundary, g_prescribed + M^T g_free, at the cost of one evaluation
  * and whatever the number of boundary points.
  *
- * Port 0 takes the mesh at rest, port 1 the displaced boundary, both as the morphing filter's ports do.
+ * Port 0 takes the undeformed mesh, port 1 the displaced boundary, both as the morphing filter's ports do.
  * The derivatives are the point vectors GradientArray of port 2 (for instance the morphed mesh, on which
  * the objective was evaluated) or, where that is not connected, of port 0. The output is the boundary
  * with the point vectors `MorphGradient`. They are derivatives with respect to the points of port 1 or,
@@ -77,7 +77,7 @@ public:
   ///@{
   /**
    * The data set that carries the derivatives, with as many points as the mesh: the same as
-   * SetInputConnection() and SetInputData() on port 2. Optional: the mesh at rest may carry them.
+   * SetInputConnection() and SetInputData() on port 2. Optional: the undeformed mesh may carry them.
    */
   void SetGradientConnection(vtkAlgorithmOutput* output);
   void SetGradientData(vtkDataObject* gradient);

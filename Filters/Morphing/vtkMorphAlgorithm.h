@@ -3,7 +3,7 @@
  * @class   vtkMorphAlgorithm
  * @brief   moves the nodes of a volume mesh so that it follows a displaced boundary
  *
- * The superclass of all morphing filters. Port 0 takes the mesh at rest (vtkUnstructuredGrid), port
+ * The superclass of all morphing filters. Port 0 takes the undeformed mesh (vtkUnstructuredGrid), port
  * 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells and arrays, and new
  * points: those of the boundary lie where port 1 puts them, those inside follow by the subclass's
  * method. The inputs are never touched.
@@ -44,7 +44,7 @@
  * evaluation; see GetPrepareCount().
  *
  * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
- * asked for RestTime. Stepping tells whether a step starts from the mesh at rest or from the mesh of the step before.
+ * asked for RestTime. Stepping tells whether a step starts from the undeformed mesh or from the mesh of the step before.
  *
  * After an error there is one message, and output 0 is the undeformed mesh, as port 0 has it, or
  * empty where that cannot be read; MorphStatus is "Failed", and InvertedCells and MinScaledJacobian
@@ -170,12 +170,12 @@ public:
 
   ///@{
   /**
-   * From which mesh a step starts. Absolute: from the mesh at rest. Relative: from the mesh of the step before, in double
-   * precision, for which the method is prepared anew, and the first from the mesh at rest; cells are still measured against, and
-   * vtkInversionFreeMorph still aims for, the mesh at rest. A relative step is the same whether all steps before
+   * From which mesh a step starts. Absolute: from the undeformed mesh. Relative: from the mesh of the step before, in double
+   * precision, for which the method is prepared again, and the first from the undeformed mesh; cells are still measured against, and
+   * vtkInversionFreeMorph still aims for, the undeformed mesh. A relative step is the same whether all steps before
    * it were asked for or none: those that are missing are computed, the boundary being asked for their times (on one MPI
-   * process only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step alone, 0 where it was kept. No
-   * matter without steps. Default Absolute.
+   * process only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step alone, 0 where it was kept. Has
+   * no effect without steps. Default Absolute.
    */
   vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);
   vtkGetMacro(Stepping, int);
@@ -229,7 +229,7 @@ public:
    * What to do where the method leaves inverted or degenerate cells.
    * None: nothing; InvertedCells counts them.
    * Report: a warning names the ten worst of them.
-   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared anew at each step.
+   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared again at each step.
    * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where that fails, sub-steps of
    * vtkInversionFreeMorph.
    * Refuse: an error that names them, and the undeformed mesh.
@@ -271,7 +271,7 @@ public:
    * Whether to smooth the mesh that the method made, before Validity looks at it: prescribed nodes stay, inverted
    * cells are untangled where that can be done, and then cells are brought closer, on average, to their shapes at
    * rest (see vtkSmoothingMorph, TargetShape Initial). A smoothed mesh with more inverted cells, or as many and a lower
-   * least scaled Jacobian, is dropped. The field data PostSmoothSteps has the steps that led to the
+   * minimum scaled Jacobian, is dropped. The field data PostSmoothSteps has the steps that led to the
    * output, 0 where it was dropped. Default off.
    */
   vtkSetMacro(PostSmooth, bool);
@@ -291,7 +291,7 @@ public:
   ///@{
   /**
    * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
-   * first step where all are after it. Default -1e300, so the first. No matter where port 0 has no
+   * first step where all are after it. Default -1e300, so the first. Has no effect where port 0 has no
    * time steps.
    */
   virtual void SetRestTime(double value);
@@ -430,7 +430,7 @@ protected:
 
   /**
    * Text that tells apart any two settings of the options that prepare() reads: where it differs
-   * from that of the last execution, the method is prepared anew. Empty for a method without such
+   * from that of the last execution, the method is prepared again. Empty for a method without such
    * options.
    */
   virtual std::string PrepareOptions() { return {}; }

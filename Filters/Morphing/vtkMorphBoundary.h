@@ -21,7 +21,7 @@
  *   spread out on the target; where that does not help, they keep their unprojected position, and a
  *   warning names them.
  *
- * Port 0 takes the mesh at rest (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
  * finds it, whose output can be given here. Port 1 takes the moved nodes (vtkPointSet), matched to
  * the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on geometry of a dimension up
  * to PrescribedDimension are given; the others are ignored. Vertices that port 1 does not name are

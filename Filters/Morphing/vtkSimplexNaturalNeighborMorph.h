@@ -12,7 +12,7 @@
  * vtkSimplexLinearMorph, at many times the cost.
  *
  * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors: weights are
- * kept where they fit into MemoryLimit, and computed anew for each motion otherwise, which a
+ * kept where they fit into MemoryLimit, and recomputed for each motion otherwise, which a
  * warning tells.
  *
  * It is an error if all prescribed nodes lie in one plane.
@@ -51,7 +51,7 @@ public:
   /**
    * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
    * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
-   * neighbor's distance; somewhat less smooth. Changing it prepares anew. Default COORDINATES_SIBSON.
+   * neighbor's distance; somewhat less smooth. Changing it prepares again. Default COORDINATES_SIBSON.
    */
   vtkSetClampMacro(Coordinates, int, COORDINATES_SIBSON, COORDINATES_LAPLACE);
   vtkGetMacro(Coordinates, int);
@@ -62,7 +62,7 @@ public:
   ///@{
   /**
    * Megabytes (10^6 bytes) that the weights may take, 12 bytes each; the result does not depend on
-   * it. Changing it prepares anew. Default 4000, range [0, 1e12]; 0 keeps none.
+   * it. Changing it prepares again. Default 4000, range [0, 1e12]; 0 keeps none.
    */
   virtual void SetMemoryLimit(double value);
   vtkGetMacro(MemoryLimit, double);
@@ -73,7 +73,7 @@ public:
    * As of the last execution: nodes that took the coordinates of vtkSimplexLinearMorph because they
    * lie on or outside the prescribed nodes' convex hull, or because rounding spoilt theirs; nodes
    * outside the hull by more than rounding, which are extrapolated; and whether the weights were
-   * kept (1) or computed anew (0). In the output's field data too.
+   * kept (1) or recomputed (0). In the output's field data too.
    */
   vtkIdType GetBarycentricNodes() { return this->GetCount("BarycentricNodes"); }
   vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }

@@ -40,7 +40,7 @@ public:
   ///@{
   /**
    * How many prescribed nodes take part at a node inside: the nearest, or all where there are
-   * fewer. With AdaptiveNeighbors the number to start from. Changing it prepares anew. Default 80,
+   * fewer. With AdaptiveNeighbors the number to start from. Changing it prepares again. Default 80,
    * the paper's for volumes; range [1, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 1, VTK_INT_MAX);
@@ -51,7 +51,7 @@ public:
   /**
    * Whether a node's number of neighbors is doubled until they surround it, that is, until it lies
    * in their convex hull. Time and memory grow with the size of the boundary: 20 times those of 80
-   * neighbors on a cube of 50 x 50 x 50 cells. Changing it prepares anew. Default off, as in the
+   * neighbors on a cube of 50 x 50 x 50 cells. Changing it prepares again. Default off, as in the
    * paper.
    */
   vtkSetMacro(AdaptiveNeighbors, bool);

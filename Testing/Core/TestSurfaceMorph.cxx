@@ -562,7 +562,7 @@ TEST(SurfaceMorph, KeptWeightsAreUsedAgainAndDoNotShow)
   EXPECT_EQ(morph(curves, 0.3), all);
   // Curves that follow are fixed when the surfaces' turn comes, so the vertices alone fix the same nodes.
   EXPECT_EQ(morph(vertices, 0.1), all);
-  // One more node on a surface: its weights alone are made anew.
+  // One more node on a surface: its weights alone are made again.
   std::vector<Index> more = curves;
   more.push_back(*std::find_if(c.faces.nodes.begin(), c.faces.nodes.end(),
     [&](Index n) { return c.geometry.dimension[n] == 2; }));

@@ -17,7 +17,7 @@ struct MorphOption
 {
   std::string name;
   std::function<void(vtkMorphAlgorithm*)> set;
-  bool prepares; ///< the method has to be prepared anew
+  bool prepares; ///< the method has to be prepared again
 };
 
 /// A morphing filter whose properties TestMorphFilters.cxx checks.

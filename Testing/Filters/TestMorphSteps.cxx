@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps in time: parts of a still boundary's motion or those of a boundary that varies, each from the mesh at rest or
+// Steps in time: parts of a still boundary's motion or those of a boundary that varies, each from the undeformed mesh or
 // from the mesh of the step before.
 #include "MorphFilters.h"
 #include "TestGrids.h"
@@ -153,7 +153,7 @@ TEST_P(MorphSteps, ARelativeStepIsTheSamePlayedOrJumpedTo)
   for (int i = 0; i <= 4; ++i)
   {
     meshes.push_back(At(played, i));
-    // Steps 0 and 1 both start from the mesh at rest.
+    // Steps 0 and 1 both start from the undeformed mesh.
     EXPECT_EQ(played->GetPrepareCount(), std::max(1, i));
   }
   EXPECT_TRUE(meshes[0] == grids::points(this->Grid));

@@ -29,7 +29,7 @@ struct SurfaceMorphReport
   std::vector<Index> unattached; ///< surfaces on which nothing is known; they moved by `unattached`
 };
 
-/// The weights of the weighted residual, kept between calls of morphSurfaces() with one mesh at rest, one classification
+/// The weights of the weighted residual, kept between calls of morphSurfaces() with one undeformed mesh, one classification
 /// and one number of neighbors, where displacements alone change: a surface's are used again as long as the same of its
 /// nodes are fixed. Clear it, by assigning an empty one, where any of the others changes.
 struct SurfaceWeights

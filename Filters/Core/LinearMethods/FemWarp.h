@@ -9,7 +9,7 @@
 
 namespace morph
 {
-/// FEMWARP: the displacement is the finite element solution of Laplace's equation on the rest mesh with the
+/// FEMWARP: the displacement is the finite element solution of Laplace's equation on the undeformed mesh with the
 /// prescribed displacements as boundary values (Baker, Engineering with Computers 18 (2002) 188-198; Shontz and
 /// Vavasis, BIT 50 (2010) 863-884; Staten et al., IMR 2011, equations (9) to (12)): A_I U_I = -A_B U_B.
 ///

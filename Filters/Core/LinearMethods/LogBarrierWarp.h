@@ -10,7 +10,7 @@
 namespace morph
 {
 /// LBWARP: every free node is a convex combination of its neighbors, the nodes that share a volume cell with it,
-/// with the weights that a log barrier finds on the rest mesh; the same combinations hold on the moved mesh (Shontz
+/// with the weights that a log barrier finds on the undeformed mesh; the same combinations hold on the moved mesh (Shontz
 /// and Vavasis, IMR 2003, 147-158; Staten et al., IMR 2011, equation (13)): (I - W_I) U_I = W_B U_B in
 /// displacements.
 ///
@@ -24,7 +24,7 @@ namespace morph
 class LogBarrierWarp : public LinearMorpher
 {
 public:
-  /// What becomes of a node outside its neighbors' hull, at an inverted or strongly concave place of the rest mesh.
+  /// What becomes of a node outside its neighbors' hull, at an inverted or strongly concave place of the undeformed mesh.
   enum class OutsideHull
   {
     /// prepare() throws Error with their number and the first ids.

@@ -26,7 +26,7 @@ namespace morph
 ///
 /// prepare(): 0.6 microseconds of processor time a free node and natural neighbor. The weights, 12 bytes each, are estimated from a sample of the
 /// nodes and kept if they stay within the memory limit; evaluate() is then one pass over them. Otherwise a warning tells
-/// the number, and each evaluate() and applyTranspose() computes them anew: as slow as prepare(), with the same results.
+/// the number, and each evaluate() and applyTranspose() recomputes them: as slow as prepare(), with the same results.
 class SimplexNaturalNeighbor : public LinearMorpher
 {
 public:
@@ -68,7 +68,7 @@ private:
   PointLocation enclosing_;
   std::vector<Index> order_; ///< places in NodePartition::free, along a space-filling curve
   std::vector<WeightMatrix>
-    stored_; ///< one a block of nodes in that order; empty where they are computed anew
+    stored_; ///< one a block of nodes in that order; empty where they are recomputed
   Index barycentric_ = 0;
 };
 }

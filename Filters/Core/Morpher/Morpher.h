@@ -28,9 +28,9 @@ struct EvaluateReport
     statistics; ///< always the same names for a method; none where no node is free
 };
 
-/// A morphing method, one subclass per method. prepare() does all that depends on the rest mesh and on which
+/// A morphing method, one subclass per method. prepare() does all that depends on the undeformed mesh and on which
 /// nodes are prescribed; evaluate() moves the mesh for one set of prescribed positions and may be called
-/// any number of times, in any order: a result depends on the rest mesh, the partition, the options and
+/// any number of times, in any order: a result depends on the undeformed mesh, the partition, the options and
 /// the prescribed positions alone, never on the thread count or on earlier calls.
 ///
 /// Several threads may call evaluate(), and applyTranspose(), of one prepared object at once, each
@@ -56,8 +56,8 @@ public:
   /// finite, given or found, or where no prepare() has succeeded last.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
-  /// For methods that aim for the shapes the cells have in some mesh, where that is not the rest mesh: `reference`, #nodes x 3,
-  /// their nodes there. Before prepare(); no rows: the rest mesh. Ignored by methods that only follow the motion.
+  /// For methods that aim for the shapes the cells have in some mesh, where that is not the undeformed mesh: `reference`, #nodes x 3,
+  /// their nodes there. Before prepare(); no rows: the undeformed mesh. Ignored by methods that only follow the motion.
   virtual void setReference(Points reference);
 
   const NodePartition& partition() const { return this->partition_; }

@@ -40,7 +40,7 @@ public:
   enum class Start
   {
     FemWarp,
-    Rest,  ///< the mesh at rest, with its boundary moved
+    Rest,  ///< the undeformed mesh, with its boundary moved
     Method ///< that of setMethod()
   };
   /// Before evaluate(). A mesh that is inverted at rest starts from rest instead of FEMWARP. Default FemWarp.
@@ -54,10 +54,10 @@ public:
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverContinuation::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the worst distortion in the end, and to raise the least scaled Jacobian (MinQualityAscent.h); never for Initial.
+  /// Whether to lower the worst distortion in the end, and to raise the minimum scaled Jacobian (MinQualityAscent.h); never for Initial.
   /// Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
-  /// How often the stretched targets are taken anew from the mesh as it has become. Default 2.
+  /// How often the stretched targets are taken again from the mesh as it has become. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
 
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
@@ -81,7 +81,7 @@ private:
   /// In coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a mesh that the result must not be worse than.
   Outcome improve(
     Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
-  /// `warped`, FEMWARP's mesh, or that of simplex-linear if its least scaled Jacobian is higher.
+  /// `warped`, FEMWARP's mesh, or that of simplex-linear if its minimum scaled Jacobian is higher.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   /// Of a valid mesh.
   void raiseQuality(

@@ -20,7 +20,7 @@ struct SmoothingOptions
   int iterationLimit = 50;
   /// Ends once no node moves farther in a step than this part of the mean length of its edges. Above 0.
   double stopMove = 1e-3;
-  /// Whether to go back to the start if the result has more inverted cells, or as many and a lower least scaled Jacobian.
+  /// Whether to go back to the start if the result has more inverted cells, or as many and a lower minimum scaled Jacobian.
   bool neverWorse = false;
 };
 
@@ -50,7 +50,7 @@ struct SmoothingReport
 ///
 /// With the target Ideal the measure is taken at the corners and averaged in each cell, as Mesquite does. A
 /// graded mesh loses its grading, and a mesh whose boundary does not move changes. With the target Initial it is taken on
-/// the averaged simplicial decompositions by volume, so that an affine image of the mesh at rest is a minimum.
+/// the averaged simplicial decompositions by volume, so that an affine image of the undeformed mesh is a minimum.
 ///
 /// `rest`: gives the cells, and their shapes (Initial) and sizes (the margin). `points`: #nodes x 3, the start in, the result
 /// out. Throws Error of kind Cancelled, leaving `points`. Independent of threads, numbering (up to rounding), position, rotation

@@ -30,7 +30,7 @@ struct MethodRun
   int Rank = 0; ///< 1 is best
 
   std::string Title() const;
-  /// How many steps from the first on have no more inverted and degenerate cells than the mesh at rest.
+  /// How many steps from the first on have no more inverted and degenerate cells than the undeformed mesh.
   int ValidSteps() const;
   /// Of the last of these; NaN where there is none.
   double LastValidMinimum() const;
@@ -42,13 +42,13 @@ namespace Comparison
 /// What a filter has just computed. `percentile`: see vtkCompareMorphMethods.
 MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
 
-/// Gives every run its rank: by valid steps, then by the least scaled Jacobian at the last of them, to 0.01, then by
+/// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of them, to 0.01, then by
 /// seconds, then by order.
 void Rank(std::vector<MethodRun>& runs);
 
 /// A row for each run and step.
 void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output);
-/// A row for each of `times`, a column of least scaled Jacobians for each run.
+/// A row for each of `times`, a column of minimum scaled Jacobians for each run.
 void WriteChart(
   const std::vector<MethodRun>& runs, const std::vector<double>& times, vtkTable* output);
 /// A row for each run, best first. `steps`: how many there are.

@@ -403,7 +403,7 @@ constexpr Index Held = -1, Unnamed = -2;
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
 /// of which moves: those follow their cell, or edges would bend where corners alone are named.
-/// ScaleFactor does not matter, so that changing it does not prepare anew.
+/// ScaleFactor does not matter, so that changing it does not prepare again.
 void holdUnnamed(const morph::BoundaryFaces& outer, const morph::Mesh& rest, const Points& targets,
   std::vector<Index>& row)
 {

@@ -9,7 +9,7 @@
 
 class vtkPointSet;
 
-/// Finds which nodes of the rest mesh the points of a displaced boundary stand for, and where those
+/// Finds which nodes of the undeformed mesh the points of a displaced boundary stand for, and where those
 /// nodes go.
 namespace morph::filters::BoundaryMatch
 {
@@ -18,7 +18,7 @@ struct Options
   std::string BoundaryIdArray;   ///< empty: none
   std::string DisplacementArray; ///< empty: the boundary's points are the targets
   double ScaleFactor = 1;        ///< target = rest + ScaleFactor * (target - rest)
-  double MatchTolerance = 1e-6;  ///< of the rest mesh's size
+  double MatchTolerance = 1e-6;  ///< of the undeformed mesh's size
   bool HoldUnnamedBoundary = true;
 };
 
@@ -31,7 +31,7 @@ struct Result
   std::vector<std::string> Warnings;
 };
 
-/// `outer`, `size`: of the rest mesh; see GridMesh::Size. Ids come from the first of: the array
+/// `outer`, `size`: of the undeformed mesh; see GridMesh::Size. Ids come from the first of: the array
 /// BoundaryIdArray; MorphPointId; the point's own number where the boundary has as many points as
 /// the mesh (outer nodes only); PointIds; vtkOriginalPointIds, with a warning; the nearest node
 /// within MatchTolerance, where there is a DisplacementArray, together with the outer nodes within

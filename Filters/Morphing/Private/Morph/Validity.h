@@ -23,7 +23,7 @@ public:
   morph::Index MaximumSubSteps = 0;
   const morph::Mesh& Mesh; ///< before the motion
   const morph::Points&
-    Reference; ///< #nodes x 3, the mesh at rest; see morph::Morpher::setReference()
+    Reference; ///< #nodes x 3, the undeformed mesh; see morph::Morpher::setReference()
   const morph::NodePartition& Partition;
   const std::vector<std::int8_t>& Orientation;
   const morph::Points& Targets;      ///< #prescribed x 3

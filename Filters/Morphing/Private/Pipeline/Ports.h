@@ -15,7 +15,7 @@ namespace morph::filters
 {
 class Monitor;
 
-/// The pipeline passes of a filter with the rest mesh on port 0 and the moved boundary on port 1:
+/// The pipeline passes of a filter with the undeformed mesh on port 0 and the moved boundary on port 1:
 /// types, time, the frame round its work.
 class Ports
 {
@@ -43,9 +43,9 @@ public:
     int NumberOfThreads;
     /// Takes the filter's results back to those of no result.
     std::function<void()> Reset;
-    /// Fills the output from the mesh at rest and the boundary, which may be null.
+    /// Fills the output from the undeformed mesh and the boundary, which may be null.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
-    /// May be empty. Called after an error or abort, with the mesh at rest (unchecked, of any type,
+    /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any type,
     /// null where it could not be had) and "Failed" or "Cancelled"; the outputs are empty.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
   };

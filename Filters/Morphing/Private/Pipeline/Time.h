@@ -11,7 +11,7 @@ class vtkInformation;
 
 namespace morph::filters
 {
-/// The rest mesh at one time, the boundary at the time that is asked for.
+/// The undeformed mesh at one time, the boundary at the time that is asked for.
 ///
 /// If both ports hang on one reader, fetching the boundary leaves the reader's output, which is
 /// port 0's data, at the boundary's time. Then the mesh is fetched again, and the boundary once more after a shallow copy of the
@@ -36,7 +36,7 @@ public:
 
   /// Updates what an input port hangs on, asked for a time or for none, and returns its data.
   using Fetch = std::function<vtkDataObject*(int port, std::optional<double> time)>;
-  /// For RequestData: the mesh at rest, `mesh` itself or, of a mesh that varies, a shallow copy. On several MPI ranks all fetch anew, or
+  /// For RequestData: the undeformed mesh, `mesh` itself or, of a mesh that varies, a shallow copy. On several MPI ranks all fetch again, or
   /// none. The boundary's data object is at its time afterwards, and may be another one than before.
   vtkSmartPointer<vtkDataObject> TakeRest(vtkDataObject* mesh, const Fetch& fetch) const;
 
