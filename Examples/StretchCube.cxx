@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The core without VTK: eight hexahedra in a cube whose outer nodes are stretched in x; prints where the inner node goes.
+// The core without VTK: eight hexahedra in a cube whose outer nodes are stretched in x; prints
+// where the inner node goes.
 #include <MeshMorphing/LinearMethods/FemWarp.h>
 #include <MeshMorphing/Mesh/Topology.h>
 #include <MeshMorphing/Support/Error.h>

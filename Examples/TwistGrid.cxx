@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Twists the boundary of a mesh about the z axis, lets the inside follow by FEMWARP, and writes the result.
+// Twists the boundary of a mesh about the z axis, lets the inside follow by FEMWARP, and writes the
+// result.
 // Usage: twist-grid <in.vtu> <degrees per unit of z> <out.vtk>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>

@@ -3,33 +3,34 @@
  * @class   vtkBoundaryDisplacement
  * @brief   moves a part of a mesh's boundary, and says what the rest of the boundary does
  *
- * The way from a mesh to a displaced boundary in one filter: what moves, how, and what the rest does.
+ * The way from a mesh to a displaced boundary in one filter: what moves, how, and what the rest
+ * does.
  *
- * - Moving says what: all of the boundary, a selection of points or cells, patches (the surfaces and
- *   curves that vtkClassifyBoundary finds), or what is inside an implicit function, a box for
+ * - Moving says what: all of the boundary, a selection of points or cells, patches (the surfaces
+ *   and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a box for
  *   instance.
  * - Motion says how: by a transform, by a vector, along the normals, or by a point vector array of
  *   the input; each times ScaleFactor.
  * - Surroundings says what the rest does: stay, follow as with vtkMorphBoundary (curves first, then
- *   surfaces; vertices are held), or fade out with the distance from what moves. HeldPatches stay in
- *   any case, but for the nodes that they share with what moves.
+ *   surfaces; vertices are held), or fade out with the distance from what moves. HeldPatches stay
+ *   in any case, but for the nodes that they share with what moves.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid), or its boundary (vtkPolyData) as
  * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
  * in a row move several parts, each in its own way. Such a boundary moves from where it is; its
  * geometry is that of its point arrays GeometryDimension and GeometryId, or is found at its
- * RestPosition. Port 1, optional, takes the vtkSelection that Moving Selection means. Selected cells
- * move all of their nodes that are on the boundary.
+ * RestPosition. Port 1, optional, takes the vtkSelection that Moving Selection means. Selected
+ * cells move all of their nodes that are on the boundary.
  *
- * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced points:
- * what a morph filter takes on its port 1. Added are the point arrays
+ * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
+ * points: what a morph filter takes on its port 1. Added are the point arrays
  * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades;
  * - `BoundaryDisplacement` (active vectors): the point as written minus its RestPosition.
  * No motion gives the input's points bit for bit.
  *
- * Made for dragging: boundary, geometry and weights are kept while the input, what is chosen and the
- * options that they depend on are the same (ClassifyCount, PrepareCount). The result does not depend
- * on what was kept.
+ * Made for dragging: boundary, geometry and weights are kept while the input, what is chosen and
+ * the options that they depend on are the same (ClassifyCount, PrepareCount). The result does not
+ * depend on what was kept.
  *
  * RequestInformation reads the input's data where they are up to date: it finds the boundary's
  * patches, so that a window can list their names before the first execution, and keeps what it
@@ -214,7 +215,8 @@ public:
 
   ///@{
   /**
-   * How much of the motion to apply; 0 leaves the boundary where it is. Default 1, any finite number.
+   * How much of the motion to apply; 0 leaves the boundary where it is. Default 1, any finite
+   * number.
    */
   virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
@@ -232,9 +234,9 @@ public:
   };
   ///@{
   /**
-   * What the nodes do that neither move nor are held: stay; follow curves first and then surfaces, as
-   * with vtkMorphBoundary, vertices being held; or take part in the motion the less, the farther they
-   * are from the nearest moving node, up to FalloffRadius. Default SURROUNDINGS_FOLLOW.
+   * What the nodes do that neither move nor are held: stay; follow curves first and then surfaces,
+   * as with vtkMorphBoundary, vertices being held; or take part in the motion the less, the farther
+   * they are from the nearest moving node, up to FalloffRadius. Default SURROUNDINGS_FOLLOW.
    */
   vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FADE);
   vtkGetMacro(Surroundings, int);
@@ -245,10 +247,10 @@ public:
 
   ///@{
   /**
-   * The distance at which SURROUNDINGS_FADE has come to nothing, in units of the diagonal of the boundary's
-   * bounding box. At the distance d the displacement is that of the 20 nearest moving nodes, by
-   * inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1, range
-   * [0, 10]; 0 is as SURROUNDINGS_STAY.
+   * The distance at which SURROUNDINGS_FADE has come to nothing, in units of the diagonal of the
+   * boundary's bounding box. At the distance d the displacement is that of the 20 nearest moving
+   * nodes, by inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1,
+   * range [0, 10]; 0 is as SURROUNDINGS_STAY.
    */
   virtual void SetFalloffRadius(double value);
   vtkGetMacro(FalloffRadius, double);
@@ -295,8 +297,8 @@ public:
 
   ///@{
   /**
-   * How the geometry is found: see vtkClassifyBoundary. Of a boundary on port 0, SurfaceIdArray is a
-   * cell array of it.
+   * How the geometry is found: see vtkClassifyBoundary. Of a boundary on port 0, SurfaceIdArray is
+   * a cell array of it.
    */
   virtual void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);

@@ -164,8 +164,8 @@ vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
                                   .size());
 }
 
-/// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message is a warning once, with the first
-/// step that it came from.
+/// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message
+/// is a warning once, with the first step that it came from.
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
   filters::MethodRun& run, morph::Monitor& monitor)
 {

@@ -3,10 +3,11 @@
  * @class   vtkCompareMorphMethods
  * @brief   runs morphing methods on one mesh and boundary, step by step, and compares them
  *
- * Ports 0 and 1 take an undeformed mesh and a displaced boundary, as vtkMorphAlgorithm does. Each chosen
- * method morphs the mesh in steps (those of a boundary that varies in time, or NumberOfSteps), from
- * the undeformed mesh (absolute) and from the mesh of the step before (relative), with the method's
- * default options and Validity None: what is counted is what the method itself makes.
+ * Ports 0 and 1 take an undeformed mesh and a displaced boundary, as vtkMorphAlgorithm does. Each
+ * chosen method morphs the mesh in steps (those of a boundary that varies in time, or
+ * NumberOfSteps), from the undeformed mesh (absolute) and from the mesh of the step before
+ * (relative), with the method's default options and Validity None: what is counted is what the
+ * method itself makes.
  *
  * Output 0 has a row for each method, stepping and step:
  * Method, Stepping, Step, Time, MinScaledJacobian, MeanScaledJacobian, LowScaledJacobian (see
@@ -14,15 +15,15 @@
  * mend; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the most memory
  * that the run of the method held, more than before it (Linux; NaN elsewhere).
  *
- * Output 1 is made for a line chart: Time, and a column of minimum scaled Jacobians for each method and
- * stepping.
+ * Output 1 is made for a line chart: Time, and a column of minimum scaled Jacobians for each method
+ * and stepping.
  *
  * Output 2 has a row for each method and stepping, best first: Rank, Method, Stepping,
- * FirstInvertedStep (the first with an inverted or degenerate cell, or without a mesh; -1 for none),
- * LastValidTime (of the step before it, the largest motion that the method survives; NaN where there is none),
- * LastValidMinScaledJacobian (there), Seconds (of all steps) and PeakMegabytes. Best is what stays
- * valid for the most steps; among those, what has the higher minimum scaled Jacobian at the last valid
- * one, to 0.01; among those, what takes less time.
+ * FirstInvertedStep (the first with an inverted or degenerate cell, or without a mesh; -1 for
+ * none), LastValidTime (of the step before it, the largest motion that the method survives; NaN
+ * where there is none), LastValidMinScaledJacobian (there), Seconds (of all steps) and
+ * PeakMegabytes. Best is what stays valid for the most steps; among those, what has the higher
+ * minimum scaled Jacobian at the last valid one, to 0.01; among those, what takes less time.
  *
  * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself
  * are those of a boundary or mesh that is missing or of a wrong type, no chosen method or stepping,
@@ -120,8 +121,8 @@ public:
 
   ///@{
   /**
-   * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps(). Default
-   * 20, as in the paper. Range [1, 1000000]; what is beyond it becomes the nearest end.
+   * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps().
+   * Default 20, as in the paper. Range [1, 1000000]; what is beyond it becomes the nearest end.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -129,8 +130,8 @@ public:
 
   ///@{
   /**
-   * LowScaledJacobian is the value that this percentage of the cells lie below. Default 1, range [0,
-   * 100].
+   * LowScaledJacobian is the value that this percentage of the cells lie below. Default 1, range
+   * [0, 100].
    */
   virtual void SetPercentile(double value);
   vtkGetMacro(Percentile, double);
@@ -138,7 +139,8 @@ public:
 
   ///@{
   /**
-   * As in vtkMorphAlgorithm, with the same defaults. A ScaleFactor over 1 goes beyond the boundary given.
+   * As in vtkMorphAlgorithm, with the same defaults. A ScaleFactor over 1 goes beyond the boundary
+   * given.
    */
   vtkSetStringMacro(BoundaryIdArray);
   vtkGetStringMacro(BoundaryIdArray);
@@ -159,7 +161,8 @@ public:
 
   ///@{
   /**
-   * The first of the ranking, as of the last execution: "FEMWARP", "Absolute". Empty where there was no result.
+   * The first of the ranking, as of the last execution: "FEMWARP", "Absolute". Empty where there
+   * was no result.
    */
   const char* GetBestMethod() const;
   const char* GetBestStepping() const;

@@ -4,19 +4,19 @@
  * @brief   morphs a mesh by the finite element solution of Laplace's equation (FEMWARP)
  *
  * The displacement of the nodes inside is the finite element solution of Laplace's equation on the
- * undeformed mesh, with the boundary's displacement as Dirichlet data. Affine motions of the boundary
- * are reproduced exactly; small or smooth motions keep the cells valid, large rotations and strong
- * compressions may invert some near the boundary, which the output's InvertedCells tells.
- * Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners
- * move as the linear cell.
+ * undeformed mesh, with the boundary's displacement as Dirichlet data. Affine motions of the
+ * boundary are reproduced exactly; small or smooth motions keep the cells valid, large rotations
+ * and strong compressions may invert some near the boundary, which the output's InvertedCells
+ * tells. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose
+ * corners move as the linear cell.
  *
  * Each connected body needs at least one prescribed node. Inverted or flat cells at rest draw a
  * warning and are given a positive stiffness, so that the mesh can still be morphed.
  *
  * Preparing assembles the stiffness matrix (equations (9) to (12) of Staten et al.) and sets up a
  * multigrid preconditioner; evaluating solves for the three coordinates together by conjugate
- * gradients in about a dozen iterations. Memory: about 0.7 kB a node of a hexahedral mesh, 0.5 kB of
- * a tetrahedral one.
+ * gradients in about a dozen iterations. Memory: about 0.7 kB a node of a hexahedral mesh, 0.5 kB
+ * of a tetrahedral one.
  *
  * T. J. Baker, "Mesh movement and metamorphosis", Proc. 10th Int. Meshing Roundtable (2001)
  * 387-396; S. M. Shontz, S. A. Vavasis, "Analysis of and workarounds for element reversal for a

@@ -16,17 +16,17 @@
  * error, and the output is the valid mesh of the largest step that was reached. See
  * vtkMorphAlgorithm.
  *
- * A mesh that is inverted at rest is untangled, starting from rest (also where nothing moves). Cells
- * at rest that are inverted or flat aim for the ideal shape.
+ * A mesh that is inverted at rest is untangled, starting from rest (also where nothing moves).
+ * Cells at rest that are inverted or flat aim for the ideal shape.
  *
  * Preparing is FEMWARP's; evaluating takes some 10 to 60 Newton steps of 0.4 to 0.8 microseconds of
  * processor time for each tetrahedron, and a hexahedron counts as ten. Memory meanwhile: about 6
  * kB a hexahedron, with what it prepares.
  *
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
- * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069; V. Garanzha, I. Kaporin, L. Kudryavtseva,
- * F. Protais, D. Sokolov, "In the quest for scale-optimal mappings", ACM Trans. Graph. 43(1) (2024),
- * arXiv 2201.12112.
+ * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069; V. Garanzha, I. Kaporin, L.
+ * Kudryavtseva, F. Protais, D. Sokolov, "In the quest for scale-optimal mappings", ACM Trans.
+ * Graph. 43(1) (2024), arXiv 2201.12112.
  *
  * @sa vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
  */
@@ -97,8 +97,8 @@ public:
   /**
    * What cells aim for. Initial: their shape and size at rest; affine motions of the boundary come
    * out exactly. Stretched: their angles at rest, with edge lengths that fit the moved boundary;
-   * tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever they were at rest, so
-   * that the mesh changes without any motion of its boundary. Default Stretched.
+   * tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever they were at rest,
+   * so that the mesh changes without any motion of its boundary. Default Stretched.
    */
   vtkSetClampMacro(TargetShape, int, TARGET_SHAPE_INITIAL, TARGET_SHAPE_IDEAL);
   vtkGetMacro(TargetShape, int);
@@ -109,8 +109,8 @@ public:
 
   ///@{
   /**
-   * Whether, once the mesh is valid, the worst cells are improved at the expense of the average one. Without
-   * effect on TargetShape Initial. Default on.
+   * Whether, once the mesh is valid, the worst cells are improved at the expense of the average
+   * one. Without effect on TargetShape Initial. Default on.
    */
   vtkSetMacro(ImproveWorst, bool);
   vtkGetMacro(ImproveWorst, bool);
@@ -119,8 +119,8 @@ public:
 
   ///@{
   /**
-   * Minimise by L-BFGS in place of Newton's method: as fast on some 10,000 cells, slower on many, and without the matrix,
-   * so with a third of the memory. Default off.
+   * Minimise by L-BFGS in place of Newton's method: as fast on some 10,000 cells, slower on many,
+   * and without the matrix, so with a third of the memory. Default off.
    */
   vtkSetMacro(LowMemory, bool);
   vtkGetMacro(LowMemory, bool);
@@ -130,8 +130,8 @@ public:
   ///@{
   /**
    * As of the last execution: steps of the minimiser, iterations of its linear solver, evaluations
-   * of the energy; cells that the boundary itself inverts, and cells that stay inverted on faces that it folds; and whether
-   * FEMWARP's or simplex-linear's mesh was the better one.
+   * of the energy; cells that the boundary itself inverts, and cells that stay inverted on faces
+   * that it folds; and whether FEMWARP's or simplex-linear's mesh was the better one.
    */
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }

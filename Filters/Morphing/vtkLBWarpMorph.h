@@ -3,12 +3,12 @@
  * @class   vtkLBWarpMorph
  * @brief   morphs a mesh by convex combinations of each node's neighbors (LBWARP)
  *
- * On the undeformed mesh each node inside is written as a convex combination of all nodes that share a
- * volume cell with it, with the weights that lie furthest from zero in the sense of a logarithmic
- * barrier. The same combinations, with the boundary's new positions, give the new positions inside.
- * So no node leaves the convex hull of the boundary, and affine motions of the boundary are
- * reproduced exactly; cells may still invert, which the output's InvertedCells tells. Any volume
- * cells, of which the corners count; nodes of quadratic cells move with the linear cell.
+ * On the undeformed mesh each node inside is written as a convex combination of all nodes that
+ * share a volume cell with it, with the weights that lie furthest from zero in the sense of a
+ * logarithmic barrier. The same combinations, with the boundary's new positions, give the new
+ * positions inside. So no node leaves the convex hull of the boundary, and affine motions of the
+ * boundary are reproduced exactly; cells may still invert, which the output's InvertedCells tells.
+ * Any volume cells, of which the corners count; nodes of quadratic cells move with the linear cell.
  *
  * Each connected body needs at least one prescribed node. A node that does not lie inside the hull
  * of its neighbors, at an inverted or strongly concave place, has no such weights: see OutsideHull.
@@ -58,10 +58,10 @@ public:
   ///@{
   /**
    * What becomes of a free node that does not lie inside the hull of its neighbors. Error: no
-   * result, and a message with the number of such nodes and the first ids. Relax: each of them takes
-   * the first of these that exists: log-barrier weights among its neighbors and theirs; affine
-   * weights of least norm, which keep affine motions exact but may be negative, so nothing bounds
-   * the node; FEMWARP's row of the matrix. Default Error.
+   * result, and a message with the number of such nodes and the first ids. Relax: each of them
+   * takes the first of these that exists: log-barrier weights among its neighbors and theirs;
+   * affine weights of least norm, which keep affine motions exact but may be negative, so nothing
+   * bounds the node; FEMWARP's row of the matrix. Default Error.
    */
   vtkSetClampMacro(OutsideHull, int, OUTSIDE_HULL_ERROR, OUTSIDE_HULL_RELAX);
   vtkGetMacro(OutsideHull, int);

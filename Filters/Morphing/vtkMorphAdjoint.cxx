@@ -30,7 +30,8 @@ vtkStandardNewMacro(vtkMorphAdjoint);
 
 namespace
 {
-/// The first vtkMorphAlgorithm from `algorithm` on upstream, level by level; null where there is none.
+/// The first vtkMorphAlgorithm from `algorithm` on upstream, level by level; null where there is
+/// none.
 vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
 {
   std::vector<vtkAlgorithm*> found;

@@ -3,32 +3,33 @@
  * @class   vtkMorphAdjoint
  * @brief   derivatives of an objective on a morphed mesh with respect to its boundary
  *
- * For shape optimisation. A linear morphing method moves the nodes inside by a fixed matrix times the
- * displacement of the boundary, x_free = M x_prescribed. Given the derivatives g of an objective with
- * respect to the position of every node of the morphed mesh, this filter writes those with respect to
- * the position of every point of the boundary, g_prescribed + M^T g_free, at the cost of one evaluation
- * and whatever the number of boundary points.
+ * For shape optimisation. A linear morphing method moves the nodes inside by a fixed matrix times
+ * the displacement of the boundary, x_free = M x_prescribed. Given the derivatives g of an
+ * objective with respect to the position of every node of the morphed mesh, this filter writes
+ * those with respect to the position of every point of the boundary, g_prescribed + M^T g_free, at
+ * the cost of one evaluation and whatever the number of boundary points.
  *
- * Port 0 takes the undeformed mesh, port 1 the displaced boundary, both as the morphing filter's ports do.
- * The derivatives are the point vectors GradientArray of port 2 (for instance the morphed mesh, on which
- * the objective was evaluated) or, where that is not connected, of port 0. The output is the boundary
- * with the point vectors `MorphGradient`. They are derivatives with respect to the points of port 1 or,
- * where the method has a DisplacementArray, to that array; a ScaleFactor other than 1 is a factor
- * of them too. Nodes that are held pass nothing on. A point that stands for no node gets 0, and so does
- * each but the first of several points that stand for one node.
+ * Port 0 takes the undeformed mesh, port 1 the displaced boundary, both as the morphing filter's
+ * ports do. The derivatives are the point vectors GradientArray of port 2 (for instance the morphed
+ * mesh, on which the objective was evaluated) or, where that is not connected, of port 0. The
+ * output is the boundary with the point vectors `MorphGradient`. They are derivatives with respect
+ * to the points of port 1 or, where the method has a DisplacementArray, to that array; a
+ * ScaleFactor other than 1 is a factor of them too. Nodes that are held pass nothing on. A point
+ * that stands for no node gets 0, and so does each but the first of several points that stand for
+ * one node.
  *
- * The method and its options are those of the filter Morph or, where that is not set, of the nearest
- * vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used again. Morph
- * need not be connected to anything.
+ * The method and its options are those of the filter Morph or, where that is not set, of the
+ * nearest vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used
+ * again. Morph need not be connected to anything.
  *
- * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of the method
- * alone, and a warning says so.
+ * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of
+ * the method alone, and a warning says so.
  *
  * Time: as vtkMorphAlgorithm's, updates from within RequestData included; port 2 is asked for the
  * time that the output is.
  *
- * Errors give no result: one message, and an empty output. Among them: no method, one that is not linear, no
- * gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.
+ * Errors give no result: one message, and an empty output. Among them: no method, one that is not
+ * linear, no gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.
  *
  * A. Jameson, "Aerodynamic design via control theory", J. Sci. Comput. 3 (1988) 233-260;
  * M. L. Staten et al. (2011), as in vtkMorphAlgorithm.
@@ -77,7 +78,8 @@ public:
   ///@{
   /**
    * The data set that carries the derivatives, with as many points as the mesh: the same as
-   * SetInputConnection() and SetInputData() on port 2. Optional: the undeformed mesh may carry them.
+   * SetInputConnection() and SetInputData() on port 2. Optional: the undeformed mesh may carry
+   * them.
    */
   void SetGradientConnection(vtkAlgorithmOutput* output);
   void SetGradientData(vtkDataObject* gradient);
@@ -94,8 +96,8 @@ public:
 
   ///@{
   /**
-   * Name of the point array with the derivatives, three components: the unit of the objective over that
-   * of the points. Default: none, which is an error.
+   * Name of the point array with the derivatives, three components: the unit of the objective over
+   * that of the points. Default: none, which is an error.
    */
   vtkSetStringMacro(GradientArray);
   vtkGetStringMacro(GradientArray);

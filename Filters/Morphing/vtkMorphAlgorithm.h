@@ -3,8 +3,8 @@
  * @class   vtkMorphAlgorithm
  * @brief   moves the nodes of a volume mesh so that it follows a displaced boundary
  *
- * The superclass of all morphing filters. Port 0 takes the undeformed mesh (vtkUnstructuredGrid), port
- * 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells and arrays, and new
+ * The superclass of all morphing filters. Port 0 takes the undeformed mesh (vtkUnstructuredGrid),
+ * port 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells and arrays, and new
  * points: those of the boundary lie where port 1 puts them, those inside follow by the subclass's
  * method. The inputs are never touched.
  *
@@ -35,16 +35,18 @@
  * Mid-side, face and body nodes of quadratic cells that are not prescribed keep their place in the
  * cell. Cells of lower dimension pass through.
  *
- * Output 1 holds output 0's inverted and degenerate cells (ScaledJacobian of 0 or less) with their points and arrays, to be looked
- * at; added are the cell array `MorphCellId` and the point array `MorphPointId`, ids in output 0. It is empty where there are none.
+ * Output 1 holds output 0's inverted and degenerate cells (ScaledJacobian of 0 or less) with their
+ * points and arrays, to be looked at; added are the cell array `MorphCellId` and the point array
+ * `MorphPointId`, ids in output 0. It is empty where there are none.
  *
  * What the method prepares (a matrix and its preconditioner, weights, ...) is kept, and used again
  * while the rest points, the cells, the set of prescribed nodes and the method's options have the
  * same content, whatever their modification times. So moving the same boundary again only costs the
  * evaluation; see GetPrepareCount().
  *
- * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is still. Port 0 is always
- * asked for RestTime. Stepping tells whether a step starts from the undeformed mesh or from the mesh of the step before.
+ * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is
+ * still. Port 0 is always asked for RestTime. Stepping tells whether a step starts from the
+ * undeformed mesh or from the mesh of the step before.
  *
  * After an error there is one message, and output 0 is the undeformed mesh, as port 0 has it, or
  * empty where that cannot be read; MorphStatus is "Failed", and InvertedCells and MinScaledJacobian
@@ -152,11 +154,13 @@ public:
 
   ///@{
   /**
-   * Steps that the motion of a boundary which does not vary in time is cut into, equal in length: the output then has the time
-   * steps 0 (at rest), 1, ..., NumberOfSteps, and at step i the boundary has made i / NumberOfSteps of ScaleFactor's
-   * motion. Between steps the one before counts; where no time is asked for, the last. A boundary with several time steps
-   * has its own and this is without effect; one with a time range alone is taken at the ends of that many equal parts of
-   * it. Default 0: no steps. Range [0, 1000000]; what is beyond it becomes the nearest end.
+   * Steps that the motion of a boundary which does not vary in time is cut into, equal in length:
+   * the output then has the time steps 0 (at rest), 1, ..., NumberOfSteps, and at step i the
+   * boundary has made i / NumberOfSteps of ScaleFactor's motion. Between steps the one before
+   * counts; where no time is asked for, the last. A boundary with several time steps has its own
+   * and this is without effect; one with a time range alone is taken at the ends of that many equal
+   * parts of it. Default 0: no steps. Range [0, 1000000]; what is beyond it becomes the nearest
+   * end.
    */
   vtkSetClampMacro(NumberOfSteps, int, 0, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -170,12 +174,14 @@ public:
 
   ///@{
   /**
-   * From which mesh a step starts. Absolute: from the undeformed mesh. Relative: from the mesh of the step before, in double
-   * precision, for which the method is prepared again, and the first from the undeformed mesh; cells are still measured against, and
-   * vtkInversionFreeMorph still aims for, the undeformed mesh. A relative step is the same whether all steps before
-   * it were asked for or none: those that are missing are computed, the boundary being asked for their times (on one MPI
-   * process only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step alone, 0 where it was kept. Has
-   * no effect without steps. Default Absolute.
+   * From which mesh a step starts. Absolute: from the undeformed mesh. Relative: from the mesh of
+   * the step before, in double precision, for which the method is prepared again, and the first
+   * from the undeformed mesh; cells are still measured against, and vtkInversionFreeMorph still
+   * aims for, the undeformed mesh. A relative step is the same whether all steps before it were
+   * asked for or none: those that are missing are computed, the boundary being asked for their
+   * times (on one MPI process only, if it varies in time). PrepareSeconds and EvaluateSeconds are
+   * those of the last step alone, 0 where it was kept. Has no effect without steps. Default
+   * Absolute.
    */
   vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);
   vtkGetMacro(Stepping, int);
@@ -185,9 +191,9 @@ public:
 
   ///@{
   /**
-   * Megabytes (10^6 bytes) that the meshes of a relative run may take, 24 bytes a node and step. Beyond it every other one is dropped, and
-   * going back to it takes some steps again; the result does not depend on it. The last one is kept in
-   * any case. Default 1000, range [0, 1e12].
+   * Megabytes (10^6 bytes) that the meshes of a relative run may take, 24 bytes a node and step.
+   * Beyond it every other one is dropped, and going back to it takes some steps again; the result
+   * does not depend on it. The last one is kept in any case. Default 1000, range [0, 1e12].
    */
   virtual void SetStepMemoryLimit(double value);
   vtkGetMacro(StepMemoryLimit, double);
@@ -229,14 +235,16 @@ public:
    * What to do where the method leaves inverted or degenerate cells.
    * None: nothing; InvertedCells counts them.
    * Report: a warning names the ten worst of them.
-   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared again at each step.
-   * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where that fails, sub-steps of
-   * vtkInversionFreeMorph.
+   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared again
+   * at each step.
+   * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where
+   * that fails, sub-steps of vtkInversionFreeMorph.
    * Refuse: an error that names them, and the undeformed mesh.
    *
-   * With the last three a boundary that inverts cells by itself, at corners whose nodes it all prescribes, is refused at once, naming
-   * these cells. Where SubStep and Repair find no valid mesh for the whole motion there is an error, but the output is the
-   * valid mesh of the largest step that was reached; see MorphStatus. Default Report.
+   * With the last three a boundary that inverts cells by itself, at corners whose nodes it all
+   * prescribes, is refused at once, naming these cells. Where SubStep and Repair find no valid mesh
+   * for the whole motion there is an error, but the output is the valid mesh of the largest step
+   * that was reached; see MorphStatus. Default Report.
    */
   vtkSetClampMacro(Validity, int, VALIDITY_NONE, VALIDITY_REFUSE);
   vtkGetMacro(Validity, int);
@@ -249,8 +257,9 @@ public:
 
   ///@{
   /**
-   * Whether to prove for each cell of the output that its Jacobian determinant is positive everywhere, not at the corners alone (cell
-   * array JacobianCertificate: 1 certified, 0 undecided, -1 inverted; field data CertifiedCells, UncertifiedCells, UndecidedCells; see
+   * Whether to prove for each cell of the output that its Jacobian determinant is positive
+   * everywhere, not at the corners alone (cell array JacobianCertificate: 1 certified, 0 undecided,
+   * -1 inverted; field data CertifiedCells, UncertifiedCells, UndecidedCells; see
    * vtkScaledJacobian). Cost: about a microsecond a cell. Default off, in vtkInversionFreeMorph on.
    */
   vtkSetMacro(Certify, bool);
@@ -268,11 +277,12 @@ public:
 
   ///@{
   /**
-   * Whether to smooth the mesh that the method made, before Validity looks at it: prescribed nodes stay, inverted
-   * cells are untangled where that can be done, and then cells are brought closer, on average, to their shapes at
-   * rest (see vtkSmoothingMorph, TargetShape Initial). A smoothed mesh with more inverted cells, or as many and a lower
-   * minimum scaled Jacobian, is dropped. The field data PostSmoothSteps has the steps that led to the
-   * output, 0 where it was dropped. Default off.
+   * Whether to smooth the mesh that the method made, before Validity looks at it: prescribed nodes
+   * stay, inverted cells are untangled where that can be done, and then cells are brought closer,
+   * on average, to their shapes at rest (see vtkSmoothingMorph, TargetShape Initial). A smoothed
+   * mesh with more inverted cells, or as many and a lower minimum scaled Jacobian, is dropped. The
+   * field data PostSmoothSteps has the steps that led to the output, 0 where it was dropped.
+   * Default off.
    */
   vtkSetMacro(PostSmooth, bool);
   vtkGetMacro(PostSmooth, bool);
@@ -281,8 +291,8 @@ public:
 
   ///@{
   /**
-   * Most steps of PostSmooth, in each of which every node moves once; it ends before that once no node moves farther than a
-   * thousandth of its edges. Default 20, range [1, 100000].
+   * Most steps of PostSmooth, in each of which every node moves once; it ends before that once no
+   * node moves farther than a thousandth of its edges. Default 20, range [1, 100000].
    */
   vtkSetClampMacro(PostSmoothIterations, int, 1, 100000);
   vtkGetMacro(PostSmoothIterations, int);
@@ -291,8 +301,8 @@ public:
   ///@{
   /**
    * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
-   * first step where all are after it. Default -1e300, so the first. Has no effect where port 0 has no
-   * time steps.
+   * first step where all are after it. Default -1e300, so the first. Has no effect where port 0 has
+   * no time steps.
    */
   virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
@@ -356,8 +366,8 @@ public:
 
   ///@{
   /**
-   * As of the last execution, with Certify on: number of cells whose Jacobian determinant is positive everywhere, of those where it
-   * is not, and of those for which neither was proved.
+   * As of the last execution, with Certify on: number of cells whose Jacobian determinant is
+   * positive everywhere, of those where it is not, and of those for which neither was proved.
    */
   vtkGetMacro(CertifiedCells, vtkIdType);
   vtkGetMacro(UncertifiedCells, vtkIdType);
@@ -376,8 +386,9 @@ public:
 
   ///@{
   /**
-   * As of the last execution: the part of the motion, with relative steps of the last step's, that the valid output has made, 1 for all of
-   * it, and NaN where it has inverted cells (field data LargestValidStep); and the sub-steps tried.
+   * As of the last execution: the part of the motion, with relative steps of the last step's, that
+   * the valid output has made, 1 for all of it, and NaN where it has inverted cells (field data
+   * LargestValidStep); and the sub-steps tried.
    */
   vtkGetMacro(LargestValidStep, double);
   vtkGetMacro(SubSteps, vtkIdType);
@@ -442,8 +453,8 @@ protected:
   virtual void SetEvaluateOptions(morph::Morpher& vtkNotUsed(morpher)) {}
 
   /**
-   * The number of that name in the method's report of the last execution (morph::Statistic), 0 where
-   * there is none. The output holds them as field data too.
+   * The number of that name in the method's report of the last execution (morph::Statistic), 0
+   * where there is none. The output holds them as field data too.
    */
   vtkIdType GetCount(const char* name) const;
 
@@ -486,7 +497,8 @@ private:
   morph::filters::StepResult MorphStep(const morph::Mesh& from,
     const morph::filters::BoundaryMatch::Result& match, int validityMode, double first, double last,
     morph::filters::Monitor& monitor);
-  /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or others.
+  /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or
+  /// others.
   void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
     morph::filters::Monitor& monitor);
   void Write(vtkUnstructuredGrid* grid, const morph::filters::StepResult& result,

@@ -21,11 +21,12 @@
  *   spread out on the target; where that does not help, they keep their unprojected position, and a
  *   warning names them.
  *
- * Port 0 takes the undeformed mesh (vtkUnstructuredGrid): its geometry is found as vtkClassifyBoundary
- * finds it, whose output can be given here. Port 1 takes the moved nodes (vtkPointSet), matched to
- * the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on geometry of a dimension up
- * to PrescribedDimension are given; the others are ignored. Vertices that port 1 does not name are
- * held in place. Port 2, optional, takes the target (vtkPolyData, an STL file for instance).
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid): its geometry is found as
+ * vtkClassifyBoundary finds it, whose output can be given here. Port 1 takes the moved nodes
+ * (vtkPointSet), matched to the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on
+ * geometry of a dimension up to PrescribedDimension are given; the others are ignored. Vertices
+ * that port 1 does not name are held in place. Port 2, optional, takes the target (vtkPolyData, an
+ * STL file for instance).
  *
  * The output is the boundary as vtkExtractMorphBoundary writes it, at its moved points, with the
  * arrays of vtkClassifyBoundary, the point vectors `MorphDisplacement`, and the cell array
@@ -110,8 +111,9 @@ public:
   };
   ///@{
   /**
-   * How surfaces follow. With SURFACE_METHOD_SMOOTHING faces that come out poor (scaled Jacobian below 0.2, and below half
-   * of that at rest) are improved by nodes that move along the surface. Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
+   * How surfaces follow. With SURFACE_METHOD_SMOOTHING faces that come out poor (scaled Jacobian
+   * below 0.2, and below half of that at rest) are improved by nodes that move along the surface.
+   * Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
   vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);

@@ -28,14 +28,15 @@
  * negative value.
  *
  * The scaled Jacobian looks at a few points of each linear cell only: a hexahedron or wedge that is
- * positive there may still be inverted inside. With Certify on, the sign of the Jacobian determinant
- * is proved for the whole of every volume cell, in the cell array `JacobianCertificate`: 1 where it is positive everywhere, -1 where it is zero or
- * negative somewhere, corners included, 0 where neither was proved and for cells that were not
- * examined (lower dimension, ghosts). The proof is exact for linear tetrahedra and pyramids, and by
- * bounds with subdivision for the others. Quadratic cells are proved with VTK's own maps through all
- * of their nodes. The field data
- * CertifiedCells, UncertifiedCells (those with -1) and UndecidedCells count them. With Certify off, arrays of
- * these names that came with the input are removed.
+ * positive there may still be inverted inside. With Certify on, the sign of the Jacobian
+ * determinant is proved for the whole of every volume cell, in the cell array
+ * `JacobianCertificate`: 1 where it is positive everywhere, -1 where it is zero or negative
+ * somewhere, corners included, 0 where neither was proved and for cells that were not examined
+ * (lower dimension, ghosts). The proof is exact for linear tetrahedra and pyramids, and by bounds
+ * with subdivision for the others. Quadratic cells are proved with VTK's own maps through all of
+ * their nodes. The field data
+ * CertifiedCells, UncertifiedCells (those with -1) and UndecidedCells count them. With Certify off,
+ * arrays of these names that came with the input are removed.
  *
  * The output is the input with the cell array `ScaledJacobian` (double, active cell scalars) and
  * the field data MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId

@@ -51,7 +51,8 @@ public:
   /**
    * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
    * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
-   * neighbor's distance; somewhat less smooth. Changing it prepares again. Default COORDINATES_SIBSON.
+   * neighbor's distance; somewhat less smooth. Changing it prepares again. Default
+   * COORDINATES_SIBSON.
    */
   vtkSetClampMacro(Coordinates, int, COORDINATES_SIBSON, COORDINATES_LAPLACE);
   vtkGetMacro(Coordinates, int);

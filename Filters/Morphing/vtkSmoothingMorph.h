@@ -78,7 +78,8 @@ public:
   ///@{
   /**
    * The improvement ends once no node moves farther in a step than this part of the mean length of
-   * its edges, or once a step improves the mean by less than a millionth. Default 1e-3, range [1e-12, 1].
+   * its edges, or once a step improves the mean by less than a millionth. Default 1e-3, range
+   * [1e-12, 1].
    */
   virtual void SetStopMove(double value);
   vtkGetMacro(StopMove, double);

@@ -13,10 +13,12 @@ namespace morph_mesh
 /// Throws UsageError for a name that is none.
 vtkSmartPointer<vtkMorphAlgorithm> makeMethod(const std::string& name);
 
-/// Throws UsageError for an option that the method does not have, and for a value that is none of its.
+/// Throws UsageError for an option that the method does not have, and for a value that is none of
+/// its.
 void setOption(vtkMorphAlgorithm* method, const std::string& name, const std::string& value);
 
-/// What to do about inverted cells: None, Report, SubStep, Repair, Refuse. Throws UsageError for another name.
+/// What to do about inverted cells: None, Report, SubStep, Repair, Refuse. Throws UsageError for
+/// another name.
 void setValidity(vtkMorphAlgorithm* method, const std::string& name);
 
 /// For the help text.

@@ -8,7 +8,8 @@ class vtkAlgorithm;
 
 namespace morph_mesh
 {
-/// A line on standard error that shows how far an algorithm is, from half a second on; gone when it goes.
+/// A line on standard error that shows how far an algorithm is, from half a second on; gone when it
+/// goes.
 class ProgressBar
 {
 public:

@@ -15,6 +15,7 @@ struct Bandwidth
   double best() const { return this->read > this->triad ? this->read : this->triad; }
 };
 
-/// Measures over three arrays of `bytes` in all, on the monitor's threads; the best of several passes.
+/// Measures over three arrays of `bytes` in all, on the monitor's threads; the best of several
+/// passes.
 Bandwidth measureBandwidth(std::size_t bytes, morph::Monitor& monitor);
 }

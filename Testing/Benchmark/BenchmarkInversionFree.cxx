@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inversion-free morph from a tangled start: Newton against L-BFGS, and against a direct solver of FEMWARP's system.
+// The inversion-free morph from a tangled start: Newton against L-BFGS, and against a direct solver
+// of FEMWARP's system.
 #include "CommandLine.h"
 #include "InversionFreeFigures.h"
 

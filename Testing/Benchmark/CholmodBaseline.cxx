@@ -59,7 +59,8 @@ struct Session
 
 DirectResult solveByCholmod(const LinearSystem& system)
 {
-  // Rows of a symmetric matrix are its columns, so the arrays serve as they are. CHOLMOD does not write to them.
+  // Rows of a symmetric matrix are its columns, so the arrays serve as they are. CHOLMOD does not
+  // write to them.
   const morph::CsrMatrix& matrix = system.matrix;
   const auto n = static_cast<std::size_t>(matrix.rows());
   cholmod_sparse a = {};

@@ -54,7 +54,8 @@ struct Session
 
 DirectResult solve(const LinearSystem& system)
 {
-  // KLU reads columns: it gets the transpose, and solves with the transpose of that. It does not write to the arrays.
+  // KLU reads columns: it gets the transpose, and solves with the transpose of that. It does not
+  // write to the arrays.
   const morph::CsrMatrix& matrix = system.matrix;
   auto* columnStart = const_cast<int*>(matrix.outerIndexPtr());
   auto* row = const_cast<int*>(matrix.innerIndexPtr());
@@ -82,7 +83,8 @@ DirectResult solve(const LinearSystem& system)
   return result;
 }
 
-/// Memory that a child process shares with this one: a DirectResult without its vector, and the vector.
+/// Memory that a child process shares with this one: a DirectResult without its vector, and the
+/// vector.
 class SharedResult
 {
 public:
@@ -124,7 +126,8 @@ private:
   double* values_;
 };
 
-/// Whether the child has ended by itself within `limit` seconds; it is ended otherwise. `status`: waitpid()'s.
+/// Whether the child has ended by itself within `limit` seconds; it is ended otherwise. `status`:
+/// waitpid()'s.
 bool waitFor(pid_t child, double limit, int& status)
 {
   const Stopwatch watch;

@@ -7,8 +7,8 @@
 
 namespace benchmark
 {
-/// The system that FEMWARP or LBWARP solves for one problem: A_I U_I = -A_B U_B, in displacements. Refers to the
-/// morpher it was made from.
+/// The system that FEMWARP or LBWARP solves for one problem: A_I U_I = -A_B U_B, in displacements.
+/// Refers to the morpher it was made from.
 struct LinearSystem
 {
   const morph::CsrMatrix& matrix; ///< #free x #free

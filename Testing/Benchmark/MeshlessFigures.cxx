@@ -20,7 +20,8 @@ namespace
 {
 constexpr int AxisX = 0;
 constexpr int AxisZ = 2;
-// Seconds of an absolute step on the canister's 136,462 nodes: Table 4 of Staten et al., IMR 2011, on two Intel X5570.
+// Seconds of an absolute step on the canister's 136,462 nodes: Table 4 of Staten et al., IMR 2011,
+// on two Intel X5570.
 constexpr double PaperWeightedResidual = 74.86, PaperSimplexLinear = 0.83,
                  PaperNaturalNeighbor = 52.88;
 constexpr double SibsonDifference = 1e-8; // of the mesh's size

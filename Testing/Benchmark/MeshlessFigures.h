@@ -5,6 +5,7 @@
 
 namespace benchmark
 {
-/// Figures of weighted residual, simplex-linear and simplex-natural neighbor, as Measure in CommandLine.h.
+/// Figures of weighted residual, simplex-linear and simplex-natural neighbor, as Measure in
+/// CommandLine.h.
 Report measureMeshlessFigures(const Options& options, bool& correct);
 }

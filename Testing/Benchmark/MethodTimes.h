@@ -17,15 +17,15 @@ struct MethodTimes
 {
   std::vector<double> prepare;
   std::vector<double> cold; ///< prepare and the first evaluate
-  std::vector<double>
-    warm; ///< an evaluate after that: the median of several, as when a boundary is dragged
+  /// an evaluate after that: the median of several, as when a boundary is dragged
+  std::vector<double> warm;
   int iterations = 0;
   double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
 };
 
-/// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated twice. Appends to `times`;
-/// `moved` becomes the moved mesh. Returns the morpher. Throws std::runtime_error if the two evaluations differ in
-/// a bit.
+/// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated
+/// twice. Appends to `times`; `moved` becomes the moved mesh. Returns the morpher. Throws
+/// std::runtime_error if the two evaluations differ in a bit.
 template <typename Method, typename Configure>
 std::unique_ptr<Method> timeConfigured(const Problem& problem, const Configure& configure,
   morph::Monitor& monitor, MethodTimes& times, morph::Points& moved)

@@ -30,9 +30,11 @@ public:
   void add(const std::string& figure, double measured, const std::string& unit,
     Target target = Target::none());
 
-  /// An aligned table of figure, target, measured and met: first those with a target, then the others.
+  /// An aligned table of figure, target, measured and met: first those with a target, then the
+  /// others.
   std::string table() const;
-  /// Columns figure, unit, relation, target, measured, met. Throws std::runtime_error if the file cannot be written.
+  /// Columns figure, unit, relation, target, measured, met. Throws std::runtime_error if the file
+  /// cannot be written.
   void writeCsv(const std::string& file) const;
 
 private:

@@ -19,7 +19,8 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Processor seconds of the calling thread since construction: what its own work took, whatever else ran beside it.
+/// Processor seconds of the calling thread since construction: what its own work took, whatever
+/// else ran beside it.
 class ThreadStopwatch
 {
 public:

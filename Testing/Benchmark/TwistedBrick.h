@@ -18,8 +18,9 @@ struct Problem
   double size = 0;                ///< diagonal of the undeformed mesh's bounding box
 };
 
-/// A brick of nx x ny x nz unit hexahedra. Its boundary is twisted by 90 degrees about the line through the centre
-/// along `axis` (0: x, 2: z), linearly over the brick's length, and stretched 1.5 times along that axis. Inner nodes of
-/// the undeformed mesh are off their lattice places by up to `jitter` in each coordinate, always the same.
+/// A brick of nx x ny x nz unit hexahedra. Its boundary is twisted by 90 degrees about the line
+/// through the centre along `axis` (0: x, 2: z), linearly over the brick's length, and stretched
+/// 1.5 times along that axis. Inner nodes of the undeformed mesh are off their lattice places by up
+/// to `jitter` in each coordinate, always the same.
 Problem twistedBrick(int nx, int ny, int nz, int axis, double jitter = 0);
 }

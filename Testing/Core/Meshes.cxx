@@ -170,7 +170,8 @@ Mesh hexesAndPyramids(int nx, int ny, int nz)
       }
       const Index centre = latticeNodes + static_cast<Index>(centres.size());
       centres.push_back(Eigen::RowVector3d(i + .5, j + .5, k + .5));
-      // Base seen from the centre counter-clockwise. On the box's own surface the base is free to be cut in two tets.
+      // Base seen from the centre counter-clockwise. On the box's own surface the base is free to
+      // be cut in two tets.
       static constexpr int Base[6][4] = { { 0, 3, 7, 4 }, { 1, 5, 6, 2 }, { 0, 4, 5, 1 },
         { 3, 2, 6, 7 }, { 0, 1, 2, 3 }, { 4, 7, 6, 5 } };
       const bool outer[6] = { i == 0, i == nx - 1, j == 0, j == ny - 1, k == 0, k == nz - 1 };

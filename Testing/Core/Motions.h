@@ -18,7 +18,8 @@ using Map = std::function<Row(const Row&)>;
 
 /// Shear, stretch and shift.
 Row affine(const Row& x);
-/// Not affine: a twist about the z axis through the middle of a box of width `w` and height `h`, stretched along z.
+/// Not affine: a twist about the z axis through the middle of a box of width `w` and height `h`,
+/// stretched along z.
 Row twist(const Row& x, double w, double h, double angle);
 
 /// `map` applied to each row.
@@ -38,6 +39,7 @@ double difference(const morph::Points& a, const morph::Points& b);
 /// Equal to the last bit, signs of zeros included.
 bool identical(const morph::Points& a, const morph::Points& b);
 
-/// The kind of the morph::Error that `call` throws, and its message. Fails the test where it throws none.
+/// The kind of the morph::Error that `call` throws, and its message. Fails the test where it throws
+/// none.
 morph::Error::Kind kindOf(const std::function<void()>& call, std::string& message);
 }

@@ -64,8 +64,8 @@ Cell jittered(Cell cell, double amount, std::mt19937& random)
   return cell;
 }
 
-/// The Jacobian determinant at a parametric point, by the shape functions; a pyramid's without the factor (1 - t)^2
-/// that vanishes at the apex.
+/// The Jacobian determinant at a parametric point, by the shape functions; a pyramid's without the
+/// factor (1 - t)^2 that vanishes at the apex.
 double determinant(std::uint8_t type, const Cell& cell, const Vector& at)
 {
   double N[8], dN[8][3];
@@ -84,7 +84,8 @@ bool isInside(std::uint8_t type, const Vector& at)
   return at.minCoeff() >= 0 && at.maxCoeff() <= 1 && (type != Wedge || at[0] + at[1] <= 1);
 }
 
-/// The least determinant on a lattice, then by a search from the best of its points with ever shorter steps.
+/// The least determinant on a lattice, then by a search from the best of its points with ever
+/// shorter steps.
 double sampledMinimum(std::uint8_t type, const Cell& cell, int lattice, bool search)
 {
   double least = std::numeric_limits<double>::infinity();
@@ -160,8 +161,8 @@ CertificateReport certifyAll(const Mesh& mesh, const std::vector<std::int8_t>& o
 
 TEST(OrientationPredicate, IsExactForNearlyFlatTetrahedra)
 {
-  // Edges that are long sums of one another, so that the determinant is the small number of the start,
-  // about 2^-50 of its six products.
+  // Edges that are long sums of one another, so that the determinant is the small number of the
+  // start, about 2^-50 of its six products.
   std::mt19937 random(meshes::seed());
   std::uniform_int_distribution<int> pick(0, 2), factor(-3, 3), coordinate(-(1 << 17), 1 << 17);
   for (int trial = 0; trial < 20000; ++trial)
@@ -260,7 +261,8 @@ TEST(Certificate, AgreesWithDenseSampling)
 
 TEST(Certificate, FindsWhatTheScaledJacobianMisses)
 {
-  // Every corner, and a hexahedron's centre, positive; the inside not. Wedges like that are twisted by nearly half a turn.
+  // Every corner, and a hexahedron's centre, positive; the inside not. Wedges like that are twisted
+  // by nearly half a turn.
   Cell twisted = RightWedge;
   for (int k = 3; k < 6; ++k)
   {
@@ -327,8 +329,8 @@ TEST(Certificate, DecidesNextToTheLimit)
         }
         return certified(v.type, cell);
       };
-      // Each bisection keeps one end that is certified and one that is not, or one that is inverted and one that
-      // is not: the ends close in on the undecided stretch from either side.
+      // Each bisection keeps one end that is certified and one that is not, or one that is inverted
+      // and one that is not: the ends close in on the undecided stretch from either side.
       double valid = 0, notValid = 1, notInverted = 0, inverted = 1;
       for (int i = 0; i < 50; ++i)
       {

@@ -257,8 +257,8 @@ TEST(Classification, CreaseThatEndsInsideASurface)
   const Found found = find(mesh);
   expectConsistent(mesh, found);
   const Classification& g = found.geometry;
-  // The ridge turns by 2 atan(1 - x / 4) on average over an edge, its feet by half of that: more than 25 degrees up
-  // to x = 3 and 2.
+  // The ridge turns by 2 atan(1 - x / 4) on average over an edge, its feet by half of that: more
+  // than 25 degrees up to x = 3 and 2.
   std::map<double, std::size_t> length; // by y
   for (const GeometryCurve& curve : g.curves)
   {
@@ -371,7 +371,8 @@ TEST(Classification, GivenSurfaceIds)
 
 TEST(Classification, GivenNodesComeBack)
 {
-  // What classify() found, given to it again under other ids, comes back; parameters to the last bit.
+  // What classify() found, given to it again under other ids, comes back; parameters to the last
+  // bit.
   for (const Mesh& mesh : { meshes::hexes(1, 1, 1), meshes::tets(3, 2, 2),
          meshes::quadraticTets(2, 2, 2), shapes::boxWithHole(16, 2, 2), shapes::creasedPlate() })
   {
@@ -437,7 +438,8 @@ TEST(Classification, GivenVerticesAndSeams)
 
 TEST(Classification, FaceWithoutAreaSeparatesNothing)
 {
-  // The middle of the top face is pulled onto its rim: two triangles lose their area, and part the top face.
+  // The middle of the top face is pulled onto its rim: two triangles lose their area, and part the
+  // top face.
   Mesh mesh = meshes::tets(2, 2, 1);
   const Counts expected = counts(find(mesh).geometry);
   Index center = -1, side = -1;

@@ -69,7 +69,8 @@ Delaunay built(const Points& sites)
   return delaunay;
 }
 
-/// Below 0 where `e` lies inside the sphere through the corners of a positively oriented tetrahedron.
+/// Below 0 where `e` lies inside the sphere through the corners of a positively oriented
+/// tetrahedron.
 long double outsideSphere(
   const Delaunay::Tetrahedron& tetrahedron, const Points& sites, const Row& e)
 {

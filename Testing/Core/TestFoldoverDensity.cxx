@@ -31,7 +31,8 @@ morph::FoldoverDensity densityOf(const Case& c)
   return density;
 }
 
-/// Jacobians of all kinds: near the identity, sheared, nearly flat, and, where the density allows it, inverted.
+/// Jacobians of all kinds: near the identity, sheared, nearly flat, and, where the density allows
+/// it, inverted.
 std::vector<Matrix> jacobians(bool inverted)
 {
   std::mt19937 random(meshes::seed());

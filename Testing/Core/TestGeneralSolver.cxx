@@ -26,8 +26,8 @@ struct Problem
   Points places, b;
 };
 
-/// I - W with random W >= 0 on the 6 lattice neighbors of an n^3 grid, some of it to the outside: an M-matrix.
-/// `wind` in [0, 1): how much more the neighbor upstream along z weighs.
+/// I - W with random W >= 0 on the 6 lattice neighbors of an n^3 grid, some of it to the outside:
+/// an M-matrix. `wind` in [0, 1): how much more the neighbor upstream along z weighs.
 Problem lattice(int n, double wind)
 {
   std::mt19937 random(meshes::seed());
@@ -163,7 +163,8 @@ TEST(GeneralSolver, FallsBackOnGmresWhereTheFirstIterationStagnates)
 
 TEST(GeneralSolver, SaysWhereItDoesNotConverge)
 {
-  // Round and round: the spectrum is a circle about 1, which no polynomial of low degree makes small.
+  // Round and round: the spectrum is a circle about 1, which no polynomial of low degree makes
+  // small.
   constexpr int n = 1000;
   std::vector<int> next(n);
   std::iota(next.begin(), next.end(), 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FEMWARP on what production meshes bring along: collapsed cells, slivers, coordinates far from the origin.
+// FEMWARP on what production meshes bring along: collapsed cells, slivers, coordinates far from the
+// origin.
 #include "Meshes.h"
 
 #include "LinearMethods/FemWarp.h"
@@ -58,7 +59,8 @@ Outcome morphOuter(const Mesh& mesh, Eigen::RowVector3d (*map)(const Eigen::RowV
   return result;
 }
 
-/// A mesh of hexahedra round the z axis whose innermost cells are collapsed to wedges, or the same cells as wedges.
+/// A mesh of hexahedra round the z axis whose innermost cells are collapsed to wedges, or the same
+/// cells as wedges.
 Mesh polar(bool asWedges)
 {
   constexpr int Around = 8, Rings = 4, Layers = 4;
@@ -199,7 +201,8 @@ TEST(HardMeshes, ManySliversConvergeAndTheResidualIsTrue)
     const Outcome result = morphOuter(mesh, bend, monitor);
     EXPECT_TRUE(result.moved.allFinite()) << height;
     EXPECT_LT(result.report.iterations, 1000) << height; // 640 at 1e-6, where they are stiffest
-    // What is reported is what x really leaves, and where it is above the tolerance a warning says so.
+    // What is reported is what x really leaves, and where it is above the tolerance a warning says
+    // so.
     EXPECT_NEAR(std::log10(result.report.relativeResidual), std::log10(result.trueResidual), 1)
       << height;
     if (result.trueResidual > 2e-9)

@@ -254,7 +254,8 @@ TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
   for (const Mesh& mesh :
     { meshes::hexes(6, 6, 6), meshes::tets(6, 6, 6), meshes::hexesAndPyramids(6, 6, 6) })
   {
-    // A node in the middle of the top goes past its neighbor there, and steep waves invert cells elsewhere.
+    // A node in the middle of the top goes past its neighbor there, and steep waves invert cells
+    // elsewhere.
     Points boundary = target(mesh, waves);
     const morph::NodePartition partition = motions::outerPartition(mesh);
     Index folded = -1;

@@ -45,7 +45,8 @@ motions::Map twistOf(double size, double angle = 1.2)
   return [=](const motions::Row& x) { return motions::twist(x, size, size, angle); };
 }
 
-/// Every node moved a little, those on the outside as well: no four nodes of a plane, no five of a sphere.
+/// Every node moved a little, those on the outside as well: no four nodes of a plane, no five of a
+/// sphere.
 std::vector<std::pair<std::string, Mesh>> inGeneralPosition()
 {
   auto list = meshes::all(4, 4, 4);
@@ -161,7 +162,8 @@ TEST_P(LinearMorphers, AdjointEqualsFiniteDifferences)
     method->applyTranspose(gradient, adjoint, monitor);
     ASSERT_EQ(adjoint.rows(), step.rows());
 
-    // Objective: gradient . positions. The map is linear, so central differences are exact but for rounding.
+    // Objective: gradient . positions. The map is linear, so central differences are exact but for
+    // rounding.
     const Points at = targets(mesh, partition, twistOf(4, .8));
     Points plus, minus;
     method->evaluate(at + 0.5 * step, plus, monitor);
@@ -313,7 +315,8 @@ TEST_P(LinearMorphers, MidNodesFarOutsideTheirCellFollowAffineMotions)
 
 TEST_P(LinearMorphers, CurvedEdgesKeepTheirPlaceInTheCell)
 {
-  // A mid-side node off the chord of its edge moves with the linear cell around it, not with the chord's ends alone.
+  // A mid-side node off the chord of its edge moves with the linear cell around it, not with the
+  // chord's ends alone.
   Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
   const NodePartition partition = outerPartition(mesh);
   ASSERT_FALSE(partition.higherOrderNodes.empty());

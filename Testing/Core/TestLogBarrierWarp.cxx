@@ -284,7 +284,8 @@ TEST(LogBarrierWarp, AdjointEqualsFiniteDifferences)
     EXPECT_LE(report.relativeResidual, 1e-13) << name;
     EXPECT_GT(method.memory(), before) << name; // the transposed system is kept
 
-    // Objective: gradient . positions. The map is linear, so central differences are exact but for rounding.
+    // Objective: gradient . positions. The map is linear, so central differences are exact but for
+    // rounding.
     const Points at = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, .8); });
     Points plus, minus;
     method.evaluate(at + 0.5 * step, plus, monitor);
@@ -405,7 +406,8 @@ TEST(LogBarrierWarp, TheUnitOfLengthDoesNotShow)
 
 TEST(LogBarrierWarp, FreeNodesOnAFlatOuterFaceKeepToIt)
 {
-  // The inner nodes of the face z = 0 are left free: the limit of their weights lies within the face.
+  // The inner nodes of the face z = 0 are left free: the limit of their weights lies within the
+  // face.
   Mesh mesh = hexes(5, 5, 5);
   jitterInterior(mesh, .15, seed());
   const NodePartition outer = outerPartition(mesh);

@@ -55,8 +55,8 @@ Points neighborhood(int k, std::mt19937& random)
   return d;
 }
 
-/// max sum log w_j by Newton's method on the weights themselves, with the constraints as equations: another way to the
-/// same numbers.
+/// max sum log w_j by Newton's method on the weights themselves, with the constraints as equations:
+/// another way to the same numbers.
 Eigen::VectorXd primal(const Points& d)
 {
   const Eigen::Index k = d.rows();
@@ -190,7 +190,8 @@ TEST(LogBarrierWeights, AspectRatiosDoNotShow)
       const Outcome found = weightsOf(flat);
       ASSERT_EQ(found.place, Place::Inside) << thin << ' ' << k;
       EXPECT_LT(residual(flat, found.w), 1e-12) << thin << ' ' << k;
-      // The barrier is invariant to affine maps; what rounding took from the thin direction is gone.
+      // The barrier is invariant to affine maps; what rounding took from the thin direction is
+      // gone.
       EXPECT_LT((found.w - expected).cwiseAbs().maxCoeff(), 1e-10 + 1e-14 / thin)
         << thin << ' ' << k;
       EXPECT_LE(found.iterations, 30) << thin << ' ' << k;

@@ -100,7 +100,8 @@ TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
 
 TEST(MeshEnergy, HessianIsExactAtTheTarget)
 {
-  // All eigenvalues of the density's second derivative are positive or zero there: nothing is projected away.
+  // All eigenvalues of the density's second derivative are positive or zero there: nothing is
+  // projected away.
   for (const auto& [name, mesh] : small())
   {
     SCOPED_TRACE(name);

@@ -148,7 +148,8 @@ TEST(NaturalNeighbors, KnownValues)
     const Eigen::VectorXd atSite = box.weights(cube().row(5), kind);
     EXPECT_EQ(atSite, Eigen::VectorXd::Unit(8, 5));
   }
-  // All corners of a box lie on one sphere: trilinear weights have the same symmetries, and these differ.
+  // All corners of a box lie on one sphere: trilinear weights have the same symmetries, and these
+  // differ.
   const Eigen::VectorXd weights = box.weights(Row(.5, .5, .25), Kind::Sibson);
   EXPECT_NEAR(weights.head<4>().maxCoeff(), weights.head<4>().minCoeff(), 1e-14);
   EXPECT_NEAR(weights.head<4>().sum(), .75, 1e-14);

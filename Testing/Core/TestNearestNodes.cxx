@@ -81,8 +81,8 @@ void expectNearest(const Points& nodes, const Points& x, const std::vector<Index
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), Index(0)), n) << what;
 }
 
-/// Whether x is in the hull of points in general position: no plane through x and two points has all others on one
-/// side.
+/// Whether x is in the hull of points in general position: no plane through x and two points has
+/// all others on one side.
 bool insideByAllPlanes(const Eigen::RowVector3d& x, const Points& points)
 {
   const Points d = points.rowwise() - x;
@@ -132,7 +132,8 @@ TEST(NearestNodes, AgreesWithSortingAllDistances)
 
 TEST(NearestNodes, PlacesAndNodesOnSpheresAreExact)
 {
-  // The middle of a box round places on a sphere may lie outside the sphere, and nodes wait just beyond it.
+  // The middle of a box round places on a sphere may lie outside the sphere, and nodes wait just
+  // beyond it.
   std::mt19937 random(meshes::seed());
   for (int round = 0; round < 15; ++round)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to simplex-linear; TestLinearMorphers.cxx has what it shares with the other methods.
+// What is particular to simplex-linear; TestLinearMorphers.cxx has what it shares with the other
+// methods.
 #include "LinearMethods/SimplexLinear.h"
 
 #include "Meshes.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to natural neighbors; TestLinearMorphers.cxx has what they share with the other methods.
+// What is particular to natural neighbors; TestLinearMorphers.cxx has what they share with the
+// other methods.
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 
 #include "Meshes.h"

@@ -199,7 +199,8 @@ TEST(SmoothMesh, WorksFirstRoundFewBadCells)
 
 TEST(SmoothMesh, NeverWorseGoesBack)
 {
-  // A boundary layer: cubes are not what its cells should become, and the mean may improve at the cost of the worst.
+  // A boundary layer: cubes are not what its cells should become, and the mean may improve at the
+  // cost of the worst.
   Mesh mesh = hexes(4, 4, 4);
   transform(mesh, [](const Row& x) { return Row(x[0], x[1], .01 * x[2] * x[2] * x[2]); });
   SmoothingOptions options;
@@ -452,7 +453,8 @@ TEST(Smoothing, ABoundaryThatInvertsCellsIsNamed)
   const Mesh mesh = hexes(3, 3, 3);
   const NodePartition partition = outerPartition(mesh);
   Points target = rows(mesh.points, partition.prescribed);
-  // The corner of the box through its cell: its seven other nodes are on the outside too, but for one.
+  // The corner of the box through its cell: its seven other nodes are on the outside too, but for
+  // one.
   target.row(0) = Row(1.5, 1.5, 1.5);
   ThreadedMonitor monitor;
   Smoothing method;

@@ -186,7 +186,8 @@ TEST(SurfaceMorph, AffineMotionOfTheVerticesMovesEverything)
 
 TEST(SurfaceMorph, CurvedCurvesFollowAffineMotions)
 {
-  // A quarter of a disc: each arc's ends alone do not tell how its bulge moves, the other vertices do.
+  // A quarter of a disc: each arc's ends alone do not tell how its bulge moves, the other vertices
+  // do.
   Mesh mesh = meshes::hexes(4, 6, 3);
   meshes::transform(mesh,
     [](const Row& x)
@@ -390,7 +391,8 @@ TEST(SurfaceMorph, ThreadsDoNotShow)
 
 TEST(SurfaceMorph, SmoothingStaysWithinTheResiduals)
 {
-  // One vertex of a box is pulled: u is affine, and what is left of the vertices' motion bounds what is left inside.
+  // One vertex of a box is pulled: u is affine, and what is left of the vertices' motion bounds
+  // what is left inside.
   const Case c(meshes::hexes(5, 5, 5));
   SurfaceMorphOptions options;
   options.method = Method::HarmonicExtension;
@@ -502,8 +504,8 @@ TEST(FaceQuality, IdealAndFoldedFaces)
     EXPECT_TRUE(faceQuality(box.mesh.points, moved, box.faces, box.geometry).folded.empty());
   }
 
-  // A node in the middle of the top is pulled over its neighbor: faces fold, in the plane, where no normal flips by
-  // much less.
+  // A node in the middle of the top is pulled over its neighbor: faces fold, in the plane, where no
+  // normal flips by much less.
   Points moved = box.mesh.points;
   Index node = -1;
   for (Index n = 0; n < moved.rows(); ++n)
@@ -560,7 +562,8 @@ TEST(SurfaceMorph, KeptWeightsAreUsedAgainAndDoNotShow)
   EXPECT_GT(all, 0);
   EXPECT_EQ(morph(curves, -0.2), all);
   EXPECT_EQ(morph(curves, 0.3), all);
-  // Curves that follow are fixed when the surfaces' turn comes, so the vertices alone fix the same nodes.
+  // Curves that follow are fixed when the surfaces' turn comes, so the vertices alone fix the same
+  // nodes.
   EXPECT_EQ(morph(vertices, 0.1), all);
   // One more node on a surface: its weights alone are made again.
   std::vector<Index> more = curves;

@@ -54,8 +54,8 @@ struct Surface
   SurfaceResidual::Loops loops;
 };
 
-/// A disc of radius 2 round its rim, with a hole of radius 1; the points between the circles raised to a dome of
-/// height `rise`.
+/// A disc of radius 2 round its rim, with a hole of radius 1; the points between the circles raised
+/// to a dome of height `rise`.
 Surface annulus(double rise, bool withLoops)
 {
   constexpr int Around = 24;

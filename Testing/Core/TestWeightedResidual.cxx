@@ -66,7 +66,8 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   return result;
 }
 
-/// All nodes a little off their lattice places, those on the outside too: no two distances are equal.
+/// All nodes a little off their lattice places, those on the outside too: no two distances are
+/// equal.
 std::vector<std::pair<std::string, Mesh>> generic(int nx, int ny, int nz)
 {
   std::mt19937 random(meshes::seed());
@@ -354,8 +355,8 @@ TEST(WeightedResidual, AdaptiveNeighborsSurroundTheirNode)
     {
       const Index n = method.weights().entries(row);
       const Eigen::RowVector3d x = mesh.points.row(partition.free[row]);
-      // An independent look: a node is in the hull of the first n neighbors if no direction sees them all. Random
-      // directions cannot prove that it is, but they show that it is not.
+      // An independent look: a node is in the hull of the first n neighbors if no direction sees
+      // them all. Random directions cannot prove that it is, but they show that it is not.
       std::vector<std::pair<double, Index>> near;
       for (Index s = 0; s < sites.rows(); ++s)
       {

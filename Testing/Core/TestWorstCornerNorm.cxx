@@ -109,7 +109,8 @@ TEST(RaiseWorstCells, GoesUpToTheWorstCellThatTheBoundaryDeterminesAndNoFurther)
   const std::vector<std::int8_t> orientation = orientationOf(rest);
   const morph::NodePartition partition = motions::outerPartition(rest);
   Mesh mesh = rest;
-  // The corner of the brick, near the face opposite of its only cell: all four nodes are prescribed.
+  // The corner of the brick, near the face opposite of its only cell: all four nodes are
+  // prescribed.
   mesh.points.row(0) += 0.3 * Eigen::RowVector3d(1, 1, 1);
   meshes::ThreadedMonitor monitor;
   const morph::Quality flat = morph::measureQuality(mesh, mesh.points, orientation, {}, monitor);

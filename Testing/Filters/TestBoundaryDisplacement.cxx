@@ -31,13 +31,15 @@ namespace
 {
 const Row Up(0.1, -0.2, 0.7);
 
-/// A box of 4 x 4 x 4 hexahedra, [0, 4] in each direction: 98 nodes on its boundary, 25 on each side.
+/// A box of 4 x 4 x 4 hexahedra, [0, 4] in each direction: 98 nodes on its boundary, 25 on each
+/// side.
 bool onTop(const Row& x)
 {
   return x[2] == 4;
 }
 
-/// Checks that exactly the nodes at rest where `moves` says so have moved by `Up`, and that the others have stayed.
+/// Checks that exactly the nodes at rest where `moves` says so have moved by `Up`, and that the
+/// others have stayed.
 void expectMoved(vtkBoundaryDisplacement* filter, const std::function<bool(const Row&)>& moves)
 {
   vtkPolyData* output = filter->GetOutput();
@@ -243,7 +245,8 @@ TEST(BoundaryDisplacement, WaysToChoose)
 
 TEST(BoundaryDisplacement, AlongNormals)
 {
-  // One layer: the sides' faces have all of their nodes on what moves, but are not of the patches that do.
+  // One layer: the sides' faces have all of their nodes on what moves, but are not of the patches
+  // that do.
   auto flat = grids::make(meshes::hexes(3, 3, 1));
   auto filter = displaced::make(flat);
   filter->SetMovingToPatches();

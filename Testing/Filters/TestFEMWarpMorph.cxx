@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FEMWARP, and what is tested of vtkMorphAlgorithm with one method; TestMorphFilters.cxx has what every method does.
+// FEMWARP, and what is tested of vtkMorphAlgorithm with one method; TestMorphFilters.cxx has what
+// every method does.
 #include "TestGrids.h"
 
 #include "vtkFEMWarpMorph.h"

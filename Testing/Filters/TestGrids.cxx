@@ -165,8 +165,7 @@ Listener::Listener(vtkAlgorithm* filter)
     });
   this->Observers->ExecutiveCommand->SetClientData(this);
   this->Observers->ExecutiveCommand->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void* text)
-    {
+    [](vtkObject*, unsigned long, void* self, void* text) {
       static_cast<Listener*>(self)->ExecutiveErrors.emplace_back(static_cast<const char*>(text));
     });
   filter->AddObserver(vtkCommand::ErrorEvent, this->Observers->Command);

@@ -62,8 +62,8 @@ TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   }
   filter->SetOutsideHullToRelax();
-  filter
-    ->SetValidityToNone(); // a node outside its neighbors: cells are inverted, and that is not the point here
+  // A node outside its neighbors: cells are inverted, and that is not the point here.
+  filter->SetValidityToNone();
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());

@@ -116,7 +116,8 @@ TEST_P(MorphAdjoint, IsTheDerivativeThroughTheFilter)
     const Points gradient = gradients(adjoint->GetOutput());
     ASSERT_EQ(gradient.rows(), boundary->GetNumberOfPoints());
 
-    // The objective is quadratic and the map linear: central differences are exact but for rounding.
+    // The objective is quadratic and the map linear: central differences are exact but for
+    // rounding.
     const Points step = randomVectors(gradient.rows(), meshes::seed() + 1);
     const auto objectiveAt = [&](double factor)
     {
@@ -215,8 +216,8 @@ TEST_F(AdjointInputs, GradientsThatOverflow)
   vtkNew<vtkSimplexLinearMorph> morph; // without a solver, which would overflow before
   morph->SetScaleFactor(1e3);
   auto adjoint = adjointOf(morph, this->Grid, this->Boundary, nullptr);
-  EXPECT_NE(this->ErrorOf(adjoint).find("with respect to the boundary is not finite"),
-    std::string::npos);
+  EXPECT_NE(
+    this->ErrorOf(adjoint).find("with respect to the boundary is not finite"), std::string::npos);
 }
 
 TEST_F(AdjointInputs, APointThatStandsForSeveralNodesGetsTheirSum)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps in time: parts of a still boundary's motion or those of a boundary that varies, each from the undeformed mesh or
-// from the mesh of the step before.
+// Steps in time: parts of a still boundary's motion or those of a boundary that varies, each from
+// the undeformed mesh or from the mesh of the step before.
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
@@ -27,7 +27,8 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-/// A boundary whose points at time t lie t of the way from `From` to `To`, at its own time steps or in a range; at time 1 while it is `Still`.
+/// A boundary whose points at time t lie t of the way from `From` to `To`, at its own time steps or
+/// in a range; at time 1 while it is `Still`.
 class MovingBoundary : public vtkPolyDataAlgorithm
 {
 public:
@@ -405,7 +406,8 @@ TEST_F(RelativeSteps, ATimeAtWhichTheBoundaryFailsEndsTheExecution)
 
 TEST(RelativeStepsOfInversionFree, AimForTheMeshAtRest)
 {
-  // There and back: what aims for the shapes at rest, and not for those of the step before, comes back to them.
+  // There and back: what aims for the shapes at rest, and not for those of the step before, comes
+  // back to them.
   auto grid = grids::hexes(3);
   auto rest = grids::boundary(grid, [](const grids::Row& x) { return x; });
   vtkNew<MovingBoundary> boundary;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of inverted cells: vtkMorphAlgorithm's Validity, for linear methods and the inversion-free one.
+// What becomes of inverted cells: vtkMorphAlgorithm's Validity, for linear methods and the
+// inversion-free one.
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
@@ -25,13 +26,15 @@ grids::Row waves(const grids::Row& x)
   return { x[0], x[1], x[2] + 2 * std::sin(M_PI / 3 * x[0]) };
 }
 
-/// One corner of the cube goes through the opposite face of its cell: all its neighbors are prescribed.
+/// One corner of the cube goes through the opposite face of its cell: all its neighbors are
+/// prescribed.
 grids::Row cornerPushedIn(const grids::Row& x)
 {
   return x.norm() == 0 ? grids::Row(1.5, 1.5, 1.5) : x;
 }
 
-/// The top goes below the bottom: no valid mesh, and none with prescribed corners alone at fault up to then.
+/// The top goes below the bottom: no valid mesh, and none with prescribed corners alone at fault up
+/// to then.
 grids::Row turnedOver(const grids::Row& x)
 {
   return { x[0], x[1], x[2] == 6 ? -1. : x[2] };
@@ -169,7 +172,8 @@ TEST_F(MorphValidity, BoundariesThatInvertCellsByThemselvesAreNamedAtOnce)
 TEST_F(MorphValidity, TheLargestValidStepIsTheResultWhereThereIsNoMore)
 {
   auto filter = morphed<vtkFEMWarpMorph>(this->Grid, turnedOver);
-  // Top and bottom alone are prescribed, so no corner is all prescribed, and yet the volume is negative in the end.
+  // Top and bottom alone are prescribed, so no corner is all prescribed, and yet the volume is
+  // negative in the end.
   morph::Points rest = grids::points(this->Grid);
   std::vector<morph::Index> ids;
   for (morph::Index i = 0; i < rest.rows(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties that are floating-point numbers: what is not finite or out of range is refused by name,
-// and the old value stays.
+// Properties that are floating-point numbers: what is not finite or out of range is refused by
+// name, and the old value stays.
 #include "TestGrids.h"
 
 #include "vtkBoundaryDisplacement.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to simplex-linear; TestMorphFilters.cxx has what it shares with the other filters.
+// What is particular to simplex-linear; TestMorphFilters.cxx has what it shares with the other
+// filters.
 #include "TestGrids.h"
 
 #include "vtkSimplexLinearMorph.h"

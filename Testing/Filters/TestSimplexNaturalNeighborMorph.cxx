@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular to natural neighbors; TestMorphFilters.cxx has what they share with the other filters.
+// What is particular to natural neighbors; TestMorphFilters.cxx has what they share with the other
+// filters.
 #include "TestGrids.h"
 
 #include "vtkSimplexNaturalNeighborMorph.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smoothing is neither linear nor, with its default target, the identity where nothing moves: TestMorphFilters.cxx is
-// not for it.
+// Smoothing is neither linear nor, with its default target, the identity where nothing moves:
+// TestMorphFilters.cxx is not for it.
 #include "Mesh/NodePartition.h"
 #include "Mesh/Topology.h"
 #include "TestGrids.h"

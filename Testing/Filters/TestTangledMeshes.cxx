@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inversion-free morph on tangled meshes of other projects. They are not part of this one: where they are absent
-// the tests are skipped.
+// The inversion-free morph on tangled meshes of other projects. They are not part of this one:
+// where they are absent the tests are skipped.
 #include "TestGrids.h"
 
 #include "vtkInversionFreeMorph.h"

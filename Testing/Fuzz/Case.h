@@ -27,8 +27,8 @@ public:
   std::vector<vtkSmartPointer<vtkDataObject>> inputs; ///< of ports 0, 1, ...
   vtkSmartPointer<vtkAlgorithm> varying; ///< on port 1 in place of its data; null for none
   double time = -1;                      ///< that is asked for; none if negative
-  bool isRegular =
-    true; ///< properties are in range, and inputs other than grid and boundary are right
+  /// properties are in range, and inputs other than grid and boundary are right
+  bool isRegular = true;
 
   std::string acceptedProperty; ///< see PropertiesSet
 

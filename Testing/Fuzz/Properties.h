@@ -41,8 +41,8 @@ const Filter& filterOf(std::uint64_t seed);
 struct PropertiesSet
 {
   bool areRegular = true; ///< all values are usual ones
-  std::string
-    accepted; ///< the first property that took a number that is not finite without an error
+  /// the first property that took a number that is not finite without an error
+  std::string accepted;
 };
 
 /// Sets some of the filter's properties, in range or not.

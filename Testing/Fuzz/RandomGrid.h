@@ -20,8 +20,8 @@ struct RandomGrid
   morph::Mesh mesh;                    ///< what `data` was made from
   std::vector<morph::Index> outer;     ///< outerNodes() of `mesh`
   double size = 0;                     ///< of `mesh`
-  bool isAsMesh =
-    true; ///< false: `data` is no grid, or its cells, ids or points are not those of `mesh`
+  /// false: `data` is no grid, or its cells, ids or points are not those of `mesh`
+  bool isAsMesh = true;
   bool hasGhosts = false;
   bool hasOddArrays = false; ///< arrays that are too short, too long or of unexpected types
 

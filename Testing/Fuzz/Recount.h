@@ -14,8 +14,8 @@ namespace fuzz
 struct Recount
 {
   morph::Index lowest = 0;
-  morph::Index highest =
-    0; ///< counts all quadratic cells: they may be inverted between their corners
+  /// counts all quadratic cells: they may be inverted between their corners
+  morph::Index highest = 0;
   std::vector<std::int8_t> bad; ///< #cells: 1 surely, 0 surely not, -1 either
 };
 

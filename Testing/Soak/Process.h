@@ -9,8 +9,8 @@ namespace soak
 struct Process
 {
   std::size_t resident = 0; ///< bytes
-  std::size_t heap =
-    0;             ///< bytes that are allocated and not freed; 0 where the C library does not tell
+  /// bytes that are allocated and not freed; 0 where the C library does not tell
+  std::size_t heap = 0;
   int handles = 0; ///< open files, sockets and the like
   int threads = 0;
 };

@@ -208,7 +208,8 @@ private:
                                     : NoGeometry;
   }
 
-  /// Whether a curve ends at this corner, where it has `degree` curve edges, the first two of which are `edges`.
+  /// Whether a curve ends at this corner, where it has `degree` curve edges, the first two of which
+  /// are `edges`.
   bool isVertex(Index node, int degree, const std::array<Index, 2>& edges) const
   {
     if (this->isGiven(node, 0) || degree == 1 || degree > 2)
@@ -310,8 +311,8 @@ private:
     }
   }
 
-  /// Fills curve.parameter where every node inside has a given one; the nodes are then in the parameter's order.
-  /// False where the given ones make no sense.
+  /// Fills curve.parameter where every node inside has a given one; the nodes are then in the
+  /// parameter's order. False where the given ones make no sense.
   bool takeGivenParameters(GeometryCurve& curve) const
   {
     const auto given = [&](Index node)

@@ -42,7 +42,8 @@ public:
       {
         chains.push_back(this->follow(step));
         chains.back().loop = true;
-        // Mid-side nodes of the closing edge stay behind the last corner; the first corner is not repeated.
+        // Mid-side nodes of the closing edge stay behind the last corner; the first corner is not
+        // repeated.
         chains.back().nodes.pop_back();
       }
     }

@@ -32,8 +32,8 @@ public:
     }
   }
 
-  /// Over the faces with the node as a corner or, for a node between corners, with all of these. Of those that
-  /// `isChosen` says alone, unless it is null.
+  /// Over the faces with the node as a corner or, for a node between corners, with all of these. Of
+  /// those that `isChosen` says alone, unless it is null.
   Points sum(const Points& areas, const std::vector<std::uint8_t>* isChosen) const
   {
     Points result = Points::Zero(static_cast<Index>(this->faces_.nodes.size()), 3);

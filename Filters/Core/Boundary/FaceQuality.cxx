@@ -39,7 +39,8 @@ Eigen::Matrix3d normalMap(
       inverse[j] = 1 / axes.eigenvalues()[j];
     }
   }
-  // Across a plane F is the identity, whatever that is: cof(F) n is the cross product of two moved tangents.
+  // Across a plane F is the identity, whatever that is: cof(F) n is the cross product of two moved
+  // tangents.
   const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + P * axes.eigenvectors() *
                                                             inverse.asDiagonal() *
                                                             axes.eigenvectors().transpose();

@@ -39,7 +39,8 @@ enum class State : char
   Visited
 };
 
-/// The rim of a patch of turned faces: its edges that have a straight face of the same surface on the other side.
+/// The rim of a patch of turned faces: its edges that have a straight face of the same surface on
+/// the other side.
 struct Rim
 {
   Index edges = 0;
@@ -54,7 +55,8 @@ struct Rim
   bool isFold() const { return this->edges > 0 ? 2 * this->against >= this->edges : this->bowTies; }
 };
 
-/// Calls body(g) for the faces g of the surface of f that have an edge in common with it, and for f, once for each edge.
+/// Calls body(g) for the faces g of the surface of f that have an edge in common with it, and for
+/// f, once for each edge.
 template <typename Body>
 void forNeighbors(const Classification& geometry, Index f, const Body& body)
 {

@@ -28,10 +28,10 @@ public:
 struct ProjectionReport
 {
   std::vector<Index> projected; ///< node ids, ascending
-  std::vector<Index>
-    missed; ///< node ids: the target has no place for them; they stay where their curve or surface took them
-  std::vector<Index>
-    kept; ///< node ids: a face would have folded, or a curve turned back; they stay likewise
+  /// node ids: the target has no place for them; they stay where their curve or surface took them
+  std::vector<Index> missed;
+  /// node ids: a face would have folded, or a curve turned back; they stay likewise
+  std::vector<Index> kept;
   /// Pieces between neighbors on curves, looked at for a turn: a measure of the cost.
   Index checkedPieces = 0;
 };

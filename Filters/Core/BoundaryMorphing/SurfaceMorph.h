@@ -24,14 +24,15 @@ struct SurfaceMorphOptions
 
 struct SurfaceMorphReport
 {
-  std::vector<Index>
-    reflected; ///< surfaces whose affine map reflects or flattens them; they took the nearest similarity
+  /// surfaces whose affine map reflects or flattens them; they took the nearest similarity
+  std::vector<Index> reflected;
   std::vector<Index> unattached; ///< surfaces on which nothing is known; they moved by `unattached`
 };
 
-/// The weights of the weighted residual, kept between calls of morphSurfaces() with one undeformed mesh, one classification
-/// and one number of neighbors, where displacements alone change: a surface's are used again as long as the same of its
-/// nodes are fixed. Clear it, by assigning an empty one, where any of the others changes.
+/// The weights of the weighted residual, kept between calls of morphSurfaces() with one undeformed
+/// mesh, one classification and one number of neighbors, where displacements alone change: a
+/// surface's are used again as long as the same of its nodes are fixed. Clear it, by assigning an
+/// empty one, where any of the others changes.
 struct SurfaceWeights
 {
   struct Surface
@@ -43,11 +44,12 @@ struct SurfaceWeights
   Index prepared = 0;            ///< how many surfaces' weights were made so far
 };
 
-/// Moves the nodes of all surfaces that are not known yet: each surface by itself, its curves' and vertices' nodes
-/// fixed, and those given on it. To be called after morphCurves(). A surface on which nothing is known (a closed one,
-/// without curves) follows the known nodes of its body, or of all bodies, by options.unattached. Where nothing moves
-/// around a surface, it stays, exactly. `kept`: see there; the result is the same with and without, and null is without.
-/// Throws Error as SurfaceResidual does. Cost: that of the method on each surface.
+/// Moves the nodes of all surfaces that are not known yet: each surface by itself, its curves' and
+/// vertices' nodes fixed, and those given on it. To be called after morphCurves(). A surface on
+/// which nothing is known (a closed one, without curves) follows the known nodes of its body, or of
+/// all bodies, by options.unattached. Where nothing moves around a surface, it stays, exactly.
+/// `kept`: see there; the result is the same with and without, and null is without. Throws Error as
+/// SurfaceResidual does. Cost: that of the method on each surface.
 SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const SurfaceMorphOptions& options, BoundaryMotion& motion, Monitor& monitor,
   SurfaceWeights* kept = nullptr);

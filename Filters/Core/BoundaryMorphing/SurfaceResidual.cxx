@@ -64,8 +64,8 @@ Points centred(const Points& points)
   return points.rowwise() - points.colwise().mean();
 }
 
-/// Unit normal of the plane nearest to the points, and two unit vectors in it; turned as the eigenvectors happen to
-/// be.
+/// Unit normal of the plane nearest to the points, and two unit vectors in it; turned as the
+/// eigenvectors happen to be.
 Eigen::Matrix3d planeAxes(const Points& points)
 {
   const Points arms = centred(points);
@@ -94,8 +94,8 @@ Eigen::Vector3d vectorArea(const Points& points, const SurfaceResidual::Loops& l
   return sum;
 }
 
-/// Rotation times scale nearest to the map from `rest` to `moved` (both centred): Kabsch, Acta Cryst. A 34 (1978)
-/// 827-828, and the ratio of the extents. Rows are multiplied by it.
+/// Rotation times scale nearest to the map from `rest` to `moved` (both centred): Kabsch, Acta
+/// Cryst. A 34 (1978) 827-828, and the ratio of the extents. Rows are multiplied by it.
 Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
@@ -168,7 +168,8 @@ SurfaceResidual::Map SurfaceResidual::map(
   if (this->fit_.rank() == 2)
   {
     map.report.fit = Fit::Plane;
-    // Axes, areas and normals of both planes come out of the same steps: bit for bit the same where nothing moves.
+    // Axes, areas and normals of both planes come out of the same steps: bit for bit the same where
+    // nothing moves.
     const Eigen::Matrix3d axes = planeAxes(sites);
     const Eigen::Vector3d u = axes.col(1), v = axes.col(2);
     Eigen::Vector3d area = u.cross(v);

@@ -217,7 +217,8 @@ private:
     return sum;
   }
 
-  /// The Newton step in the tangent plane, by differences of the gradient; curvature is taken as positive.
+  /// The Newton step in the tangent plane, by differences of the gradient; curvature is taken as
+  /// positive.
   Eigen::Vector2d step(Index node, const Plane& plane, double delta, const Sum& sum)
   {
     const Row place = this->position_.row(node);
@@ -280,7 +281,8 @@ private:
     return false;
   }
 
-  /// Hands the corners' new places to the motion, and takes the nodes between them along. Returns who moved.
+  /// Hands the corners' new places to the motion, and takes the nodes between them along. Returns
+  /// who moved.
   std::vector<Index> write(const std::vector<Index>& patch)
   {
     const Points before = this->motion_.moved();

@@ -7,7 +7,8 @@
 
 namespace morph
 {
-/// What a function on a batch of cells needs first: corners, and the Jacobians of their tetrahedra. Included by few sources.
+/// What a function on a batch of cells needs first: corners, and the Jacobians of their tetrahedra.
+/// Included by few sources.
 namespace foldover
 {
 using SimdVector = Vector3<SimdDouble4>;

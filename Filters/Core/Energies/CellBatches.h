@@ -10,8 +10,9 @@
 
 namespace morph
 {
-/// Cells with a free node, four of one shape side by side, so that the same formula runs on four tetrahedra at once. The last batch
-/// of a shape may have fewer; the lanes left over repeat its first cell, with weight 0.
+/// Cells with a free node, four of one shape side by side, so that the same formula runs on four
+/// tetrahedra at once. The last batch of a shape may have fewer; the lanes left over repeat its
+/// first cell, with weight 0.
 class CellBatches
 {
 public:
@@ -23,7 +24,8 @@ public:
     double stiffened[SimdWidth]; ///< 1 or 0
   };
 
-  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors near, see unknownOrdering().
+  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors
+  /// near, see unknownOrdering().
   CellBatches(const Mesh& mesh, const std::vector<Index>& free);
   /// Of the volume cells with these ids alone.
   CellBatches(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);

@@ -7,7 +7,8 @@
 
 namespace morph
 {
-/// The formulas of FoldoverDensity, for a number type T that is double or SimdDouble4. Included by few sources: all is inlined.
+/// The formulas of FoldoverDensity, for a number type T that is double or SimdDouble4. Included by
+/// few sources: all is inlined.
 namespace foldover
 {
 template <typename T>
@@ -182,7 +183,8 @@ MORPH_SIMD_INLINE void rotate(
   }
 }
 
-/// Eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix, of which the lower triangle is read.
+/// Eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix, of which
+/// the lower triangle is read.
 template <typename T>
 MORPH_SIMD_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matrix3<T>& V)
 {
@@ -240,7 +242,8 @@ MORPH_SIMD_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
   }
 }
 
-/// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the determinant's sign.
+/// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the
+/// determinant's sign.
 template <typename T>
 MORPH_SIMD_INLINE void signedSingularValues(
   const Matrix3<T>& J, Matrix3<T>& U, Vector3<T>& S, Matrix3<T>& V)
@@ -260,7 +263,8 @@ MORPH_SIMD_INLINE void signedSingularValues(
   descend(e[0], e[1], V[0], V[1]);
   cross(V[0], V[1], V[2]);
 
-  // The left vectors by orthogonalisation in descending order: a vanishing singular value leaves its vector to the others.
+  // The left vectors by orthogonalisation in descending order: a vanishing singular value leaves
+  // its vector to the others.
   Vector3<T> f[3];
   for (int j = 0; j < 3; ++j)
   {
@@ -355,7 +359,8 @@ MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>
     }
   }
   makeSemiDefinite(A);
-  // Rotations and shears between two axes: half the sum and half the difference of their eigenvalues.
+  // Rotations and shears between two axes: half the sum and half the difference of their
+  // eigenvalues.
   Vector3<T> sum, difference;
   const T zero = T{};
   for (int k = 0; k < 3; ++k)

@@ -10,19 +10,21 @@
 
 namespace morph
 {
-/// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all cells. Tetrahedra without a free
-/// node are left out: nothing moves them. Not for two threads at once.
+/// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all
+/// cells. Tetrahedra without a free node are left out: nothing moves them. Not for two threads at
+/// once.
 class MeshEnergy : public SecondOrderObjective
 {
 public:
-  /// `free`: ids of the nodes that move, ascending; free() has them in the order of unknownOrdering(). Cost: passes over the cells; 100 bytes
-  /// a cell.
+  /// `free`: ids of the nodes that move, ascending; free() has them in the order of
+  /// unknownOrdering(). Cost: passes over the cells; 100 bytes a cell.
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
 
-  /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of weight 0 are left out. 96 bytes a
-  /// tetrahedron.
+  /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of
+  /// weight 0 are left out. 96 bytes a tetrahedron.
   void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
-  /// The regularisation and the stiffness; theta is that of the targets. With a regularisation below 1e-9 no step may end with an inverted tetrahedron.
+  /// The regularisation and the stiffness; theta is that of the targets. With a regularisation
+  /// below 1e-9 no step may end with an inverted tetrahedron.
   void setDensity(const FoldoverDensity& density) { this->density_ = density; }
   const FoldoverDensity& density() const { return this->density_; }
 

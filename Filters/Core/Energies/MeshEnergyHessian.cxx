@@ -42,7 +42,8 @@ MORPH_SIMD_INLINE void addBlock(
   }
 }
 
-/// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the other.
+/// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the
+/// other.
 MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, float* to)
 {
   Index e = 0;
@@ -70,7 +71,8 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
   }
 }
 
-/// The second derivatives of a batch's tetrahedra, by pairs of corners a <= b of the cell, in single precision: cell, block, column, row.
+/// The second derivatives of a batch's tetrahedra, by pairs of corners a <= b of the cell, in
+/// single precision: cell, block, column, row.
 struct BatchHessian
 {
   static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,

@@ -61,7 +61,8 @@ const Axes* axesOf(Shape shape)
   }
 }
 
-/// Mean edge lengths along the axes; those of a wedge's triangles and all of a tetrahedron's are one.
+/// Mean edge lengths along the axes; those of a wedge's triangles and all of a tetrahedron's are
+/// one.
 Lengths lengths(Shape shape, const Corners& x)
 {
   const Axes& axes = *axesOf(shape);
@@ -84,7 +85,8 @@ Lengths lengths(Shape shape, const Corners& x)
   return result;
 }
 
-/// Mean edge vectors along the axes; a pyramid's third leads from the middle of its base to its apex.
+/// Mean edge vectors along the axes; a pyramid's third leads from the middle of its base to its
+/// apex.
 Eigen::Matrix3d frame(Shape shape, const Corners& x)
 {
   const Axes& axes = *axesOf(shape);
@@ -114,7 +116,8 @@ Corners idealShape(Shape shape, const Lengths& length)
         0, 0, 0, 0, c, c, c, c;
       break;
     case Shape::Wedge:
-      // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive decomposition.
+      // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive
+      // decomposition.
       x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2,          //
         0, 0, a * std::sqrt(.75), 0, 0, a * std::sqrt(.75), //
         0, 0, 0, c, c, c;
@@ -195,7 +198,8 @@ double meanVolume(const SimplicialDecomposition& parts, const Corners& x)
   return sum / parts.count;
 }
 
-/// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or its own.
+/// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or
+/// its own.
 Lengths lengthsAround(
   const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
 {

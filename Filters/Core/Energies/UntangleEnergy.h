@@ -9,12 +9,13 @@
 
 namespace morph
 {
-/// The untangling objective of P. M. Knupp, "Hexahedral and tetrahedral mesh untangling", Engineering with Computers 17
-/// (2001) 261-268: the mean over all tetrahedra of (|d - b| - (d - b))^2, where d is the tetrahedron's determinant
-/// relative to its target's (his alpha over a volume, so that the sizes of the mesh and of its cells do not matter)
-/// and b the margin. It is 0, and flat, once all determinants are above the margin: what it leaves are barely
-/// valid cells, so a shape measure has to follow. Tetrahedra without a free node and those of weight 0 are left out. Not for two
-/// threads at once.
+/// The untangling objective of P. M. Knupp, "Hexahedral and tetrahedral mesh untangling",
+/// Engineering with Computers 17 (2001) 261-268: the mean over all tetrahedra of (|d - b| - (d -
+/// b))^2, where d is the tetrahedron's determinant relative to its target's (his alpha over a
+/// volume, so that the sizes of the mesh and of its cells do not matter) and b the margin. It is 0,
+/// and flat, once all determinants are above the margin: what it leaves are barely valid cells, so
+/// a shape measure has to follow. Tetrahedra without a free node and those of weight 0 are left
+/// out. Not for two threads at once.
 class UntangleEnergy : public Objective
 {
 public:
@@ -27,7 +28,8 @@ public:
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// Of one tetrahedron in each cell of a batch: 1 / determinant of the target, with its sign; 0 where the tetrahedron does not count.
+  /// Of one tetrahedron in each cell of a batch: 1 / determinant of the target, with its sign; 0
+  /// where the tetrahedron does not count.
   struct Volumes
   {
     double inverse[SimdWidth];

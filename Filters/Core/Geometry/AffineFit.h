@@ -66,8 +66,8 @@ public:
 private:
   Points arms_; ///< rest - centre
   Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero();
-  Eigen::Matrix3d inverse_ =
-    Eigen::Matrix3d::Zero(); ///< pseudo-inverse of the arms' second moments
+  /// pseudo-inverse of the arms' second moments
+  Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero();
   int rank_ = 0;
 };
 }

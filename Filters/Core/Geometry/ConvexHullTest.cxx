@@ -31,7 +31,8 @@ public:
     return this->vectors_.leftCols(this->size_) * this->weights_.head(this->size_);
   }
 
-  /// Adds a vector that lies nearer to the origin's side than the nearest point, then drops those not needed.
+  /// Adds a vector that lies nearer to the origin's side than the nearest point, then drops those
+  /// not needed.
   void add(const Eigen::Vector3d& d)
   {
     this->vectors_.col(this->size_) = d;
@@ -66,7 +67,8 @@ public:
   }
 
 private:
-  /// Weights of sum one of the point nearest to the origin in the plane, line or space through the vectors.
+  /// Weights of sum one of the point nearest to the origin in the plane, line or space through the
+  /// vectors.
   Eigen::Vector4d affineWeights() const
   {
     Eigen::Matrix4d A = Eigen::Matrix4d::Identity();
@@ -110,7 +112,8 @@ bool insideConvexHull(const Eigen::RowVector3d& x, const ConstPoints& points)
     const double length = v.norm();
     if (length <= Tolerance || corral.full())
     {
-      return true; // four vectors with the nearest point inside their hull: that point is the origin
+      // four vectors with the nearest point inside their hull: that point is the origin
+      return true;
     }
     Index lowest = 0;
     double least = std::numeric_limits<double>::max();

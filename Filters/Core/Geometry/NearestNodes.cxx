@@ -53,8 +53,8 @@ struct Cloud
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
   3, std::uint32_t>;
 
-/// Receives points from the tree and keeps the k smallest squared distances, unsorted: linear in what comes in, where
-/// nanoflann's own sorted list is quadratic in k.
+/// Receives points from the tree and keeps the k smallest squared distances, unsorted: linear in
+/// what comes in, where nanoflann's own sorted list is quadratic in k.
 class SmallestDistances
 {
 public:
@@ -131,7 +131,8 @@ void makeRoom(std::vector<Value>& values, Index n)
   }
 }
 
-/// Nodes that may be neighbors of some place of a block, ascending: the first `count` of vectors that only grow.
+/// Nodes that may be neighbors of some place of a block, ascending: the first `count` of vectors
+/// that only grow.
 struct Candidates
 {
   Index count = 0;
@@ -163,8 +164,8 @@ void squaredDistances(const Candidates& candidates, const double* x, std::vector
   }
 }
 
-/// The k-th smallest of n values, which are reordered. Counting them by size first leaves few to compare: comparisons
-/// of values in no order are mispredicted half the time.
+/// The k-th smallest of n values, which are reordered. Counting them by size first leaves few to
+/// compare: comparisons of values in no order are mispredicted half the time.
 double kthSmallest(double* values, Index n, Index k)
 {
   constexpr int Bins = 64;
@@ -196,8 +197,9 @@ double kthSmallest(double* values, Index n, Index k)
   return values[k - 1];
 }
 
-/// A ball round the box of consecutive places; its middle's k-th neighbor is at most `reach` away. Round the box, not only
-/// the places: the middles of the blocks inside must be in the ball as well.
+/// A ball round the box of consecutive places; its middle's k-th neighbor is at most `reach` away.
+/// Round the box, not only the places: the middles of the blocks inside must be in the ball as
+/// well.
 struct Block
 {
   Place middle;
@@ -325,8 +327,8 @@ private:
     }
   }
 
-  /// Not less than the distance from x to its k-th neighbor: any k nodes are within their largest distance, and those
-  /// of the last place are likely to be near.
+  /// Not less than the distance from x to its k-th neighbor: any k nodes are within their largest
+  /// distance, and those of the last place are likely to be near.
   double reach(const double* x, const Block& outer)
   {
     const double fromOuter = outer.reach + std::sqrt(squaredDistance(x, outer.middle.data()));
@@ -345,7 +347,8 @@ private:
     return std::min(fromOuter, std::sqrt(largest));
   }
 
-  /// The k-th smallest of the first `count` distances_, all squared, given that it is at most the square of `reach`.
+  /// The k-th smallest of the first `count` distances_, all squared, given that it is at most the
+  /// square of `reach`.
   double kthDistance(Index count, double reach)
   {
     makeRoom(this->nearDistances_, count);
@@ -384,7 +387,8 @@ private:
     inner.count = m;
   }
 
-  /// Finds neighbors_ of x among the innermost candidates. `reach`: their largest distance, or more.
+  /// Finds neighbors_ of x among the innermost candidates. `reach`: their largest distance, or
+  /// more.
   void nearest(const double* x, double reach)
   {
     const Candidates& from = this->candidates_.back();

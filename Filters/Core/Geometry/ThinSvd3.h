@@ -5,8 +5,9 @@
 
 namespace morph
 {
-/// Singular values and right singular vectors of a set of vectors, largest first. From an orthogonal factorisation,
-/// which keeps the digits that the sum of their squares would lose: extents down to 1e-15 of the largest are meant.
+/// Singular values and right singular vectors of a set of vectors, largest first. From an
+/// orthogonal factorisation, which keeps the digits that the sum of their squares would lose:
+/// extents down to 1e-15 of the largest are meant.
 struct ThinSvd3
 {
   /// `vectors`: k x 3, finite.

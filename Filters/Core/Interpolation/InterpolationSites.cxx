@@ -48,7 +48,8 @@ private:
   std::vector<Index> parent_;
 };
 
-/// Points by the cell of a regular grid they lie in, hashed: which cells are taken does not matter for the cost.
+/// Points by the cell of a regular grid they lie in, hashed: which cells are taken does not matter
+/// for the cost.
 class HashedGrid
 {
 public:
@@ -171,8 +172,8 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
       return ids[a] < ids[b];
     });
 
-  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far smaller than any
-  // mesh's edges.
+  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far
+  // smaller than any mesh's edges.
   const double cell = extent > 0 ? 1024 * this->tolerance_ : 1;
   HashedGrid grid(places.colwise().minCoeff(), cell, n);
   Groups groups(n);
@@ -187,7 +188,8 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
       }
     };
     grid.near(x, this->tolerance_, joinIfNear);
-    // One of several at a place finds the others: all of them in the grid would make a pile quadratic.
+    // One of several at a place finds the others: all of them in the grid would make a pile
+    // quadratic.
     if (i == 0 || (places.row(order[i - 1]).array() != x.array()).any())
     {
       grid.insert(x, i);

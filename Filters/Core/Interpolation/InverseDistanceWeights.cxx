@@ -27,8 +27,8 @@ struct Group
   std::vector<Index> rows;
 };
 
-/// Searches the neighbors of a group by several threads and calls visit(row, neighbors) from them. `from`, `to`:
-/// progress.
+/// Searches the neighbors of a group by several threads and calls visit(row, neighbors) from them.
+/// `from`, `to`: progress.
 void searchGroup(const NearestNodes& nearest, const Points& places, const Group& group, double from,
   double to, Monitor& monitor, const NearestNodes::Visit& visit)
 {
@@ -61,7 +61,8 @@ bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& 
   return insideConvexHull(x, around);
 }
 
-/// Moves the places that their neighbors do not surround on to groups of twice as many neighbors, and so on.
+/// Moves the places that their neighbors do not surround on to groups of twice as many neighbors,
+/// and so on.
 std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationSites& sites,
   const Points& places, Group all, Monitor& monitor)
 {

@@ -19,7 +19,8 @@ constexpr double NoWeight = 1e-15; // sites that touch the cell at most in an ed
 
 using Vector = Eigen::RowVector3d;
 
-/// The corners of the face opposite to corner k, seen from outside a positively oriented tetrahedron.
+/// The corners of the face opposite to corner k, seen from outside a positively oriented
+/// tetrahedron.
 constexpr int OuterFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 }
 
@@ -71,7 +72,8 @@ NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int
   return edge;
 }
 
-/// Negative within the sphere, and 0 on it and within rounding of it: a site on the sphere takes and gives nothing.
+/// Negative within the sphere, and 0 on it and within rounding of it: a site on the sphere takes
+/// and gives nothing.
 double NaturalNeighbors::power(const Cell& cell, const Vector& x, double squaredNorm) const
 {
   const double product = cell.centre[0] * x[0] + cell.centre[1] * x[1] + cell.centre[2] * x[2];
@@ -105,7 +107,8 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
   }
 }
 
-/// Numbers the zone's sites, adds its inner faces' shares and lists its border; false where x is not inside the hull.
+/// Numbers the zone's sites, adds its inner faces' shares and lists its border; false where x is
+/// not inside the hull.
 bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work) const
 {
   work.local_.clear();
@@ -177,7 +180,8 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
   return true;
 }
 
-/// The faces between the new cell and the old ones: one edge of each for every edge of the zone's border.
+/// The faces between the new cell and the old ones: one edge of each for every edge of the zone's
+/// border.
 void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
 {
   std::size_t room = std::max<std::size_t>(64, work.edges_.size());
@@ -214,7 +218,8 @@ void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
   }
 }
 
-/// Normalises the shares, drops those of nothing, checks and corrects what remains, and sorts it by site.
+/// Normalises the shares, drops those of nothing, checks and corrects what remains, and sorts it by
+/// site.
 bool NaturalNeighbors::finish(Workspace& work)
 {
   double total = 0;

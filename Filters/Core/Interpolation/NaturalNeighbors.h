@@ -11,15 +11,17 @@ namespace morph
 {
 /// The natural-neighbor coordinates of a point among the sites of a tessellation.
 ///
-/// Sibson (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the point's Voronoi cell would take from that of the
-/// site. Laplace (Belikov et al., Comput. Math. Math. Phys. 37 (1997) 9-15; Sukumar et al., IJNME 50 (2001) 1-27): the area
-/// of the face between both cells, over their distance. Both over their sum. They depend on the Voronoi
-/// diagram, which is unique, so not on how a tessellation of cospherical sites was chosen.
+/// Sibson (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the point's Voronoi
+/// cell would take from that of the site. Laplace (Belikov et al., Comput. Math. Math. Phys. 37
+/// (1997) 9-15; Sukumar et al., IJNME 50 (2001) 1-27): the area of the face between both cells,
+/// over their distance. Both over their sum. They depend on the Voronoi diagram, which is unique,
+/// so not on how a tessellation of cospherical sites was chosen.
 ///
-/// The sites are those of the tetrahedra whose circumscribed spheres contain the point (its conflict zone). New Voronoi
-/// vertices lie on the Voronoi edges that cross the zone's border, where the point's power distance to
-/// the spheres at both ends says: no sphere is ever fitted through the point. Volumes and areas are sums over the zone's
-/// faces; what a face adds is linear in its dual edge, so the cost is linear in the zone.
+/// The sites are those of the tetrahedra whose circumscribed spheres contain the point (its
+/// conflict zone). New Voronoi vertices lie on the Voronoi edges that cross the zone's border,
+/// where the point's power distance to the spheres at both ends says: no sphere is ever fitted
+/// through the point. Volumes and areas are sums over the zone's faces; what a face adds is linear
+/// in its dual edge, so the cost is linear in the zone.
 class NaturalNeighbors
 {
 public:
@@ -70,16 +72,18 @@ public:
     std::vector<int> order_;
   };
 
-  /// The coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace; false, leaving it undefined, where they do
-  /// not exist or rounding spoils them: on or outside the hull, or not reproducing x to 1e-8 of the distance to its
-  /// neighbors. What is left of that error is spread over the weights: they reproduce linear fields to rounding.
+  /// The coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace; false,
+  /// leaving it undefined, where they do not exist or rounding spoils them: on or outside the hull,
+  /// or not reproducing x to 1e-8 of the distance to its neighbors. What is left of that error is
+  /// spread over the weights: they reproduce linear fields to rounding.
   bool compute(
     const Eigen::RowVector3d& x, int inside, Coordinates coordinates, Workspace& workspace) const;
 
   std::size_t memory() const { return sizeof(Cell) * this->cells_.size(); }
 
 private:
-  /// A tetrahedron in one cache line; the power distance of x to its sphere is |x|^2 - 2 centre.x + constant.
+  /// A tetrahedron in one cache line; the power distance of x to its sphere is |x|^2 - 2 centre.x +
+  /// constant.
   struct alignas(64) Cell
   {
     std::array<int, 4> sites, neighbors;

@@ -81,7 +81,8 @@ double residual(const Delaunay& delaunay, const Place& at, const Row& x)
   return (sum - x).norm();
 }
 
-/// The best of the tetrahedra around `start` that are not flat: through flat ones and over two more rings.
+/// The best of the tetrahedra around `start` that are not flat: through flat ones and over two more
+/// rings.
 Place bestAround(const Delaunay& delaunay, const Row& x, int start)
 {
   Place best;

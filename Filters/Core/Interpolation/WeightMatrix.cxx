@@ -23,7 +23,8 @@ using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 /// Four numbers a site are whole vector registers, three are none.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-/// Three numbers of the weighted sum of `n` sites. Two sums, so that an addition need not wait for the one before.
+/// Three numbers of the weighted sum of `n` sites. Two sums, so that an addition need not wait for
+/// the one before.
 inline __attribute__((always_inline)) void weightedSum(
   const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
 {

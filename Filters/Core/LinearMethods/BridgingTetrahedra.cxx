@@ -26,14 +26,15 @@ constexpr double SameVolume = 1e-9;
 
 using Vector = Eigen::RowVector3d;
 
-/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit normal there, 0 where the
-/// face has none.
+/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit
+/// normal there, 0 where the face has none.
 struct Sector
 {
   Vector first, second, normal;
 };
 
-/// How far the unit vector `d` is from a sector: 1 minus the cosine of the angle to its nearest direction.
+/// How far the unit vector `d` is from a sector: 1 minus the cosine of the angle to its nearest
+/// direction.
 double distance(const Sector& sector, const Vector& d)
 {
   const Vector inPlane = d - d.dot(sector.normal) * sector.normal;
@@ -84,7 +85,8 @@ Vector areaVector(const Points& points, const Index* corner, Index n)
   return sum;
 }
 
-/// The sector at corner k of a face with n corners; `forward`: they turn counter-clockwise, seen from outside.
+/// The sector at corner k of a face with n corners; `forward`: they turn counter-clockwise, seen
+/// from outside.
 Sector sectorAt(const Points& points, const Index* corner, Index n, Index k, bool forward)
 {
   const auto along = [&](Index to)
@@ -175,7 +177,8 @@ bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 bool leavesMesh(
   const InterpolationSites& sites, const Sectors& sectors, Index site, const Vector& d)
 {
-  // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave by.
+  // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave
+  // by.
   const Index* end = sites.prescribed().end(site);
   return std::all_of(sites.prescribed().begin(site), end,
     [&](Index node)

@@ -11,7 +11,8 @@
 
 namespace morph
 {
-/// What methods that solve A_I U_I = -A_B U_B share. `rows`: the node id of each matrix row, see UnknownOrdering.h.
+/// What methods that solve A_I U_I = -A_B U_B share. `rows`: the node id of each matrix row, see
+/// UnknownOrdering.h.
 
 /// Throws Error unless the tolerance lies in (0, 1).
 void requireTolerance(double tolerance);

@@ -18,7 +18,8 @@ using Vector = Eigen::Map<const Eigen::Vector3d>;
 
 // A Jacobian determinant below this share of the product of its columns' lengths counts as zero.
 constexpr double Vanishing = 1e-8;
-// A cell without a usable volume gets at least this share of (largest face)^2 / size: stiff, not singular.
+// A cell without a usable volume gets at least this share of (largest face)^2 / size: stiff, not
+// singular.
 constexpr double VolumeFloor = 1e-3;
 
 double size(const double (*corners)[3], int n)
@@ -38,8 +39,8 @@ int signOf(double determinant, double lengths)
   return determinant > Vanishing * lengths ? 1 : determinant < -Vanishing * lengths ? -1 : 0;
 }
 
-/// grad N_a = normal_a / (6 volume): the inward area vectors, doubled; returns 6 x volume, and in `sign` that of a volume
-/// that does not vanish.
+/// grad N_a = normal_a / (6 volume): the inward area vectors, doubled; returns 6 x volume, and in
+/// `sign` that of a volume that does not vanish.
 double tetNormals(const double (*corners)[3], const int c[4], Eigen::Vector3d normal[4], int& sign)
 {
   const Vector origin(corners[c[0]]);
@@ -102,14 +103,16 @@ int simplicialStiffness(Shape shape, const double (*corners)[3], double* K)
   return sign;
 }
 
-/// The eight Gauss points at once: grad N_a = C_a / det with C_a = cofactor(J) dN_a, so
-/// K_ab = sum_q C_a . C_b / (8 det). Each column of J depends on two of the three parametric coordinates alone.
+/// The eight Gauss points at once: grad N_a = C_a / det with C_a = cofactor(J) dN_a, so K_ab =
+/// sum_q C_a . C_b / (8 det). Each column of J depends on two of the three parametric coordinates
+/// alone.
 int hexStiffness(const double (*x)[3], double* K)
 {
   constexpr double P = 0.78867513459481288225; // (1 + 1/sqrt(3)) / 2
   constexpr double M = 0.21132486540518711775;
   constexpr double Share[2] = { P, M }; // weight of the near and far corner, or of far and near
-  // The four edges along each direction, by their ends, at (0,0), (1,0), (0,1), (1,1) of the other two.
+  // The four edges along each direction, by their ends, at (0,0), (1,0), (0,1), (1,1) of the other
+  // two.
   constexpr int Edge[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
     { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
   // Parametric gradients of the shape functions at the Gauss points q = u + 2 v + 4 w.

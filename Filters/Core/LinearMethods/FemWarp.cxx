@@ -166,8 +166,8 @@ struct System
   CsrMatrix coupling; ///< A_B, #free x #prescribed
 };
 
-/// Entries of the free nodes' rows, gathered node by node from the cells around, in ascending order of the cells: the
-/// sums do not depend on the threads.
+/// Entries of the free nodes' rows, gathered node by node from the cells around, in ascending order
+/// of the cells: the sums do not depend on the threads.
 System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, Monitor& monitor)
 {

@@ -84,7 +84,8 @@ struct Chunk
   }
 };
 
-/// Puts the chunks' entries one after another into `matrix`. `sizes`, `column`, `value`: the members of Chunk to take.
+/// Puts the chunks' entries one after another into `matrix`. `sizes`, `column`, `value`: the
+/// members of Chunk to take.
 void join(CsrMatrix& matrix, Index rows, Index width, std::vector<Chunk>& chunks,
   std::vector<int> Chunk::*sizes, std::vector<int> Chunk::*column,
   std::vector<double> Chunk::*value, Monitor& monitor)

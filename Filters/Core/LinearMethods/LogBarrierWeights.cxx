@@ -25,8 +25,8 @@ constexpr double FaceTolerance =
   1e-8; // for neighbors in it; their own part of mu tilts the plane a little less
 constexpr double LargestResidual = 1e-10;
 
-/// Solves H x = -g, H symmetric positive definite with entries xx, xy, xz, yy, yz, zz. Returns x and the Newton
-/// decrement.
+/// Solves H x = -g, H symmetric positive definite with entries xx, xy, xz, yy, yz, zz. Returns x
+/// and the Newton decrement.
 double newtonStep(const double H[6], const Eigen::Vector3d& g, Eigen::Vector3d& x)
 {
   const double i0 = 1 / H[0];
@@ -109,8 +109,8 @@ bool LogBarrierWeights::whiten(const double (*offsets)[3], int k, double scale)
   return true;
 }
 
-/// By the singular values of all d_j, which keep the digits that their squares lose. Returns the dimension of what
-/// the d_j span; whitened coordinates past it are zero.
+/// By the singular values of all d_j, which keep the digits that their squares lose. Returns the
+/// dimension of what the d_j span; whitened coordinates past it are zero.
 int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double scale)
 {
   const Points d = scale * Eigen::Map<const Points>(offsets[0], k, 3);
@@ -132,7 +132,8 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
   return principal.dimension;
 }
 
-/// Newton's method from dual.mu, with iterations up to a count of `mostIterations`, while mu stays below `limit`.
+/// Newton's method from dual.mu, with iterations up to a count of `mostIterations`, while mu stays
+/// below `limit`.
 void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit, int mostIterations)
 {
   const std::size_t pairs = static_cast<std::size_t>(k + 1) / 2;
@@ -204,9 +205,9 @@ void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit,
   }
 }
 
-/// Reflects the whitened coordinates so that mu lies along the last of them. Next to the hull mu is huge and nearly
-/// orthogonal to the neighbors that carry the node: along an axis their products with it, and the Hessian's
-/// smallest pivot, keep their digits.
+/// Reflects the whitened coordinates so that mu lies along the last of them. Next to the hull mu is
+/// huge and nearly orthogonal to the neighbors that carry the node: along an axis their products
+/// with it, and the Hessian's smallest pivot, keep their digits.
 void LogBarrierWeights::turn(Dual& dual, int k, int dimension)
 {
   Eigen::Vector3d axis = dual.mu.normalized();
@@ -279,9 +280,10 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
   return careful;
 }
 
-/// For all that the usual path does not settle: flat neighborhoods, nodes next to the hull, on it and outside.
-/// Where g has no minimum, mu shows a plane through the node with every neighbor on one side; those off the plane
-/// get weight zero, and the rest is the same problem with a dimension less.
+/// For all that the usual path does not settle: flat neighborhoods, nodes next to the hull, on it
+/// and outside. Where g has no minimum, mu shows a plane through the node with every neighbor on
+/// one side; those off the plane get weight zero, and the rest is the same problem with a dimension
+/// less.
 LogBarrierWeights::Result LogBarrierWeights::computeCarefully(
   const double (*offsets)[3], int k, double scale, double* weights)
 {

@@ -7,14 +7,15 @@
 
 namespace morph
 {
-/// Log-barrier weights of one node: the convex weights that place it among its neighbors and lie as far from zero
-/// as they can, max sum log w_j subject to sum w_j = 1, sum w_j d_j = 0 (Staten et al., IMR 2011, equation (13);
-/// Shontz and Vavasis, IMR 2003), d_j = x_j - x_i.
+/// Log-barrier weights of one node: the convex weights that place it among its neighbors and lie as
+/// far from zero as they can, max sum log w_j subject to sum w_j = 1, sum w_j d_j = 0 (Staten et
+/// al., IMR 2011, equation (13); Shontz and Vavasis, IMR 2003), d_j = x_j - x_i.
 ///
-/// Solved in the dual. The stationary point has 1 / w_j = k (1 + mu . d_j) with k neighbors, where mu minimises
-/// g(mu) = -sum log(1 + mu . d_j), a self-concordant function of three unknowns: damped Newton steps converge from
-/// mu = 0 without a line search (Nesterov and Nemirovskii, 1994) wherever the node lies strictly inside its
-/// neighbors' hull. The d_j are whitened first, so stretched and flat neighborhoods are as easy as round ones.
+/// Solved in the dual. The stationary point has 1 / w_j = k (1 + mu . d_j) with k neighbors, where
+/// mu minimises g(mu) = -sum log(1 + mu . d_j), a self-concordant function of three unknowns:
+/// damped Newton steps converge from mu = 0 without a line search (Nesterov and Nemirovskii, 1994)
+/// wherever the node lies strictly inside its neighbors' hull. The d_j are whitened first, so
+/// stretched and flat neighborhoods are as easy as round ones.
 ///
 /// One object per thread: it keeps its buffers from node to node.
 class LogBarrierWeights
@@ -23,7 +24,8 @@ public:
   enum class Place
   {
     Inside, ///< strictly inside the hull, all weights positive
-    OnHull, ///< on a face or edge of the hull: the limit of the weights, zero for neighbors off that face
+    /// on a face or edge of the hull: the limit of the weights, zero for neighbors off that face
+    OnHull,
     Outside ///< no convex weights exist
   };
   struct Result
@@ -32,10 +34,11 @@ public:
     int iterations; ///< Newton steps
   };
 
-  /// `offsets`: k x 3, the d_j, in any unit; neighbors may coincide. `weights`: k numbers, filled unless Outside,
-  /// with sum 1 to rounding and |sum w_j d_j| <= 1e-10 max |d_j|. On the hull means within 1e-11 of the local size,
-  /// and such that the limit keeps that residual; a node that is inside but nearer to the hull than about 1e-9 may
-  /// count as either. Cost: 0.5 to 1 microsecond for the 26 neighbors in a hexahedral mesh.
+  /// `offsets`: k x 3, the d_j, in any unit; neighbors may coincide. `weights`: k numbers, filled
+  /// unless Outside, with sum 1 to rounding and |sum w_j d_j| <= 1e-10 max |d_j|. On the hull means
+  /// within 1e-11 of the local size, and such that the limit keeps that residual; a node that is
+  /// inside but nearer to the hull than about 1e-9 may count as either. Cost: 0.5 to 1 microsecond
+  /// for the 26 neighbors in a hexahedral mesh.
   Result compute(const double (*offsets)[3], int k, double* weights);
 
 private:

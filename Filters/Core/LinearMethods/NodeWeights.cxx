@@ -85,8 +85,8 @@ bool NodeWeights::logBarrier()
   return result.place != LogBarrierWeights::Place::Outside;
 }
 
-/// min |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) / k, m the mean and C the
-/// covariance of the d_j.
+/// min |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) / k, m
+/// the mean and C the covariance of the d_j.
 bool NodeWeights::leastNormAffine()
 {
   const Index k = static_cast<Index>(this->offsets_.size());

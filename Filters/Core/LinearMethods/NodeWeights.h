@@ -20,8 +20,8 @@ struct WeightColumns
   std::vector<Index> nodes; ///< node of each column
 };
 
-/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them. One object per
-/// thread.
+/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them.
+/// One object per thread.
 class NodeWeights
 {
 public:
@@ -30,7 +30,8 @@ public:
   {
     OneRing, ///< log-barrier weights among the nodes that share a volume cell with the node
     TwoRing, ///< log-barrier weights among those and their neighbors
-    Affine, ///< least-norm affine weights of the one ring: exact for affine maps, some of them negative
+    /// least-norm affine weights of the one ring: exact for affine maps, some of them negative
+    Affine,
     Stiffness, ///< FEMWARP's row
     None       ///< no weights: asked for OneRing only, or every cell around has zero volume
   };
@@ -38,7 +39,8 @@ public:
   /// The arguments must outlive this object. `around`: nodeToCells(mesh).
   NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
 
-  /// Weights of `node`. With `relax` the kinds are tried in their order, without it only the first is.
+  /// Weights of `node`. With `relax` the kinds are tried in their order, without it only the first
+  /// is.
   Kind compute(Index node, bool relax);
 
   /// Ascending; the node's own is not among them.

@@ -22,7 +22,8 @@ std::vector<int> distinct(std::vector<int> values)
   return values;
 }
 
-/// Outside the hull a tetrahedron's weights are of any size, and its corners' motions count by them.
+/// Outside the hull a tetrahedron's weights are of any size, and its corners' motions count by
+/// them.
 void warnOfLargeWeights(
   const PointLocation& enclosing, const std::vector<Index>& ids, Monitor& monitor)
 {

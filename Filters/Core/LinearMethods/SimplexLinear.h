@@ -10,21 +10,24 @@
 
 namespace morph
 {
-/// Simplex-linear: a Delaunay tessellation of the prescribed nodes alone is deformed with them, and carries each free node along by its
-/// barycentric coordinates in the tetrahedron that contains it (Staten et al., IMR 2011, section 3.3, equation (7)). The fastest
-/// method; affine motions come out exactly. It takes no notice of the mesh's cells: where the mesh is not convex
-/// tetrahedra bridge the voids and couple walls that face each other.
+/// Simplex-linear: a Delaunay tessellation of the prescribed nodes alone is deformed with them, and
+/// carries each free node along by its barycentric coordinates in the tetrahedron that contains it
+/// (Staten et al., IMR 2011, section 3.3, equation (7)). The fastest method; affine motions come
+/// out exactly. It takes no notice of the mesh's cells: where the mesh is not convex tetrahedra
+/// bridge the voids and couple walls that face each other.
 ///
-/// Prescribed nodes in the same place (1e-12 of the size) count as one that moves by their mean. Cospherical nodes (every structured
-/// boundary) leave the tessellation undetermined; see Delaunay for the rule, which follows the coordinates: renumbering the
-/// nodes changes nothing, turning the mesh may, within the quality that either choice gives.
+/// Prescribed nodes in the same place (1e-12 of the size) count as one that moves by their mean.
+/// Cospherical nodes (every structured boundary) leave the tessellation undetermined; see Delaunay
+/// for the rule, which follows the coordinates: renumbering the nodes changes nothing, turning the
+/// mesh may, within the quality that either choice gives.
 ///
-/// Counts: `FoldedTetrahedra`, with nodes in them and no positive volume after the motion: cells there are inverted;
-/// `BridgingTetrahedra`, with nodes in them and an edge that leaves the mesh; `ExtrapolatedNodes`, outside the
-/// prescribed nodes' convex hull by more than rounding.
+/// Counts: `FoldedTetrahedra`, with nodes in them and no positive volume after the motion: cells
+/// there are inverted; `BridgingTetrahedra`, with nodes in them and an edge that leaves the mesh;
+/// `ExtrapolatedNodes`, outside the prescribed nodes' convex hull by more than rounding.
 ///
-/// prepare(): some 5 microseconds a site and 1 a free node; keeps 56 bytes a free node beside 50 a site's tetrahedron. evaluate():
-/// one pass over the weights. Throws Error of kind Singular where the prescribed nodes lie in one plane.
+/// prepare(): some 5 microseconds a site and 1 a free node; keeps 56 bytes a free node beside 50 a
+/// site's tetrahedron. evaluate(): one pass over the weights. Throws Error of kind Singular where
+/// the prescribed nodes lie in one plane.
 class SimplexLinear : public LinearMorpher
 {
 public:

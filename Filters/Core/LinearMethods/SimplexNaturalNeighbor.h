@@ -13,20 +13,25 @@
 
 namespace morph
 {
-/// Simplex-natural neighbor: each free node follows its natural neighbors among the prescribed nodes, weighted by natural-neighbor
-/// coordinates (Staten et al., IMR 2011, section 3.4, equation (8); Owen, "An implementation of natural neighbor interpolation in
-/// three dimensions", MSc thesis, Brigham Young University, 1992). Smoother than simplex-linear, and independent of how the Delaunay
-/// tessellation of cospherical nodes is chosen; affine motions come out exactly. It takes no notice of the mesh's
-/// cells, and its weights are many: about 1000 a node within a cube whose surface has 15,000 nodes.
+/// Simplex-natural neighbor: each free node follows its natural neighbors among the prescribed
+/// nodes, weighted by natural-neighbor coordinates (Staten et al., IMR 2011, section 3.4, equation
+/// (8); Owen, "An implementation of natural neighbor interpolation in three dimensions", MSc
+/// thesis, Brigham Young University, 1992). Smoother than simplex-linear, and independent of how
+/// the Delaunay tessellation of cospherical nodes is chosen; affine motions come out exactly. It
+/// takes no notice of the mesh's cells, and its weights are many: about 1000 a node within a cube
+/// whose surface has 15,000 nodes.
 ///
-/// Prescribed nodes in the same place (1e-12 of the size) count as one that moves by their mean. A node on or outside the prescribed
-/// nodes' convex hull, and one whose weights rounding spoils, takes the barycentric coordinates of simplex-linear.
+/// Prescribed nodes in the same place (1e-12 of the size) count as one that moves by their mean. A
+/// node on or outside the prescribed nodes' convex hull, and one whose weights rounding spoils,
+/// takes the barycentric coordinates of simplex-linear.
 ///
-/// Counts: `BarycentricNodes`, that took those; `ExtrapolatedNodes`, outside the hull by more than rounding; `WeightsStored`, 1 or 0.
+/// Counts: `BarycentricNodes`, that took those; `ExtrapolatedNodes`, outside the hull by more than
+/// rounding; `WeightsStored`, 1 or 0.
 ///
-/// prepare(): 0.6 microseconds of processor time a free node and natural neighbor. The weights, 12 bytes each, are estimated from a sample of the
-/// nodes and kept if they stay within the memory limit; evaluate() is then one pass over them. Otherwise a warning tells
-/// the number, and each evaluate() and applyTranspose() recomputes them: as slow as prepare(), with the same results.
+/// prepare(): 0.6 microseconds of processor time a free node and natural neighbor. The weights, 12
+/// bytes each, are estimated from a sample of the nodes and kept if they stay within the memory
+/// limit; evaluate() is then one pass over them. Otherwise a warning tells the number, and each
+/// evaluate() and applyTranspose() recomputes them: as slow as prepare(), with the same results.
 class SimplexNaturalNeighbor : public LinearMorpher
 {
 public:
@@ -38,7 +43,8 @@ public:
 
   /// The sites that the numbers in weightsOf() stand for.
   const InterpolationSites& sites() const { return this->sites_; }
-  /// Calls `use` with the place in NodePartition::free, the sites and the weights of one node after another, for checks.
+  /// Calls `use` with the place in NodePartition::free, the sites and the weights of one node after
+  /// another, for checks.
   void forEachNode(
     const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
       use) const;
@@ -67,8 +73,8 @@ private:
   NaturalNeighbors neighbors_;
   PointLocation enclosing_;
   std::vector<Index> order_; ///< places in NodePartition::free, along a space-filling curve
-  std::vector<WeightMatrix>
-    stored_; ///< one a block of nodes in that order; empty where they are recomputed
+  /// one a block of nodes in that order; empty where they are recomputed
+  std::vector<WeightMatrix> stored_;
   Index barycentric_ = 0;
 };
 }

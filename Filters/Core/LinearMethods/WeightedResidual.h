@@ -8,37 +8,42 @@
 
 namespace morph
 {
-/// Weighted residuals: an affine map fitted to the motion of the whole boundary, plus what that map leaves of the
-/// motion of the prescribed nodes nearby, weighted by inverse squared distance. Meshless: cells are not looked at.
+/// Weighted residuals: an affine map fitted to the motion of the whole boundary, plus what that map
+/// leaves of the motion of the prescribed nodes nearby, weighted by inverse squared distance.
+/// Meshless: cells are not looked at.
 ///
-/// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of
-/// Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the square that least squares
-/// have. With sites b_k (see InterpolationSites), their displacements U_k and the fit L:
+/// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A
+/// Comparison of Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the
+/// square that least squares have. With sites b_k (see InterpolationSites), their displacements U_k
+/// and the fit L:
 ///
-///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),    w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
+///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),
+///     w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
 ///
-/// Exact for affine motions of prescribed nodes that do not all lie in one plane; where they do, the fit of minimum
-/// norm keeps the method linear, and nodes off the plane get the displacement of the map below them. A free node
-/// within 1e-12 of the size of a site gets that site's displacement. The n nearest are the smallest by
-/// (distance, site number). The map is not continuous in x: where the n-th neighbor changes, u jumps by its share
-/// of the residual, and on fine meshes the nodes either side of the middle see different walls, which is why this
-/// method inverts cells first.
+/// Exact for affine motions of prescribed nodes that do not all lie in one plane; where they do,
+/// the fit of minimum norm keeps the method linear, and nodes off the plane get the displacement of
+/// the map below them. A free node within 1e-12 of the size of a site gets that site's
+/// displacement. The n nearest are the smallest by (distance, site number). The map is not
+/// continuous in x: where the n-th neighbor changes, u jumps by its share of the residual, and on
+/// fine meshes the nodes either side of the middle see different walls, which is why this method
+/// inverts cells first.
 ///
-/// prepare(): a search for the neighbors, O((free + prescribed) log(prescribed)); keeps 12 bytes per neighbor of a
-/// free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass over those weights. Options count from
-/// the next prepare() on.
+/// prepare(): a search for the neighbors, O((free + prescribed) log(prescribed)); keeps 12 bytes
+/// per neighbor of a free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass
+/// over those weights. Options count from the next prepare() on.
 class WeightedResidual : public LinearMorpher
 {
 public:
-  /// How many prescribed nodes take part at a free node (all of them where there are fewer). At least 1, default
-  /// 80, the paper's choice for volumes.
+  /// How many prescribed nodes take part at a free node (all of them where there are fewer). At
+  /// least 1, default 80, the paper's choice for volumes.
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
-  /// Doubles a node's number of neighbors until they surround it: until it lies in their convex hull or on it
-  /// (insideConvexHull), or all prescribed nodes take part. A node in the middle then sees the walls on all sides.
-  /// Default off, as in the paper. Neighborhoods come to hold a share of all prescribed nodes, and memory and time
-  /// grow with them: on a cube of 50^3 cells from 80 to 1,100 a node, 1.6 GB, and 20 times the time of prepare().
+  /// Doubles a node's number of neighbors until they surround it: until it lies in their convex
+  /// hull or on it (insideConvexHull), or all prescribed nodes take part. A node in the middle then
+  /// sees the walls on all sides. Default off, as in the paper. Neighborhoods come to hold a share
+  /// of all prescribed nodes, and memory and time grow with them: on a cube of 50^3 cells from 80
+  /// to 1,100 a node, 1.6 GB, and 20 times the time of prepare().
   void setAdaptiveNeighbors(bool on) { this->adaptiveNeighbors_ = on; }
   bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
 
@@ -51,7 +56,8 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  /// Warns where the fit turns the mesh inside out or flattens it: the result then is seldom of use.
+  /// Warns where the fit turns the mesh inside out or flattens it: the result then is seldom of
+  /// use.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

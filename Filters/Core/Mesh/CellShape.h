@@ -51,8 +51,8 @@ enum class Shape : std::uint8_t
   Pyramid
 };
 
-/// A face of a volume cell, by the cell's corner numbers, outward by the right-hand rule when the cell is in
-/// VTK's order and not inverted.
+/// A face of a volume cell, by the cell's corner numbers, outward by the right-hand rule when the
+/// cell is in VTK's order and not inverted.
 struct FaceShape
 {
   int size; ///< 3 or 4
@@ -69,8 +69,8 @@ struct CellShape
   int numberOfCorners;
   int numberOfFaces; ///< of volume cells; 0 otherwise
   const FaceShape* faces;
-  /// Where corner i of the shape (VTK's hexahedron order) stands in the cell's node list: the identity
-  /// for all but voxels, whose third and fourth corners are exchanged.
+  /// Where corner i of the shape (VTK's hexahedron order) stands in the cell's node list: the
+  /// identity for all but voxels, whose third and fourth corners are exchanged.
   const int* cornerNode;
   /// Nominal parametric coordinates of the nodes after the corners (mid-side, face, body),
   /// (numberOfNodes - numberOfCorners) x 3; null where there are none or dimension < 3.
@@ -80,7 +80,8 @@ struct CellShape
 /// Null for a type this library does not know (polyhedron, Lagrange, ...).
 const CellShape* cellShape(std::uint8_t type);
 
-/// The linear shape functions N_a and their parametric gradients at `xi` (VTK's parametric coordinates, [0,1]).
+/// The linear shape functions N_a and their parametric gradients at `xi` (VTK's parametric
+/// coordinates, [0,1]).
 /// N: numberOfCorners values; dN: numberOfCorners x 3, or null. Volume shapes only.
 void shapeFunctions(Shape shape, const double xi[3], double* N, double (*dN)[3]);
 }

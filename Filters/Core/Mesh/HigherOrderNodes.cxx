@@ -11,7 +11,8 @@ namespace morph
 {
 namespace
 {
-/// The least change of the weights N of the corners X after which they reproduce `target`; none where the corners lie in a plane.
+/// The least change of the weights N of the corners X after which they reproduce `target`; none
+/// where the corners lie in a plane.
 void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target,
   Eigen::Ref<Eigen::VectorXd> N)
 {
@@ -26,8 +27,9 @@ void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::
   }
 }
 
-/// Shape function values of the linear cell at `target`. Where the cell cannot be inverted there, those at `nominal`, changed so
-/// that they reproduce the target all the same: affine motions stay exact.
+/// Shape function values of the linear cell at `target`. Where the cell cannot be inverted there,
+/// those at `nominal`, changed so that they reproduce the target all the same: affine motions stay
+/// exact.
 void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen::Vector3d& target,
   const double nominal[3], double* N)
 {

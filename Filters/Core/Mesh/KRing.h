@@ -14,8 +14,8 @@ struct KRing
   std::vector<Index> cells; ///< all cells with such a corner, ascending
 };
 
-/// `seeds`: cell ids, with `rings` rings of cells round them. `around`: nodeToCells(); `free`: node ids, ascending. Cost: passes
-/// over the nodes and the patch.
+/// `seeds`: cell ids, with `rings` rings of cells round them. `around`: nodeToCells(); `free`: node
+/// ids, ascending. Cost: passes over the nodes and the patch.
 KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& seeds, int rings);
 }

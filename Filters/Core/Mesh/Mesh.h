@@ -24,7 +24,7 @@ struct Mesh
 };
 
 /// Throws Error unless every array has a consistent length, every node id exists, every coordinate
-/// is finite, and every cell has the number of nodes its type asks for. Cells of a type that is not in
-/// CellShape.h (polyhedra, for instance) are named. Cost: one pass over the mesh.
+/// is finite, and every cell has the number of nodes its type asks for. Cells of a type that is not
+/// in CellShape.h (polyhedra, for instance) are named. Cost: one pass over the mesh.
 void validate(const Mesh& mesh);
 }

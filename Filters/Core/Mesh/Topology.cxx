@@ -23,7 +23,8 @@ const CellShape* volumeShape(const Mesh& mesh, Index cell)
 
 constexpr Index NoNode = std::numeric_limits<Index>::max();
 
-/// The different corner nodes of a face in the face's order; a collapsed hexahedron repeats some. Returns how many.
+/// The different corner nodes of a face in the face's order; a collapsed hexahedron repeats some.
+/// Returns how many.
 int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, Index nodes[4])
 {
   const FaceShape& f = shape.faces[face];
@@ -39,8 +40,8 @@ int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, In
   return size;
 }
 
-/// What two cells that share a face agree on: its corner nodes, ascending, then NoNode. Collapsed to an edge or a point,
-/// a face is none: its first entry is NoNode.
+/// What two cells that share a face agree on: its corner nodes, ascending, then NoNode. Collapsed
+/// to an edge or a point, a face is none: its first entry is NoNode.
 std::array<Index, 4> faceKey(const Mesh& mesh, Index cell, const CellShape& shape, int face)
 {
   std::array<Index, 4> key = { NoNode, NoNode, NoNode, NoNode };

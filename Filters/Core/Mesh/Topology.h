@@ -14,21 +14,22 @@ namespace morph
 struct BoundaryFaces
 {
   std::vector<Index> offsets; ///< #faces + 1, into `connectivity`
-  std::vector<Index>
-    connectivity;           ///< node ids, outward by the right-hand rule for cells in VTK's order
-  std::vector<Index> cells; ///< #faces, the volume cell that owns the face
+  /// node ids, outward by the right-hand rule for cells in VTK's order
+  std::vector<Index> connectivity;
+  std::vector<Index> cells;        ///< #faces, the volume cell that owns the face
   std::vector<std::uint8_t> sides; ///< #faces, its number among the cell's faces (CellShape::faces)
   std::vector<Index> nodes; ///< sorted: every node on those faces, mid-side and face nodes included
-  Adjacency
-    between; ///< #nodes: the corners of the edge or face whose middle the node is; none for a corner
+  /// #nodes: the corners of the edge or face whose middle the node is; none for a corner
+  Adjacency between;
 };
 
-/// For each node the volume cells it is a corner of, ascending, each once. Cost: two passes over the connectivity.
+/// For each node the volume cells it is a corner of, ascending, each once. Cost: two passes over
+/// the connectivity.
 Adjacency nodeToCells(const Mesh& mesh);
 
-/// Faces used once. A face is told by the set of its corners: a collapsed quadrilateral is a triangle, and a face collapsed to
-/// an edge is none. Cost: one pass plus a sort of the faces by their lowest corner; works for unused points,
-/// several bodies, mixed cells and quadratic cells.
+/// Faces used once. A face is told by the set of its corners: a collapsed quadrilateral is a
+/// triangle, and a face collapsed to an edge is none. Cost: one pass plus a sort of the faces by
+/// their lowest corner; works for unused points, several bodies, mixed cells and quadratic cells.
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor);
 
 /// Bodies: volume cells that hang together through shared corners.
@@ -36,14 +37,14 @@ struct ConnectedComponents
 {
   Index count = 0;
   std::vector<Index> ofCell; ///< #cells, body number, or -1 for a cell that is not a volume cell
-  std::vector<Index>
-    ofNode; ///< #nodes, body number, or -1 for a node that is no corner of a volume cell
+  /// #nodes, body number, or -1 for a node that is no corner of a volume cell
+  std::vector<Index> ofNode;
 };
 ConnectedComponents connectedComponents(const Mesh& mesh);
 
-/// +1 or -1 for each cell: the order its node list was written in, one sign per body and shape, from the
-/// summed signed volume; a single tet, hex or pyramid in a body is taken as VTK orders it (+1).
-/// A body mirrored as a whole, or wedges in VTK's older order, are then measured as valid, while a cell that is
-/// inverted among valid neighbors stays inverted. Cells below dimension 3: +1.
+/// +1 or -1 for each cell: the order its node list was written in, one sign per body and shape,
+/// from the summed signed volume; a single tet, hex or pyramid in a body is taken as VTK orders it
+/// (+1). A body mirrored as a whole, or wedges in VTK's older order, are then measured as valid,
+/// while a cell that is inverted among valid neighbors stays inverted. Cells below dimension 3: +1.
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
 }

@@ -41,11 +41,13 @@ struct SubStepResult
   EvaluateReport report; ///< of the last attempt; iterations of all
 };
 
-/// Follows the path in steps, each from the mesh that the step before left, by a method prepared on it; a step that leaves inverted or
-/// degenerate cells is taken back and halved, and after two good ones in a row doubled. `make`: a method with its options, not
-/// prepared yet; its setReference() is given `reference`, #nodes x 3. `orientation`: #cells, of the undeformed mesh. Throws Error for an undeformed mesh
-/// with inverted cells, and what prepare() throws at the first attempt. Cost: an attempt's prepare() and
-/// evaluate(), at most `limits.attempts` times, of which at most `limits.failures` in vain.
+/// Follows the path in steps, each from the mesh that the step before left, by a method prepared on
+/// it; a step that leaves inverted or degenerate cells is taken back and halved, and after two good
+/// ones in a row doubled. `make`: a method with its options, not prepared yet; its setReference()
+/// is given `reference`, #nodes x 3. `orientation`: #cells, of the undeformed mesh. Throws Error
+/// for an undeformed mesh with inverted cells, and what prepare() throws at the first attempt.
+/// Cost: an attempt's prepare() and evaluate(), at most `limits.attempts` times, of which at most
+/// `limits.failures` in vain.
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,

@@ -161,7 +161,8 @@ EvaluateReport Morpher::evaluate(
                 ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
 
-  // A new array only where the caller's does not fit: making its pages takes longer than filling them.
+  // A new array only where the caller's does not fit: making its pages takes longer than filling
+  // them.
   const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
                         prescribed.data() < moved.data() + moved.size();
   Points fresh;

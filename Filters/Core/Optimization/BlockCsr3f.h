@@ -36,13 +36,14 @@ struct BlockPattern
 {
   std::vector<Index> offsets{ 0 };   ///< #rows + 1, into `columns`
   std::vector<std::int32_t> columns; ///< ascending in each row, the diagonal among them
-  /// Where in its row each contribution goes, in the order in which the owner adds them; -1 for nowhere.
+  /// Where in its row each contribution goes, in the order in which the owner adds them; -1 for
+  /// nowhere.
   std::vector<Index> placeOffsets{ 0 }; ///< #rows + 1, into `places`
   std::vector<std::int32_t> places;
 };
 
-/// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, both triangles, in single precision: it only gives
-/// directions of search, and half the bytes are half the time.
+/// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, both triangles, in
+/// single precision: it only gives directions of search, and half the bytes are half the time.
 class BlockCsr3f
 {
 public:
@@ -59,7 +60,8 @@ public:
   {
     return this->pattern_.places.data() + this->pattern_.placeOffsets[row];
   }
-  /// Nine values a block, column major, in the order of the columns; up to blocks(row + 1). Each row is for one thread to write.
+  /// Nine values a block, column major, in the order of the columns; up to blocks(row + 1). Each
+  /// row is for one thread to write.
   float* blocks(Index row) { return this->values_.data() + 9 * this->pattern_.offsets[row]; }
   const float* blocks(Index row) const
   {
@@ -71,9 +73,10 @@ public:
 
   void multiply(const Points& x, Points& y, Monitor& monitor) const;
 
-  /// Conjugate gradients for A x = b from x = 0, preconditioned by the inverses of the diagonal blocks, until the residual's norm is
-  /// `tolerance` times that of b, or `most` iterations. Where a direction has no positive curvature what was found
-  /// so far is the result. Returns the iterations. Cost: one pass over the blocks an iteration.
+  /// Conjugate gradients for A x = b from x = 0, preconditioned by the inverses of the diagonal
+  /// blocks, until the residual's norm is `tolerance` times that of b, or `most` iterations. Where
+  /// a direction has no positive curvature what was found so far is the result. Returns the
+  /// iterations. Cost: one pass over the blocks an iteration.
   int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const;
 
   std::size_t memory() const;

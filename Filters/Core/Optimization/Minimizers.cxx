@@ -94,7 +94,8 @@ private:
 class InverseHessian
 {
 public:
-  /// `first`: how far the first step takes the node with the largest gradient; nothing else gives it a length.
+  /// `first`: how far the first step takes the node with the largest gradient; nothing else gives
+  /// it a length.
   explicit InverseHessian(double first)
     : first_(first)
   {

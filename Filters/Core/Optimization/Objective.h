@@ -9,7 +9,8 @@
 
 namespace morph
 {
-/// A function of the free nodes' positions that a minimiser lowers. Independent of the threads, to the last bit.
+/// A function of the free nodes' positions that a minimiser lowers. Independent of the threads, to
+/// the last bit.
 class Objective
 {
 public:
@@ -33,8 +34,8 @@ public:
 class SecondOrderObjective : public Objective
 {
 public:
-  /// A positive semi-definite approximation of the second derivatives, #free x #free blocks; a matrix that this
-  /// objective has not filled before is opened first.
+  /// A positive semi-definite approximation of the second derivatives, #free x #free blocks; a
+  /// matrix that this objective has not filled before is opened first.
   virtual void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const = 0;
 };
 }

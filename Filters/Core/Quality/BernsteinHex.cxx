@@ -128,10 +128,11 @@ double determinant(const Vector* x, Box& box)
 
 double coefficientError(double longestR, double longestS, double longestT)
 {
-  // With u = epsilon / 2 and P the product of the longest components, a determinant and all its six products are
-  // at most 6 P. A determinant takes 8 roundings, the mean of eight 8 more: at most 16 u * 6 P = 96 u P, to first order.
-  // A halving takes two, each of at most u * 6 P; errors that come in are averaged. 36 * 12 + 96 = 528; the rest
-  // covers the terms of higher order, and the last term coordinates that underflow in the scaling.
+  // With u = epsilon / 2 and P the product of the longest components, a determinant and all its six
+  // products are at most 6 P. A determinant takes 8 roundings, the mean of eight 8 more: at most 16
+  // u * 6 P = 96 u P, to first order. A halving takes two, each of at most u * 6 P; errors that
+  // come in are averaged. 36 * 12 + 96 = 528; the rest covers the terms of higher order, and the
+  // last term coordinates that underflow in the scaling.
   return 300 * std::numeric_limits<double>::epsilon() * longestR * longestS * longestT +
          std::ldexp(1., -400);
 }

@@ -23,8 +23,8 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
 struct NodeWithoutPlace
 {
   Index node;
-  std::vector<Index>
-    cells; ///< ascending; at least one of them is inverted wherever the free nodes are
+  /// ascending; at least one of them is inverted wherever the free nodes are
+  std::vector<Index> cells;
 };
 
 /// By node, ascending. Parameters as above. Cost: a pass over the cells, and 10 microseconds a free

@@ -62,8 +62,8 @@ Exponents moved(Exponents term, const std::array<int, 2>& from, int to)
 /// cell's nodes.
 struct QuadraticMap::Rows
 {
-  BernsteinTerms
-    terms; ///< of degree two; a lattice point has a term's exponents / 2 as barycentric coordinates
+  /// of degree two; a lattice point has a term's exponents / 2 as barycentric coordinates
+  BernsteinTerms terms;
   std::vector<Combination> lattice, coefficients;
 };
 

@@ -18,8 +18,8 @@ using Vector = Eigen::Vector3d;
 
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// The edges at each corner, in the order that makes the triple product positive: e + 1 for edge e, which goes from HexEdges[e][0] to
-// HexEdges[e][1], or -(e + 1) where it ends at the corner.
+// The edges at each corner, in the order that makes the triple product positive: e + 1 for edge e,
+// which goes from HexEdges[e][0] to HexEdges[e][1], or -(e + 1) where it ends at the corner.
 constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 },
   { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
 constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },

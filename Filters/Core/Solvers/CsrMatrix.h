@@ -15,7 +15,7 @@ using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 /// Throws Error for more entries than an int can number.
 void requireEntries(Index entries);
 
-/// Gives `matrix` the size (#sizes - 1) x width with room for sizes[i + 1] entries in row i, columns and values not
-/// set; sizes[0] is 0. Throws Error as requireEntries().
+/// Gives `matrix` the size (#sizes - 1) x width with room for sizes[i + 1] entries in row i,
+/// columns and values not set; sizes[0] is 0. Throws Error as requireEntries().
 void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes);
 }

@@ -71,7 +71,8 @@ struct GeneralSolver::System
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
 
-  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they hold never matters.
+  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they
+  // hold never matters.
   mutable std::mutex mutex;
   mutable std::unique_ptr<Workspace> spare;
 
@@ -338,7 +339,8 @@ GeneralSolver::Report GeneralSolver::System::solve(
 
   Report report;
   int runs = 0;
-  // The residual that the iteration carries along drifts from b - A x: after each run x is checked, and taken further.
+  // The residual that the iteration carries along drifts from b - A x: after each run x is checked,
+  // and taken further.
   bool stuck = false;
   while (!stuck && above(norm2, goal2).any() && report.iterations < maxIterations)
   {

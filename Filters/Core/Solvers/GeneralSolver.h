@@ -11,14 +11,15 @@
 
 namespace morph
 {
-/// Solves A X = B and A^T X = B, A sparse and close to an M-matrix, B with three columns at once: BiCGSTAB (van der
-/// Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644) in which one pass over the matrix serves the three columns,
-/// preconditioned from the right by a smoothed-aggregation multigrid of A itself, and of its transpose for the
-/// transposed system.
+/// Solves A X = B and A^T X = B, A sparse and close to an M-matrix, B with three columns at once:
+/// BiCGSTAB (van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644) in which one pass over
+/// the matrix serves the three columns, preconditioned from the right by a smoothed-aggregation
+/// multigrid of A itself, and of its transpose for the transposed system.
 ///
-/// Where that stagnates or breaks down, restarted GMRES (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
-/// 856-869) takes over, preconditioned by an incomplete factorisation, which exists for every M-matrix (Meijerink
-/// and van der Vorst, Math. Comp. 31 (1977) 148-162). It is slower and partly sequential; a warning tells of it.
+/// Where that stagnates or breaks down, restarted GMRES (Saad and Schultz, SIAM J. Sci. Stat.
+/// Comput. 7 (1986) 856-869) takes over, preconditioned by an incomplete factorisation, which
+/// exists for every M-matrix (Meijerink and van der Vorst, Math. Comp. 31 (1977) 148-162). It is
+/// slower and partly sequential; a warning tells of it.
 class GeneralSolver
 {
 public:
@@ -32,8 +33,9 @@ public:
     int fallBackIterations = 0; ///< of GMRES, among `iterations`
   };
 
-  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions: the multigrid
-  /// groups near neighbors. Throws SingularRows where a diagonal entry is not positive.
+  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions:
+  /// the multigrid groups near neighbors. Throws SingularRows where a diagonal entry is not
+  /// positive.
   void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
@@ -45,7 +47,8 @@ public:
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 
-  /// The same for A^T. The first call makes the transposes, 0.4 kB a row of a hexahedral mesh, and keeps them.
+  /// The same for A^T. The first call makes the transposes, 0.4 kB a row of a hexahedral mesh, and
+  /// keeps them.
   Report solveTransposed(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 

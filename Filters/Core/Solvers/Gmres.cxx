@@ -14,14 +14,15 @@ namespace
 constexpr Index Grain = 4096;
 constexpr int Steps = 30;
 
-/// The least-squares problem of one column: its Hessenberg matrix, kept triangular by Givens rotations.
+/// The least-squares problem of one column: its Hessenberg matrix, kept triangular by Givens
+/// rotations.
 struct Projected
 {
   Eigen::Matrix<double, Steps + 1, Steps> H = Eigen::Matrix<double, Steps + 1, Steps>::Zero();
   Eigen::Matrix<double, Steps + 1, 1> rhs = Eigen::Matrix<double, Steps + 1, 1>::Zero();
   std::array<double, Steps> cosine = {}, sine = {};
-  int size =
-    0; ///< columns of H in use; fewer than the steps made where the column has come to its end
+  /// columns of H in use; fewer than the steps made where the column has come to its end
+  int size = 0;
 
   /// Rotates the new column j, and the right-hand side with it.
   void rotate(int j)

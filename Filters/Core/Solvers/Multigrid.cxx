@@ -172,7 +172,8 @@ void Multigrid::prepareTransposed(const Multigrid& other)
     to.column = from.column;
     to.value = from.value;
   };
-  // The cycle's two smoothing steps are the same polynomial in D^-1 A, so transposing the matrices transposes the cycle.
+  // The cycle's two smoothing steps are the same polynomial in D^-1 A, so transposing the matrices
+  // transposes the cycle.
   for (const Level& from : other.levels_)
   {
     this->levels_.emplace_back();
@@ -370,7 +371,8 @@ int Multigrid::aggregate(const Matrix& A, const Points& coordinates,
       ++groups;
     }
   }
-  // Then each node left over joins the group of its nearest grouped neighbor; those with none group among themselves.
+  // Then each node left over joins the group of its nearest grouped neighbor; those with none group
+  // among themselves.
   const std::vector<int> first = group;
   for (int i = 0; i < n; ++i)
   {
@@ -410,8 +412,9 @@ int Multigrid::aggregate(const Matrix& A, const Points& coordinates,
 
 namespace
 {
-/// Rows made by chunks of a fixed size, then put together: the result does not depend on the threads. makeRow(i, add) calls
-/// add(column, value) in any order, and again for the same column; columns stay in the order of their first call.
+/// Rows made by chunks of a fixed size, then put together: the result does not depend on the
+/// threads. makeRow(i, add) calls add(column, value) in any order, and again for the same column;
+/// columns stay in the order of their first call.
 template <typename M, typename MakeRow>
 M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
 {
@@ -490,8 +493,8 @@ M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
 Multigrid::Matrix Multigrid::prolongation(const Level& level, const std::vector<std::uint8_t>& near,
   const std::vector<int>& group, Monitor& monitor)
 {
-  // P = (I - omega D^-1 A_F) T, T constant on the groups. A_F keeps the near neighbors and adds the entries of
-  // the others to its diagonal.
+  // P = (I - omega D^-1 A_F) T, T constant on the groups. A_F keeps the near neighbors and adds the
+  // entries of the others to its diagonal.
   const Matrix& A = level.A;
   const float omega = 4.f / 3.f / level.eigenvalue;
   return assembleRows<Matrix>(A.rows, monitor,
@@ -589,7 +592,8 @@ void Multigrid::apply(const Vector& rhs, Vector& x, Workspace& workspace, Monito
 void Multigrid::smooth(const Level& level, const Vector& rhs, bool fromZero, Vector& x,
   Workspace::Level& work, Monitor& monitor) const
 {
-  // Chebyshev polynomial of D^-1 A over [largest / range, largest]; a fixed linear map, so the cycle stays symmetric.
+  // Chebyshev polynomial of D^-1 A over [largest / range, largest]; a fixed linear map, so the
+  // cycle stays symmetric.
   const float high = level.eigenvalue, low = high / SmootherRange;
   const float centre = (high + low) / 2, half = (high - low) / 2;
   float rho = half / centre;

@@ -14,16 +14,18 @@
 
 namespace morph
 {
-/// Smoothed-aggregation multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196) as a preconditioner for
-/// three right-hand sides at once, in single precision: it only steers the iteration, and half the bytes are
-/// half the time. One V-cycle with Chebyshev smoothing, symmetric for a symmetric matrix.
+/// Smoothed-aggregation multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196) as a
+/// preconditioner for three right-hand sides at once, in single precision: it only steers the
+/// iteration, and half the bytes are half the time. One V-cycle with Chebyshev smoothing, symmetric
+/// for a symmetric matrix.
 ///
-/// A matrix that is not symmetric is coarsened as it is, P^T A P. On log-barrier weights that gave 4 BiCGSTAB iterations
-/// where a hierarchy of the symmetrised matrix took 4 to 9, and 7 where it took 13 on a mesh graded 1.6 times a layer.
+/// A matrix that is not symmetric is coarsened as it is, P^T A P. On log-barrier weights that gave
+/// 4 BiCGSTAB iterations where a hierarchy of the symmetrised matrix took 4 to 9, and 7 where it
+/// took 13 on a mesh graded 1.6 times a layer.
 ///
-/// Nodes are grouped by nearness (1 / distance^2 against the nearest neighbor), not by the size of the matrix entries:
-/// a trilinear hexahedron has no entry between nodes that share an edge, and stretched cells still
-/// coarsen along their short side first.
+/// Nodes are grouped by nearness (1 / distance^2 against the nearest neighbor), not by the size of
+/// the matrix entries: a trilinear hexahedron has no entry between nodes that share an edge, and
+/// stretched cells still coarsen along their short side first.
 class Multigrid
 {
 public:
@@ -36,8 +38,9 @@ public:
     General    ///< close to an M-matrix
   };
 
-  /// `matrix` must outlive this object and stay where it is: the finest level reads its structure. It is divided by `unit`,
-  /// its largest diagonal entry: the unit of length must not show, and single precision ends at 1e38.
+  /// `matrix` must outlive this object and stay where it is: the finest level reads its structure.
+  /// It is divided by `unit`, its largest diagonal entry: the unit of length must not show, and
+  /// single precision ends at 1e38.
   void prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     const ConstPoints& coordinates, Monitor& monitor);
   /// The transpose of `other`, which must outlive this object and stay where it is.
@@ -91,8 +94,8 @@ private:
     }
   };
   using Matrix = Rows<float>; ///< what a cycle reads
-  using ExactMatrix = Rows<
-    double>; ///< what the next level is made from: next to slivers float would cancel to nothing
+  /// what the next level is made from: next to slivers float would cancel to nothing
+  using ExactMatrix = Rows<double>;
 
   struct Level
   {
@@ -118,8 +121,8 @@ private:
   static Matrix transpose(const Matrix& A, int columns);
   template <typename ScalarA, typename ScalarB>
   static ExactMatrix product(const Rows<ScalarA>& A, const Rows<ScalarB>& B, Monitor& monitor);
-  /// Appends the level of `exact`, divided by `unit`, and takes its structure over. False, and no level, where the diagonal
-  /// is not positive and finite.
+  /// Appends the level of `exact`, divided by `unit`, and takes its structure over. False, and no
+  /// level, where the diagonal is not positive and finite.
   bool addLevel(ExactMatrix& exact, double unit, Monitor& monitor);
   void factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit);
   bool solveCoarsest(const Vector& rhs, Vector& x) const;

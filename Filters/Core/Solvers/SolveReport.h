@@ -9,8 +9,8 @@ namespace morph
 struct SolveReport
 {
   int iterations = 0; ///< of all right-hand sides together
-  double relativeResidual =
-    0;                   ///< largest over the right-hand sides, |b - A x| / |b|, computed from x
+  /// largest over the right-hand sides, |b - A x| / |b|, computed from x
+  double relativeResidual = 0;
   double bytesMoved = 0; ///< estimate of the memory traffic, for benchmarks
 };
 

@@ -64,7 +64,8 @@ struct SpdSolver::Implementation
   RowComponents components;
   Multigrid preconditioner;
 
-  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they hold never matters.
+  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they
+  // hold never matters.
   std::mutex mutex;
   std::unique_ptr<Workspace> spare;
 
@@ -158,8 +159,8 @@ SolveReport SpdSolver::Implementation::iterate(
 
   SolveReport report;
   int restarts = 0;
-  // The residual that the iteration carries along drifts from b - A x: after each run x is checked, and where rounding lets
-  // it, taken further.
+  // The residual that the iteration carries along drifts from b - A x: after each run x is checked,
+  // and where rounding lets it, taken further.
   for (double before = HUGE_VAL; largestRatio(norm2, goal2) > 1; ++restarts)
   {
     const double now = largestRatio(norm2, goal2);

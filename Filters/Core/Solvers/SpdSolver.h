@@ -11,9 +11,10 @@
 
 namespace morph
 {
-/// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once: preconditioned
-/// conjugate gradients in which one pass over the matrix serves the three columns, with a smoothed-aggregation
-/// multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
+/// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once:
+/// preconditioned conjugate gradients in which one pass over the matrix serves the three columns,
+/// with a smoothed-aggregation multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56
+/// (1996) 179-196).
 class SpdSolver
 {
 public:
@@ -22,8 +23,9 @@ public:
   SpdSolver(SpdSolver&&) noexcept;
   SpdSolver& operator=(SpdSolver&&) noexcept;
 
-  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions: the multigrid groups near
-  /// neighbors. Throws SingularRows where a diagonal entry is not positive.
+  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions:
+  /// the multigrid groups near neighbors. Throws SingularRows where a diagonal entry is not
+  /// positive.
   void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is

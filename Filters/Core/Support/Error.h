@@ -37,7 +37,8 @@ private:
   Kind kind_;
 };
 
-/// The matrix rows that have no positive diagonal: who assembled the matrix knows which nodes they are.
+/// The matrix rows that have no positive diagonal: who assembled the matrix knows which nodes they
+/// are.
 class SingularRows : public Error
 {
 public:

@@ -28,9 +28,10 @@ __attribute__((target("avx2"))) void loopWithAvx2(Index first, Index last, Argum
 #endif
 }
 
-/// Body::run(i, arguments...) for i in [first, last), compiled for the widest registers this processor has. Body::run is a static
-/// function that is inlined always, and so is all it calls; without fused multiplication and addition it does
-/// the same operations everywhere, so results are the same to the last bit.
+/// Body::run(i, arguments...) for i in [first, last), compiled for the widest registers this
+/// processor has. Body::run is a static function that is inlined always, and so is all it calls;
+/// without fused multiplication and addition it does the same operations everywhere, so results are
+/// the same to the last bit.
 template <typename Body, typename... Arguments>
 void dispatchedFor(Index first, Index last, Arguments&... arguments)
 {

@@ -7,7 +7,8 @@
 
 namespace morph
 {
-/// Functions on lanes are inlined always: they then use the registers that their caller is compiled for.
+/// Functions on lanes are inlined always: they then use the registers that their caller is compiled
+/// for.
 #define MORPH_SIMD_INLINE inline __attribute__((always_inline))
 
 MORPH_SIMD_INLINE SimdDouble4 load(const double (&x)[SimdWidth])
@@ -42,7 +43,8 @@ MORPH_SIMD_INLINE double inverseCubeRoot(double x)
   return 1 / std::cbrt(x);
 }
 
-/// x^(-1/3) of normal numbers above 0, to some units in the last place: a third of the exponent, then Newton's method.
+/// x^(-1/3) of normal numbers above 0, to some units in the last place: a third of the exponent,
+/// then Newton's method.
 MORPH_SIMD_INLINE SimdDouble4 inverseCubeRoot(const SimdDouble4& x)
 {
   using Integers = long long __attribute__((vector_size(32)));

@@ -6,8 +6,9 @@
 
 namespace morph
 {
-/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069 and 43(1)
-/// (2024) 10). `points` in all: #nodes x 3, the start in, the result out.
+/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans.
+/// Graph. 40(4) (2021), arXiv 2102.03069 and 43(1) (2024) 10). `points` in all: #nodes x 3, the
+/// start in, the result out.
 class FoldoverContinuation
 {
 public:
@@ -29,7 +30,8 @@ public:
   /// where the boundary admits no valid mesh that ends it soon. Returns whether all tetrahedra are
   /// positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
-  /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays valid.
+  /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays
+  /// valid.
   void improve(Points& points, int steps, Monitor& monitor);
   /// From a valid mesh to one with a lower greatest distortion; the mesh stays valid.
   void stiffen(Points& points, Monitor& monitor);

@@ -24,16 +24,17 @@ namespace morph
 /// simplex-linear mesh likewise. So the minimum is never below those two, but for rounding of the
 /// coordinates.
 ///
-/// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a warning names them, and
-/// the rest of the mesh is morphed. Where cells stay inverted that are not of these the count `Untangled` is 0; a warning names
-/// those of them that are on a face that the boundary folds (Untangling.h).
+/// Cells that the boundary itself inverts (BoundaryDetermined.h) are out of reach of any method: a
+/// warning names them, and the rest of the mesh is morphed. Where cells stay inverted that are not
+/// of these the count `Untangled` is 0; a warning names those of them that are on a face that the
+/// boundary folds (Untangling.h).
 ///
-/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`, `FoldedBoundaryCells`, `KeptLinear` and
-/// `Untangled` (1 or 0).
+/// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`,
+/// `FoldedBoundaryCells`, `KeptLinear` and `Untangled` (1 or 0).
 ///
-/// prepare(): FEMWARP's and simplex-linear's, and passes over the cells. evaluate(): 10 to 60 Newton steps of 0.4 to 0.8 microseconds of processor time a
-/// tetrahedron (ten a hexahedron), and a linear solution each; 4 kB a hexahedron meanwhile. Not linear in
-/// the boundary: no adjoint.
+/// prepare(): FEMWARP's and simplex-linear's, and passes over the cells. evaluate(): 10 to 60
+/// Newton steps of 0.4 to 0.8 microseconds of processor time a tetrahedron (ten a hexahedron), and
+/// a linear solution each; 4 kB a hexahedron meanwhile. Not linear in the boundary: no adjoint.
 class InversionFree : public Morpher
 {
 public:
@@ -43,27 +44,31 @@ public:
     Rest,  ///< the undeformed mesh, with its boundary moved
     Method ///< that of setMethod()
   };
-  /// Before evaluate(). A mesh that is inverted at rest starts from rest instead of FEMWARP. Default FemWarp.
+  /// Before evaluate(). A mesh that is inverted at rest starts from rest instead of FEMWARP.
+  /// Default FemWarp.
   void setStart(Start start) { this->start_ = start; }
-  /// The method that makes the first guess, not prepared yet; sets the start to Method. Before prepare().
+  /// The method that makes the first guess, not prepared yet; sets the start to Method. Before
+  /// prepare().
   void setMethod(std::unique_ptr<Morpher> method);
-  /// What cells other than tetrahedra aim for. Before evaluate(). Default Stretched; with Initial affine motions of the boundary are
-  /// reproduced exactly, since FEMWARP's mesh is stationary then.
+  /// What cells other than tetrahedra aim for. Before evaluate(). Default Stretched; with Initial
+  /// affine motions of the boundary are reproduced exactly, since FEMWARP's mesh is stationary
+  /// then.
   void setTarget(TargetConstruction target) { this->target_ = target; }
   /// Of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverContinuation::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the worst distortion in the end, and to raise the minimum scaled Jacobian (MinQualityAscent.h); never for Initial.
-  /// Default on.
+  /// Whether to lower the worst distortion in the end, and to raise the minimum scaled Jacobian
+  /// (MinQualityAscent.h); never for Initial. Default on.
   void setStiffening(bool on) { this->stiffening_ = on; }
   /// How often the stretched targets are taken again from the mesh as it has become. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
 
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
-  /// Instead of evaluate(): repairs `moved` (#nodes x 3, the prescribed nodes where they have to be), which another method has made.
-  /// A valid mesh whose minimum scaled Jacobian is higher than the repaired one's stays.
+  /// Instead of evaluate(): repairs `moved` (#nodes x 3, the prescribed nodes where they have to
+  /// be), which another method has made. A valid mesh whose minimum scaled Jacobian is higher than
+  /// the repaired one's stays.
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:
@@ -78,7 +83,8 @@ private:
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
-  /// In coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a mesh that the result must not be worse than.
+  /// In coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a mesh that the
+  /// result must not be worse than.
   Outcome improve(
     Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
   /// `warped`, FEMWARP's mesh, or that of simplex-linear if its minimum scaled Jacobian is higher.

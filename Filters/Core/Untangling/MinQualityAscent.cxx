@@ -85,7 +85,8 @@ int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orient
     MinimizerEffort effort;
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
     quality = measureCorners(mesh, trial, orientation, {}, monitor);
-    // The sum can fall while its greatest part grows; the next round, from there, mostly makes up for it.
+    // The sum can fall while its greatest part grows; the next round, from there, mostly makes up
+    // for it.
     if (quality.minimum > least + significantGain(least))
     {
       points = trial;

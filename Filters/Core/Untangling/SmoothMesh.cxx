@@ -89,7 +89,8 @@ std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
   return sum;
 }
 
-/// The power of two that brings edges to a length near 1, so that no number depends on the unit of length.
+/// The power of two that brings edges to a length near 1, so that no number depends on the unit of
+/// length.
 double unitScale(const std::vector<double>& edgeLength)
 {
   double sum = 0;
@@ -181,7 +182,8 @@ private:
     this->report_.evaluations += effort.evaluations;
   }
 
-  /// Newton's steps until one moves no node far or lowers the measure little. Returns whether it did lower it.
+  /// Newton's steps until one moves no node far or lowers the measure little. Returns whether it
+  /// did lower it.
   bool improve(const MeshEnergy& energy, int steps, Points& points)
   {
     BlockCsr3f matrix;
@@ -313,7 +315,8 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   monitor.check();
   result /= scale;
   Points smoothed = points;
-  // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left alone.
+  // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left
+  // alone.
   for (Index node : partition.free)
   {
     smoothed.row(node) = result.row(node);

@@ -15,8 +15,8 @@ namespace
 {
 constexpr int Rounds = 3;
 constexpr int Rings = 5; // of cells
-// Beside folds: of the whole mesh, since after a few only single places are tangled; of these places; and of what is round
-// folded faces, whose cells come right soon or not at all.
+// Beside folds: of the whole mesh, since after a few only single places are tangled; of these
+// places; and of what is round folded faces, whose cells come right soon or not at all.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
 }
 

@@ -30,7 +30,8 @@ struct MethodRun
   int Rank = 0; ///< 1 is best
 
   std::string Title() const;
-  /// How many steps from the first on have no more inverted and degenerate cells than the undeformed mesh.
+  /// How many steps from the first on have no more inverted and degenerate cells than the
+  /// undeformed mesh.
   int ValidSteps() const;
   /// Of the last of these; NaN where there is none.
   double LastValidMinimum() const;
@@ -42,8 +43,8 @@ namespace Comparison
 /// What a filter has just computed. `percentile`: see vtkCompareMorphMethods.
 MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
 
-/// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of them, to 0.01, then by
-/// seconds, then by order.
+/// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of
+/// them, to 0.01, then by seconds, then by order.
 void Rank(std::vector<MethodRun>& runs);
 
 /// A row for each run and step.

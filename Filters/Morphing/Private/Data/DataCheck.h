@@ -24,7 +24,8 @@ enum class Cells
 /// Throws morph::Error that begins with `subject` ("The input"), and says what to do, where
 /// - a point or cell array has fewer tuples than there are points or cells (more do no harm);
 /// - the cells of a grid or of polygonal data are inconsistent, or name points that do not exist;
-/// - a coordinate is above Largest, or the largest side of the bounding box is below Smallest and not
+/// - a coordinate is above Largest, or the largest side of the bounding box is below Smallest and
+///   not
 ///   0. Coordinates that are not finite pass: who uses them knows better which nodes they are.
 /// Null passes, and data without points of its own. Cost: one pass over the points, and over the
 /// cells of what is not a grid.

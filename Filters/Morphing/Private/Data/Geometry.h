@@ -35,8 +35,9 @@ struct Options
 morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
 
-/// The same for a surface that was extracted before. `faces`: its polygons, each a face, of nodes that are its points.
-/// `points`: #points x 3, where they are looked at. SurfaceIdArray is a cell array of the surface.
+/// The same for a surface that was extracted before. `faces`: its polygons, each a face, of nodes
+/// that are its points. `points`: #points x 3, where they are looked at. SurfaceIdArray is a cell
+/// array of the surface.
 morph::Classification Classify(vtkPolyData* surface, const morph::Points& points,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
 

@@ -32,7 +32,8 @@ morph::Index MirroredBodies(
 /// Adds the field data MirroredBodies (id).
 void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output);
 
-/// Whether Measure() of these cells gives what measuring the points that were computed, in double, has given.
+/// Whether Measure() of these cells gives what measuring the points that were computed, in double,
+/// has given.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);
 
 /// Adds to `output` the cell array `ScaledJacobian` (double, NaN where not measured) as active
@@ -47,9 +48,9 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
 
-/// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or not
-/// examined, -1 inverted) and the field data CertifiedCells, UncertifiedCells (the inverted ones) and
-/// UndecidedCells (ids). Arrays of these names are replaced.
+/// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or
+/// not examined, -1 inverted) and the field data CertifiedCells, UncertifiedCells (the inverted
+/// ones) and UndecidedCells (ids). Arrays of these names are replaced.
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
 
 /// Removes what the above writes, so that an input's own arrays do not pass for this mesh's.

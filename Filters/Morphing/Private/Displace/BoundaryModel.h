@@ -13,15 +13,16 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-/// The boundary of a mesh with its geometry, from a grid or from a surface that was extracted from one before, and
-/// kept while they stay the same. Nodes are the input's points.
+/// The boundary of a mesh with its geometry, from a grid or from a surface that was extracted from
+/// one before, and kept while they stay the same. Nodes are the input's points.
 class BoundaryModel
 {
 public:
-  /// Takes the input over, a grid or polygonal data. What is kept is used again: all of it where the input was not
-  /// modified, and the geometry where the modified input has the same boundary and the same arrays that tell its
-  /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells, and for a
-  /// surface without polygons, MorphPointId or RestPosition; then nothing is kept.
+  /// Takes the input over, a grid or polygonal data. What is kept is used again: all of it where
+  /// the input was not modified, and the geometry where the modified input has the same boundary
+  /// and the same arrays that tell its geometry. Throws morph::Error as Geometry::Classify() does,
+  /// for a grid without volume cells, and for a surface without polygons, MorphPointId or
+  /// RestPosition; then nothing is kept.
   void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor);
 
   const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< where they are
@@ -37,7 +38,8 @@ public:
   /// As morph::faceAreas() has them, but outwards where cells are wound inside out.
   morph::Points OutwardAreas(const morph::Points& points) const;
 
-  /// The boundary as vtkClassifyBoundary writes it, where the input's points are, with the input's arrays.
+  /// The boundary as vtkClassifyBoundary writes it, where the input's points are, with the input's
+  /// arrays.
   vtkPolyData* Surface() const;
   /// The node of each point of Surface(), ascending.
   const std::vector<morph::Index>& NodeOfPoint() const { return this->Kept.NodeOfPoint; }

@@ -40,9 +40,9 @@ struct Result
   std::vector<std::uint8_t> IsMovingFace; ///< #faces
 };
 
-/// Nodes between corners (of quadratic cells) that all move, move too. A face moves if it is of a patch that does or,
-/// where something else than patches was chosen, if all of its corners do. Nodes of a held patch that are chosen to
-/// move, move. `input`: what `model` was made from. Throws morph::Error where nothing on the boundary is chosen, with
-/// what is missing.
+/// Nodes between corners (of quadratic cells) that all move, move too. A face moves if it is of a
+/// patch that does or, where something else than patches was chosen, if all of its corners do.
+/// Nodes of a held patch that are chosen to move, move. `input`: what `model` was made from. Throws
+/// morph::Error where nothing on the boundary is chosen, with what is missing.
 Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options);
 }

@@ -10,8 +10,8 @@ class vtkPolyData;
 namespace morph::filters::DisplacedSurface
 {
 /// Makes `output` a shallow copy of model.Surface() with new points and the point arrays Role and
-/// BoundaryDisplacement. `input`: what `model` was made from; with `precision`, vtkAlgorithm::SINGLE_PRECISION and so
-/// on, it tells the type of the points.
+/// BoundaryDisplacement. `input`: what `model` was made from; with `precision`,
+/// vtkAlgorithm::SINGLE_PRECISION and so on, it tells the type of the points.
 void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output);
 }

@@ -39,8 +39,8 @@ struct Options
 morph::Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Options& options);
 
-/// Cells of model.Surface() that have an area where they are and, all of their corners moving, none at `moved`
-/// (#nodes x 3): a morph cannot keep the cells behind them.
+/// Cells of model.Surface() that have an area where they are and, all of their corners moving, none
+/// at `moved` (#nodes x 3): a morph cannot keep the cells behind them.
 std::vector<morph::Index> Collapsed(
   const BoundaryModel& model, const Choice::Result& choice, const morph::Points& moved);
 }

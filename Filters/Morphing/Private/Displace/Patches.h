@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-/// Surfaces and curves of a boundary by names that users choose from: "Surface 3", "Curve 7", with the ids that
-/// vtkClassifyBoundary writes.
+/// Surfaces and curves of a boundary by names that users choose from: "Surface 3", "Curve 7", with
+/// the ids that vtkClassifyBoundary writes.
 namespace morph::filters::Patches
 {
 /// Surfaces first, then curves, each ascending by id. Several with one id have one name.
@@ -21,8 +21,9 @@ struct Part
   std::vector<std::uint8_t> HasFace; ///< #faces
 };
 
-/// All nodes, those on their edges included, and all faces of the patches of these names; a curve has no faces.
-/// Throws morph::Error that says `property` and lists what there is for a name that does not exist.
+/// All nodes, those on their edges included, and all faces of the patches of these names; a curve
+/// has no faces. Throws morph::Error that says `property` and lists what there is for a name that
+/// does not exist.
 Part Find(
   const morph::Classification& geometry, const std::set<std::string>& names, const char* property);
 }

@@ -27,8 +27,9 @@ namespace
 constexpr const char* InsideName = "vtkInsidedness";
 const std::string OwnExtractor = "vtkExtractSelection";
 
-/// VTK's extractor does not look at what it gets: a node without a list, with one of text for numbers,
-/// or of a kind that it does not know, ends in an assertion or in memory that is not its own.
+/// VTK's extractor does not look at what it gets: a node without a list, with one of text for
+/// numbers, or of a kind that it does not know, ends in an assertion or in memory that is not its
+/// own.
 void requireUsable(vtkSelectionNode* node, vtkExtractSelection* extractor)
 {
   vtkAbstractArray* list = node->GetSelectionList();

@@ -24,8 +24,8 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   return some;
 }
 
-/// Mid-side and face nodes that neither move nor are held go along with their corners: else the edges between moved and
-/// resting corners would bend.
+/// Mid-side and face nodes that neither move nor are held go along with their corners: else the
+/// edges between moved and resting corners would bend.
 void moveBetween(const BoundaryModel& model, Surroundings::Result& result)
 {
   const morph::BoundaryFaces& faces = model.Faces();

@@ -8,7 +8,8 @@
 
 namespace morph::filters
 {
-/// Where the rest of a boundary goes when a part of it moves. What depends on the part alone is kept.
+/// Where the rest of a boundary goes when a part of it moves. What depends on the part alone is
+/// kept.
 class Surroundings
 {
 public:
@@ -41,13 +42,13 @@ public:
     std::vector<signed char> Roles; ///< #nodes
   };
 
-  /// `targets`: of choice.Moving. Moving nodes go there, and held ones stay, exactly. Of the other nodes of the
-  /// boundary
+  /// `targets`: of choice.Moving. Moving nodes go there, and held ones stay, exactly. Of the other
+  /// nodes of the boundary
   /// - Stay: all stay;
   /// - Follow: all follow as vtkMorphBoundary's do, curves first, and vertices are held;
   /// - Fade: those within the radius of a moving node follow it in part; see morph::Falloff.
-  /// With Stay and Fade mid-side and face nodes keep their place between their corners. A result does not depend on
-  /// what is kept.
+  /// With Stay and Fade mid-side and face nodes keep their place between their corners. A result
+  /// does not depend on what is kept.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
     const morph::Points& targets, const Options& options, morph::Monitor& monitor);
 

@@ -22,14 +22,14 @@ public:
   int Mode = 0;
   morph::Index MaximumSubSteps = 0;
   const morph::Mesh& Mesh; ///< before the motion
-  const morph::Points&
-    Reference; ///< #nodes x 3, the undeformed mesh; see morph::Morpher::setReference()
+  /// #nodes x 3, the undeformed mesh; see morph::Morpher::setReference()
+  const morph::Points& Reference;
   const morph::NodePartition& Partition;
   const std::vector<std::int8_t>& Orientation;
   const morph::Points& Targets;      ///< #prescribed x 3
   const morph::BoundaryFaces& Faces; ///< of Mesh
-  bool IsInversionFree =
-    false; ///< the method is the inversion-free one, which is not told to use itself
+  /// the method is the inversion-free one, which is not told to use itself
+  bool IsInversionFree = false;
   /// A method with its options, not prepared yet.
   std::function<std::unique_ptr<morph::Morpher>()> Make;
 

@@ -24,7 +24,8 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
 /// An unstructured grid or polygonal data.
 vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
-/// As RequirePointSet(), for the boundary of a mesh that is to be morphed; null has a message of its own.
+/// As RequirePointSet(), for the boundary of a mesh that is to be morphed; null has a message of
+/// its own.
 vtkPointSet* RequireBoundary(vtkDataObject* input);
 
 /// Whether `data` are an unstructured grid that others can read: arrays long enough, cells that
@@ -32,12 +33,13 @@ vtkPointSet* RequireBoundary(vtkDataObject* input);
 /// cells.
 bool IsReadable(vtkDataObject* data);
 
-/// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has others alone. Either may be null.
+/// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has others
+/// alone. Either may be null.
 void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
-/// To be called on every process, before anything can fail there: with the data, or null where their
-/// type was wrong. Throws morph::Error on all processes if several of them have cells. Returns how
-/// many have: 0 or 1.
+/// To be called on every process, before anything can fail there: with the data, or null where
+/// their type was wrong. Throws morph::Error on all processes if several of them have cells.
+/// Returns how many have: 0 or 1.
 int RequireOneRankWithCells(vtkDataSet* grid);
 
 /// Throws morph::Error unless there is a cell of dimension 3, and these are large enough to compute

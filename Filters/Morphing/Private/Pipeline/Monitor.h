@@ -17,8 +17,8 @@ class Monitor : public morph::Monitor
 {
 public:
   /// `algorithm`: whose progress is updated and whose abort flag is read; null for neither.
-  /// `threads`: 0 = as many as vtkSMPTools would use at most with the backend that is used (all cores,
-  /// or VTK_SMP_MAX_THREADS).
+  /// `threads`: 0 = as many as vtkSMPTools would use at most with the backend that is used (all
+  /// cores, or VTK_SMP_MAX_THREADS).
   Monitor(vtkAlgorithm* algorithm, int threads);
 
   /// The part of the algorithm's progress that the core's [0, 1] is mapped to from now on.
@@ -31,9 +31,9 @@ public:
   std::vector<std::string> TakeWarnings();
 
   /// Through the backend of vtkSMPTools, or STDThread where that is Sequential (as ParaView's is by
-  /// default). STDThread starts its threads for each call, about 70 microseconds: a range not longer
-  /// than `grain` runs in the caller's thread. An exception thrown by `body` arrives in the caller's
-  /// thread once the other ranges have ended.
+  /// default). STDThread starts its threads for each call, about 70 microseconds: a range not
+  /// longer than `grain` runs in the caller's thread. An exception thrown by `body` arrives in the
+  /// caller's thread once the other ranges have ended.
   void parallelFor(morph::Index n, morph::Index grain,
     const std::function<void(morph::Index first, morph::Index last)>& body) override;
 

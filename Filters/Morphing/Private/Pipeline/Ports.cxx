@@ -73,7 +73,8 @@ int Ports::RequestUpdateExtent(
 {
   for (int port = 0; port < this->Filter->GetNumberOfInputPorts(); ++port)
   {
-    // The executive asks all ports for the extent of port 0: too little of a larger image behind another.
+    // The executive asks all ports for the extent of port 0: too little of a larger image behind
+    // another.
     vtkInformation* info = inputVector[port]->GetInformationObject(0);
     if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
     {

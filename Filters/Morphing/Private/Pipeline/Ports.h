@@ -15,8 +15,8 @@ namespace morph::filters
 {
 class Monitor;
 
-/// The pipeline passes of a filter with the undeformed mesh on port 0 and the moved boundary on port 1:
-/// types, time, the frame round its work.
+/// The pipeline passes of a filter with the undeformed mesh on port 0 and the moved boundary on
+/// port 1: types, time, the frame round its work.
 class Ports
 {
 public:
@@ -45,12 +45,13 @@ public:
     std::function<void()> Reset;
     /// Fills the output from the undeformed mesh and the boundary, which may be null.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
-    /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any type,
-    /// null where it could not be had) and "Failed" or "Cancelled"; the outputs are empty.
+    /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any
+    /// type, null where it could not be had) and "Failed" or "Cancelled"; the outputs are empty.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
   };
-  /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it throws
-  /// the outputs are empty; errors and warnings are the filter's. Returns what RequestData has to.
+  /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it
+  /// throws the outputs are empty; errors and warnings are the filter's. Returns what RequestData
+  /// has to.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 

@@ -220,8 +220,8 @@ struct Target::Implementation
   morph::Classification Geometry;
   vtkSmartPointer<vtkPoints> Points;
   std::unique_ptr<Triangles> All;
-  std::vector<std::unique_ptr<Triangles>>
-    Parts;                                 ///< by the target's surfaces, where one was asked for
+  /// by the target's surfaces, where one was asked for
+  std::vector<std::unique_ptr<Triangles>> Parts;
   std::vector<const Triangles*> OfSurface; ///< by the mesh's surfaces
   vtkNew<vtkPolyData> Features;
   vtkNew<vtkStaticCellLocator> FeatureLocator;
