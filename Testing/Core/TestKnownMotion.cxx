@@ -146,7 +146,7 @@ TEST(KnownMotion, CurvesFollowTheFirstSetThatHoldsThem)
           continue;
         }
         expected = MotionSums(c.motion, sets[k]);
-        const Flat flat = expected.flat();
+        const AffineSpan flat = expected.flat();
         if (std::all_of(curve.nodes.begin(), curve.nodes.end(),
               [&](Index node) { return flat.distance(c.mesh.points.row(node)) <= 1e-9; }))
         {

@@ -61,7 +61,7 @@ MotionSums KnownMotion::sumOf(const std::vector<Index>& ids)
 
 bool KnownMotion::holds(const MotionSums& sums, const std::vector<Index>& nodes) const
 {
-  const Flat flat = sums.flat();
+  const AffineSpan flat = sums.flat();
   return std::all_of(nodes.begin(), nodes.end(),
     [&](Index node) { return flat.distance(this->motion_.rest.row(node)) <= this->tolerance_; });
 }
