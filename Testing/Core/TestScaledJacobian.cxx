@@ -240,6 +240,28 @@ TEST(ScaledJacobian, CollapsedEdgesGiveZero)
   EXPECT_EQ(sj(Hexahedron, Corners(8, { 1, 2, 3 })), 0);
 }
 
+TEST(ScaledJacobian, EdgesWhoseSquareUnderflowsHaveALength)
+{
+  const Corners corner = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  for (const Ideal& ideal : Ideals)
+  {
+    // The edge from corner 0 along an axis gets short; of a wedge it is the one between its ends.
+    Corners x = ideal.type == Tetra ? corner : *ideal.corners;
+    double& length = ideal.type == Wedge ? x[3][2] : x[1][0];
+    length = 1e-200;
+    const double value = sj(ideal.type, x);
+    EXPECT_GT(value, 0) << cellShape(ideal.type)->name;
+    const Quality quality = measured(separateCells({ { ideal.type, x } }));
+    EXPECT_EQ(quality.minimum, value);
+    EXPECT_EQ(quality.degenerate + quality.inverted, 0) << cellShape(ideal.type)->name;
+    // A longer edge in the same direction gives the same to rounding.
+    length = 1e-20;
+    EXPECT_NEAR(sj(ideal.type, x), value, 1e-15) << cellShape(ideal.type)->name;
+    length = 0;
+    EXPECT_EQ(sj(ideal.type, x), 0) << cellShape(ideal.type)->name;
+  }
+}
+
 TEST(ScaledJacobian, FlatCellsWithEdgesCountAsInverted)
 {
   const Quality quality =

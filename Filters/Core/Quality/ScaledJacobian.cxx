@@ -30,11 +30,18 @@ constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 
 constexpr int PyramidCorners[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
   { 3, 0, 2, 4 } };
 
+/// The length of an edge, also where its square underflows.
+double lengthOf(const Vector& edge)
+{
+  const double length = edge.norm();
+  return length > 1e-150 ? length : std::hypot(edge.x(), edge.y(), edge.z());
+}
+
 /// Determinant of the three edges scaled to length 1; `collapsed` is set, and 0 returned, if one
 /// has no length.
 double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, bool& collapsed)
 {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  const double la = lengthOf(a), lb = lengthOf(b), lc = lengthOf(c);
   if (la == 0 || lb == 0 || lc == 0)
   {
     collapsed = true;
@@ -58,8 +65,8 @@ double leastCorner(const Vector* x, const int (&corners)[N][4], bool& collapsed)
 double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x3, bool& collapsed)
 {
   const Vector e01 = x1 - x0, e02 = x2 - x0, e03 = x3 - x0;
-  const double l01 = e01.norm(), l02 = e02.norm(), l03 = e03.norm();
-  const double l12 = (x2 - x1).norm(), l13 = (x3 - x1).norm(), l23 = (x3 - x2).norm();
+  const double l01 = lengthOf(e01), l02 = lengthOf(e02), l03 = lengthOf(e03);
+  const double l12 = lengthOf(x2 - x1), l13 = lengthOf(x3 - x1), l23 = lengthOf(x3 - x2);
   if (l01 == 0 || l02 == 0 || l03 == 0 || l12 == 0 || l13 == 0 || l23 == 0)
   {
     collapsed = true;
@@ -84,7 +91,7 @@ double hex(const Vector* x, bool& collapsed)
   for (int e = 0; e < 12; ++e)
   {
     const Vector edge = x[HexEdges[e][1]] - x[HexEdges[e][0]];
-    const double length = edge.norm();
+    const double length = lengthOf(edge);
     collapsed = collapsed || length == 0;
     direction[e] = edge / length;
   }
@@ -111,13 +118,13 @@ double pyramid(const Vector* x, bool& collapsed)
 
 double triangle(const Vector* x, bool& collapsed)
 {
-  const double a = (x[1] - x[0]).norm(), b = (x[2] - x[1]).norm(), c = (x[0] - x[2]).norm();
+  const double a = lengthOf(x[1] - x[0]), b = lengthOf(x[2] - x[1]), c = lengthOf(x[0] - x[2]);
   if (a == 0 || b == 0 || c == 0)
   {
     collapsed = true;
     return 0;
   }
-  const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  const double twiceArea = lengthOf((x[1] - x[0]).cross(x[2] - x[0]));
   return 2 / std::sqrt(3.0) * twiceArea / std::max({ a * b, b * c, c * a });
 }
 
@@ -128,7 +135,7 @@ double quad(const Vector* x, bool& collapsed)
   for (int k = 0; k < 4; ++k)
   {
     const Vector next = x[(k + 1) % 4] - x[k], last = x[(k + 3) % 4] - x[k];
-    const double product = next.norm() * last.norm();
+    const double product = lengthOf(next) * lengthOf(last);
     if (product == 0)
     {
       collapsed = true;
