@@ -66,7 +66,6 @@ struct Determinants
 {
   double least = std::numeric_limits<double>::infinity(); ///< of edges of length 1
   double most = -std::numeric_limits<double>::infinity();
-  double volume = 0;        ///< the sum of those of the edges themselves
   bool isCollapsed = false; ///< two corners are in one place
 };
 
@@ -95,7 +94,6 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
     const Vector a = (corner(at[1]) - x) / unit, b = (corner(at[2]) - x) / unit,
                  d = (corner(at[3]) - x) / unit;
     take(a, b, d);
-    result.volume += a.dot(b.cross(d));
   }
   for (int k = 1; k < shape.numberOfCorners; ++k)
   {
@@ -147,6 +145,52 @@ void pyramidSlopes(vtkGenericCell* cell, const double (&at)[3], std::vector<doub
   }
 }
 
+std::uint8_t linearType(morph::Shape shape)
+{
+  return shape == morph::Shape::Tet     ? morph::Tetra
+         : shape == morph::Shape::Hex   ? morph::Hexahedron
+         : shape == morph::Shape::Wedge ? morph::Wedge
+                                        : morph::Pyramid;
+}
+
+/// The volume of the corner cell, and the cube of its longest edge or diagonal. The determinants at
+/// the corners do not tell it: in twisted cells their sum may have the other sign.
+std::pair<double, double> volume(
+  vtkGenericCell* cell, const Mesh& mesh, const Points& points, Index c, double unit)
+{
+  const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
+  const bool isTriangular = shape.shape == morph::Shape::Tet || shape.shape == morph::Shape::Wedge;
+  const int corners = shape.numberOfCorners;
+  cell->SetCellType(linearType(shape.shape));
+  Eigen::Matrix3Xd x(3, corners);
+  double longest = 0;
+  for (int a = 0; a < corners; ++a)
+  {
+    const auto first = points.row(mesh.cell(c)[shape.cornerNode[0]]);
+    x.col(a) = (points.row(mesh.cell(c)[shape.cornerNode[a]]) - first).transpose() / unit;
+    longest = std::max(longest, x.col(a).norm());
+  }
+  // The determinant is at most quadratic in each coordinate: two Gauss points each are exact.
+  const double gauss[2] = { 0.5 - std::sqrt(1. / 12), 0.5 + std::sqrt(1. / 12) };
+  double sum = 0;
+  for (int sample = 0; sample < 8; ++sample)
+  {
+    double at[3] = { gauss[sample & 1], gauss[sample >> 1 & 1], gauss[sample >> 2] };
+    if (isTriangular)
+    {
+      at[0] = at[1] = 1. / 3; // linear over the triangle
+    }
+    double slopes[24];
+    cell->InterpolateDerivs(at, slopes);
+    const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> derivatives(
+      slopes, 3, corners);
+    const Eigen::Matrix3d jacobian = x * derivatives.transpose();
+    sum += jacobian.determinant() / 8;
+  }
+  const double part = shape.shape == morph::Shape::Tet ? 6 : isTriangular ? 2 : 1;
+  return { sum / part, longest * longest * longest };
+}
+
 /// For each cell +1, -1, or 0 where nobody can tell: one for the cells of one shape in one body.
 std::vector<int> senses(const Mesh& mesh, const Points& reference)
 {
@@ -162,7 +206,8 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
   };
   struct Group
   {
-    double sum = 0, size = 0;
+    double sum = 0;
+    double size = 0; ///< what rounding is measured by
     int cells = 0;
   };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -178,14 +223,15 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
     return groups[{ root(mesh.cell(c)[0]), morph::cellShape(mesh.types[c])->shape }];
   };
   const double unit = extent(reference);
+  vtkNew<vtkGenericCell> cell;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (isVolume(mesh, c))
     {
-      const double volume = determinants(mesh, reference, c, unit).volume;
+      const auto [signedVolume, size] = volume(cell, mesh, reference, c, unit);
       Group& group = groupOf(c);
-      group.sum += volume;
-      group.size += std::abs(volume);
+      group.sum += signedVolume;
+      group.size += size;
       ++group.cells;
     }
   }
@@ -195,7 +241,7 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
     if (isVolume(mesh, c))
     {
       const Group& group = groupOf(c);
-      const bool isClear = std::abs(group.sum) > 0.5 * group.size && group.cells > 1;
+      const bool isClear = std::abs(group.sum) > 1e-12 * group.size && group.cells > 1;
       result[c] = !isClear ? 0 : group.sum > 0 ? 1 : -1;
     }
   }
