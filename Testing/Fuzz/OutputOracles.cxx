@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -189,6 +190,9 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
   const morph::Points points = pointsOf(output);
   const double scale = filter->GetScaleFactor();
   const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
+  // Floats below 1e-38 are multiples of one number, however small they are.
+  const double subnormal =
+    isRounded ? (1 + std::abs(scale)) * std::numeric_limits<float>::denorm_min() : 0;
   for (const auto& [node, target] : made.boundary.targets)
   {
     const Row rest = made.grid.mesh.points.row(node);
@@ -205,7 +209,8 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
         (scale == 1 && made.boundary.isExact) || scale == 0
           ? 0
           : (isRounded ? 1e-6 : 1e-14) *
-              (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j])));
+                (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j]))) +
+              subnormal;
       isThere = isThere && std::abs(x[j] - value) <= rounding;
     }
     if (!isThere)

@@ -20,11 +20,14 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace fuzz
 {
@@ -279,6 +282,38 @@ vtkSmartPointer<vtkPointSet> extracted(
   return surface;
 }
 
+/// Whether a place does not tell which node is meant: another node lies there that is not named, or
+/// that goes elsewhere.
+bool areAmbiguous(const morph::Points& points, const std::vector<std::pair<Index, Row>>& targets)
+{
+  const auto place = [&points](Index n) -> std::array<double, 3> {
+    return { points(n, 0), points(n, 1), points(n, 2) };
+  };
+  std::map<std::array<double, 3>, std::pair<std::set<Index>, Row>> named;
+  for (const auto& [node, target] : targets)
+  {
+    if (points.row(node).allFinite())
+    {
+      auto& [nodes, first] =
+        named.try_emplace(place(node), std::set<Index>(), target).first->second;
+      nodes.insert(node);
+      if (first != target)
+      {
+        return true;
+      }
+    }
+  }
+  for (Index n = 0; n < points.rows(); ++n)
+  {
+    const auto found = points.row(n).allFinite() ? named.find(place(n)) : named.end();
+    if (found != named.end() && found->second.first.count(n) == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 vtkSmartPointer<vtkDataObject> otherData(int type, vtkPointSet* data)
 {
   switch (type)
@@ -383,6 +418,10 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
   // at.
   const bool isLikeMesh = data->GetNumberOfPoints() == grid.mesh.numberOfNodes();
   if (isLikeMesh && (ids == 3 || ids == 4 || ids == 6))
+  {
+    boundary.isRight = false;
+  }
+  if (ids == 6 && areAmbiguous(grid.mesh.points, boundary.targets))
   {
     boundary.isRight = false;
   }
