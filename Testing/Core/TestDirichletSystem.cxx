@@ -329,6 +329,7 @@ TEST(RowPlaces, NumberColumnsInTheOrderOfTheirFirstMention)
       const int place = expected.emplace(one, static_cast<int>(expected.size())).first->second;
       ASSERT_EQ(places.find(one), place) << length;
       ASSERT_EQ(places.size(), static_cast<int>(expected.size()));
+      ASSERT_EQ(places.column(place), one);
     }
   }
 }

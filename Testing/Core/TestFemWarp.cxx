@@ -12,6 +12,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -161,6 +163,76 @@ TEST(FemWarp, AgreesWithADenseSolve)
       EXPECT_EQ(result.row(partition.prescribed[i]), target.row(static_cast<Index>(i))) << name;
     }
   }
+}
+
+TEST(FemWarp, ANodeOfManyCellsAgreesWithADenseSolve)
+{
+  // Tetrahedra round an axis: both of its nodes share a cell with all others.
+  constexpr int Round = 300;
+  Mesh mesh;
+  mesh.points.resize(Round + 2, 3);
+  mesh.points.row(0) << 0, 0, -1;
+  mesh.points.row(Round + 1) << 0, 0, 1;
+  mesh.offsets.push_back(0);
+  NodePartition partition;
+  partition.prescribed.push_back(0);
+  for (Index i = 1; i <= Round; ++i)
+  {
+    const double angle = 2 * std::acos(-1.) * static_cast<double>(i) / Round;
+    mesh.points.row(i) << std::cos(angle), std::sin(angle), .1 * std::sin(5 * angle);
+    mesh.types.push_back(Tetra);
+    for (const Index node : { Index(0), Index(Round + 1), i, i % Round + 1 })
+    {
+      mesh.connectivity.push_back(node);
+    }
+    mesh.offsets.push_back(static_cast<Index>(mesh.connectivity.size()));
+    (i % 2 == 0 ? partition.free : partition.prescribed).push_back(i);
+  }
+  partition.free.push_back(Round + 1);
+
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Round + 2, Round + 2);
+  for (Index c = 0; c < Round; ++c)
+  {
+    double corners[4][3], K[triangleSize(4)];
+    const Index* nodes = mesh.cell(c);
+    for (int a = 0; a < 4; ++a)
+    {
+      const auto p = mesh.points.row(nodes[a]);
+      std::copy(p.data(), p.data() + 3, corners[a]);
+    }
+    ASSERT_EQ(elementStiffness(Shape::Tet, corners, K), 1);
+    for (int a = 0; a < 4; ++a)
+    {
+      for (int b = 0; b < 4; ++b)
+      {
+        dense(nodes[a], nodes[b]) += K[triangleIndex(4, a, b)];
+      }
+    }
+  }
+  const Points target = targets(mesh, partition, [](const auto& x) { return twist(x, 4, 4, 1.2); });
+  const Points displacement = target - meshes::rows(mesh.points, partition.prescribed);
+  const Eigen::MatrixXd A = dense(partition.free, partition.free);
+  const Eigen::MatrixXd coupling = dense(partition.free, partition.prescribed);
+  const Points expected = A.ldlt().solve(Eigen::MatrixXd(-(coupling * displacement)));
+  const Points found = meshes::rows(morphed(mesh, partition, target, 1e-13), partition.free) -
+                       meshes::rows(mesh.points, partition.free);
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-10);
+
+  Monitor monitor;
+  FemWarp method;
+  method.prepare(mesh, partition, monitor);
+  int widest = 0;
+  for (const CsrMatrix* matrix : { &method.solver().matrix(), &method.coupling() })
+  {
+    for (Index row = 0; row < matrix->rows(); ++row)
+    {
+      const int* first = matrix->innerIndexPtr() + matrix->outerIndexPtr()[row];
+      const int* last = matrix->innerIndexPtr() + matrix->outerIndexPtr()[row + 1];
+      EXPECT_TRUE(std::is_sorted(first, last));
+      widest = std::max(widest, static_cast<int>(last - first));
+    }
+  }
+  EXPECT_GT(widest, Round / 2);
 }
 
 TEST(FemWarp, ThreadsAndHistoryDoNotShow)

@@ -327,6 +327,46 @@ TEST(ScaledJacobian, NeverAboveOne)
   }
 }
 
+TEST(ScaledJacobian, CornersThatAreSurelyPositiveAre)
+{
+  std::mt19937 random(meshes::seed());
+  int sure = 0, inverted = 0;
+  for (int trial = 0; trial < 5000; ++trial)
+  {
+    for (const Ideal& ideal : { Ideals[3], Ideals[4] })
+    {
+      const Shape shape = cellShape(ideal.type)->shape;
+      Corners x = jittered(*ideal.corners, .6, random);
+      const double value = sj(ideal.type, x);
+      for (const double size : { 1., 1e-70, 1e70 })
+      {
+        double corners[8][3];
+        for (std::size_t k = 0; k < x.size(); ++k)
+        {
+          std::transform(
+            x[k].begin(), x[k].end(), corners[k], [size](double c) { return size * c; });
+        }
+        const bool isSure = areCornersSurelyPositive(shape, corners);
+        EXPECT_TRUE(!isSure || value > 0) << value;
+        EXPECT_TRUE(isSure || value < 1e-9) << value << ' ' << size;
+        sure += isSure;
+        corners[trial % x.size()][trial % 3] = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_FALSE(areCornersSurelyPositive(shape, corners));
+      }
+      inverted += value < 0;
+    }
+  }
+  EXPECT_GT(sure, 1000);
+  EXPECT_GT(inverted, 1000);
+  double cube[8][3];
+  for (int k = 0; k < 8; ++k)
+  {
+    std::copy(Cube[k].begin(), Cube[k].end(), cube[k]);
+  }
+  EXPECT_TRUE(areCornersSurelyPositive(Shape::Hex, cube));
+  EXPECT_FALSE(areCornersSurelyPositive(Shape::Tet, cube));
+}
+
 TEST(ScaledJacobian, OtherTypesAndCoordinatesThatAreNotFiniteGiveNaN)
 {
   EXPECT_TRUE(std::isnan(sj(Line, { { 0, 0, 0 }, { 1, 0, 0 } })));

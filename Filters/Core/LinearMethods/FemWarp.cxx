@@ -2,6 +2,7 @@
 #include "LinearMethods/FemWarp.h"
 
 #include "LinearMethods/ElementStiffness.h"
+#include "LinearMethods/SplitRows.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
@@ -11,7 +12,6 @@
 #include "Support/Error.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace morph
 {
@@ -131,7 +131,11 @@ CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, M
         }
         sign[c] = static_cast<std::int8_t>(
           elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
-        isBad[c] = sign[c] != 1 || !(scaledJacobian(mesh.types[c], corners) > 0);
+        // The sign of a tetrahedron or pyramid is that of its corners.
+        const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
+        isBad[c] =
+          sign[c] != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
+                            !(scaledJacobian(mesh.types[c], corners) > 0));
       }
     });
   if (std::find(isBad.begin(), isBad.end(), 1) != isBad.end())
@@ -166,10 +170,50 @@ struct System
   CsrMatrix coupling; ///< A_B, #free x #prescribed
 };
 
+/// The order of the columns of one row.
+class ColumnRanks
+{
+public:
+  /// For each of the different `columns` how many of them are less.
+  const std::vector<int>& of(const std::vector<int>& columns)
+  {
+    const int n = static_cast<int>(columns.size());
+    this->ranks_.resize(n);
+    if (n > MostCounted)
+    {
+      this->sorted_ = columns;
+      std::sort(this->sorted_.begin(), this->sorted_.end());
+      for (int i = 0; i < n; ++i)
+      {
+        this->ranks_[i] = static_cast<int>(
+          std::lower_bound(this->sorted_.begin(), this->sorted_.end(), columns[i]) -
+          this->sorted_.begin());
+      }
+      return this->ranks_;
+    }
+    const int* all = columns.data();
+    for (int i = 0; i < n; ++i)
+    {
+      int less = 0;
+      for (int j = 0; j < n; ++j)
+      {
+        less += all[j] < all[i];
+      }
+      this->ranks_[i] = less;
+    }
+    return this->ranks_;
+  }
+
+private:
+  static constexpr int MostCounted = 96; // counting has no branches to guess, sorting has
+
+  std::vector<int> ranks_, sorted_;
+};
+
 /// Entries of the free nodes' rows, gathered node by node from the cells around, in ascending order
 /// of the cells: the sums do not depend on the threads.
-System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
-  const std::vector<Index>& prescribed, Monitor& monitor)
+std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<Index>& free, const std::vector<Index>& prescribed, Monitor& monitor)
 {
   const CellMatrices matrices = cellMatrices(mesh, bodies, monitor);
   monitor.check();
@@ -189,100 +233,95 @@ System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::
     column[prescribed[i]] = static_cast<int>(rows + i);
   }
 
-  // Visits every corner of every cell around the free node of a row, and its share of the row.
+  // Visits the cells around a row's free node, once for every corner that is this node. A visit
+  // gets the cell's nodes and matrix, and where the corner's entries are in that.
   const TriangleTable triangle;
-  const auto visit = [&](Index row, const auto& onEntry)
+  const auto visit = [&](Index row, const auto& onCorner)
   {
     const Index node = free[row];
     for (const Index* cell = around.begin(node); cell != around.end(node); ++cell)
     {
       const CellShape& shape = *cellShape(mesh.types[*cell]);
+      const int* cornerNode = shape.cornerNode;
       const Index* nodes = mesh.cell(*cell);
       const double* K = matrices.K.data() + matrices.start[*cell];
       const int n = shape.numberOfCorners;
       for (int own = 0; own < n; ++own)
       {
-        if (nodes[shape.cornerNode[own]] != node) // true more than once in a collapsed cell
+        if (nodes[cornerNode[own]] == node) // true more than once in a collapsed cell
         {
-          continue;
-        }
-        const std::uint8_t* entry = triangle.at[n][own];
-        for (int a = 0; a < n; ++a)
-        {
-          onEntry(column[nodes[shape.cornerNode[a]]], K[entry[a]]);
+          onCorner(nodes, cornerNode, n, K, triangle.at[n][own]);
         }
       }
     }
   };
 
-  std::vector<int> interiorSize(rows + 1, 0), couplingSize(rows + 1, 0);
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
+  return splitRows(rows, monitor,
+    [&]
     {
-      RowPlaces places;
-      for (Index row = first; row < last; ++row)
+      return [&, places = RowPlaces(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
+               values = std::vector<double>()](Index row, SplitRows& chunk) mutable
       {
-        int inside = 0, outside = 0;
+        values.clear();
         places.clear();
         visit(row,
-          [&](int at, double)
+          [&](const Index* nodes, const int* cornerNode, int n, const double* K,
+            const std::uint8_t* entry)
           {
-            const int known = places.size();
-            if (places.find(at) == known)
+            int place[8];
+            for (int a = 0; a < n; ++a)
             {
-              ++(at < rows ? inside : outside);
+              place[a] = places.find(column[nodes[cornerNode[a]]]);
+            }
+            values.resize(places.size(), -0.); // to which any number adds as it is, zeros too
+            double* sums = values.data();
+            for (int a = 0; a < n; ++a)
+            {
+              sums[place[a]] += K[entry[a]];
             }
           });
-        interiorSize[row + 1] = inside;
-        couplingSize[row + 1] = outside;
-      }
-    });
-  monitor.check();
-  monitor.progress(0.4);
-
-  System system;
-  allocateRows(system.interior, rows, interiorSize);
-  allocateRows(system.coupling, columns, couplingSize);
-
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
-    {
-      RowPlaces places; // of the columns in `entries`
-      std::vector<std::pair<int, double>> entries;
-      for (Index row = first; row < last; ++row)
-      {
-        entries.clear();
-        places.clear();
-        visit(row,
-          [&](int at, double value)
-          {
-            const std::size_t place = static_cast<std::size_t>(places.find(at));
-            if (place < entries.size())
-            {
-              entries[place].second += value;
-              return;
-            }
-            entries.emplace_back(at, value);
-          });
-        std::sort(entries.begin(), entries.end(),
-          [](const auto& a, const auto& b) { return a.first < b.first; });
-        int inside = system.interior.outerIndexPtr()[row];
-        int outside = system.coupling.outerIndexPtr()[row];
-        for (const auto& [at, value] : entries)
+        columnsHere.resize(values.size());
+        int inside = 0;
+        for (std::size_t k = 0; k < values.size(); ++k)
         {
-          if (at < rows)
-          {
-            system.interior.innerIndexPtr()[inside] = at;
-            system.interior.valuePtr()[inside++] = value;
-          }
-          else
-          {
-            system.coupling.innerIndexPtr()[outside] = static_cast<int>(at - rows);
-            system.coupling.valuePtr()[outside++] = value;
-          }
+          columnsHere[k] = places.column(static_cast<int>(k));
+          inside += columnsHere[k] < rows;
         }
-      }
+        const int outside = static_cast<int>(values.size()) - inside;
+        const std::vector<int>& rank = ranks.of(columnsHere);
+        const auto open = [](SplitRows::Part& part, int size)
+        {
+          const std::size_t before = part.column.size();
+          part.size.push_back(size);
+          part.column.resize(before + size);
+          part.value.resize(before + size);
+          return before;
+        };
+        const std::size_t firstInside = open(chunk.interior, inside);
+        const std::size_t firstOutside = open(chunk.coupling, outside);
+        for (std::size_t k = 0; k < values.size(); ++k)
+        {
+          const bool isInside = rank[k] < inside; // the free nodes' columns come first
+          SplitRows::Part& part = isInside ? chunk.interior : chunk.coupling;
+          const std::size_t at = isInside ? firstInside + rank[k] : firstOutside + rank[k] - inside;
+          part.column[at] = static_cast<int>(isInside ? columnsHere[k] : columnsHere[k] - rows);
+          part.value[at] = values[k];
+        }
+      };
     });
+}
+
+System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
+  const std::vector<Index>& prescribed, Monitor& monitor)
+{
+  // The cells' matrices are gone before the rows are joined.
+  std::vector<SplitRows> chunks = gatherRows(mesh, bodies, free, prescribed, monitor);
+  monitor.check();
+  monitor.progress(0.5);
+  System system;
+  joinRows(system.interior, static_cast<Index>(free.size()), chunks, &SplitRows::interior, monitor);
+  joinRows(
+    system.coupling, static_cast<Index>(prescribed.size()), chunks, &SplitRows::coupling, monitor);
   return system;
 }
 }

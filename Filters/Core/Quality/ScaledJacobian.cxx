@@ -24,6 +24,9 @@ constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4
   { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
 constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },
   { -12, 9, -5 }, { -9, 10, -6 }, { -10, 11, -7 }, { -11, 12, -8 } };
+// The four edges along each parametric direction, at (0,0), (1,0), (0,1), (1,1) of the other two.
+constexpr int HexDirections[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
+  { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
 // The three neighbors of each corner, in that order.
 constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
   { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
@@ -298,6 +301,68 @@ double scaledJacobian(std::uint8_t type, const double (*corners)[3])
   }
   bool collapsed = false;
   return measure(shape->shape, x, shape->numberOfCorners, collapsed);
+}
+
+bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])
+{
+  constexpr double Beyond = 1e-13; // of the longest edge's cube: rounding is some 1e-15
+  double longest2 = 0;
+  const auto edge = [&](int from, int to, double* e)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      e[j] = corners[to][j] - corners[from][j];
+    }
+    longest2 = std::max(longest2, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+  };
+  const auto determinant = [](const double* a, const double* b, const double* c)
+  {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+  };
+  double determinants[9];
+  int count = 0;
+  if (shape == Shape::Hex)
+  {
+    double e[3][4][3], sum[3][3]; // sum: four times the edges at the centre
+    for (int d = 0; d < 3; ++d)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        edge(HexDirections[d][k][0], HexDirections[d][k][1], e[d][k]);
+      }
+      for (int j = 0; j < 3; ++j)
+      {
+        sum[d][j] = e[d][0][j] + e[d][1][j] + e[d][2][j] + e[d][3][j];
+      }
+    }
+    for (; count < 8; ++count)
+    {
+      const int u = count & 1, v = (count >> 1) & 1, w = count >> 2;
+      determinants[count] = determinant(e[0][v + 2 * w], e[1][u + 2 * w], e[2][u + 2 * v]);
+    }
+    determinants[count++] = determinant(sum[0], sum[1], sum[2]) / 64;
+  }
+  else if (shape == Shape::Wedge)
+  {
+    for (const int(&c)[4] : WedgeCorners)
+    {
+      double e[3][3];
+      for (int k = 0; k < 3; ++k)
+      {
+        edge(c[0], c[k + 1], e[k]);
+      }
+      determinants[count++] = determinant(e[0], e[1], e[2]);
+    }
+  }
+  const double bound =
+    std::max(Beyond * longest2 * std::sqrt(longest2), std::numeric_limits<double>::min());
+  bool positive = count > 0;
+  for (int k = 0; k < count; ++k)
+  {
+    positive = positive && determinants[k] > bound; // false for NaN
+  }
+  return positive;
 }
 
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/Multigrid.h"
 
-#include "Solvers/RowPlaces.h"
 #include "Support/Error.h"
 #include "Support/ReproducibleSum.h"
 
@@ -21,6 +20,7 @@ constexpr int SmootherDegree = 2;
 constexpr float SmootherRange = 4; // smooths eigenvalues in [largest / range, largest]
 constexpr double NearShare = 0.1;  // near: within sqrt(10) times the nearest neighbor's distance
 constexpr Index Grain = 4096;
+constexpr Index MostRanges = 128; // of a product's rows, each with scratch of its own
 constexpr int LanczosSteps = 10;
 constexpr float LanczosMargin = 1.1f; // what its result may be below the largest eigenvalue
 
@@ -124,11 +124,12 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
       break; // nothing left to group: the smoother is all there is
     }
     level.eigenvalue = largestEigenvalue(level, monitor);
-    level.P = prolongation(level, near, group, monitor);
+    level.P = prolongation(level, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
 
-    ExactMatrix coarse = product(level.R, product(exact, level.P, monitor), monitor);
+    ExactMatrix coarse =
+      product(level.R, product(exact, level.P, groups, monitor), groups, monitor);
     if (!this->addLevel(coarse, unit, monitor))
     {
       break; // lost to rounding next to cells that are nearly flat
@@ -414,9 +415,10 @@ namespace
 {
 /// Rows made by chunks of a fixed size, then put together: the result does not depend on the
 /// threads. makeRow(i, add) calls add(column, value) in any order, and again for the same column;
-/// columns stay in the order of their first call.
+/// columns stay in the order of their first call. The columns are groups, far fewer than nodes:
+/// each range of chunks may have an array of that size, as long as there are few ranges.
 template <typename M, typename MakeRow>
-M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
+M assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
 {
   using Scalar = typename M::Values::Scalar;
   struct Chunk
@@ -426,10 +428,11 @@ M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
   };
   const Index chunks = (rows + Grain - 1) / Grain;
   std::vector<Chunk> parts(chunks);
-  monitor.parallelFor(chunks, 1,
+  monitor.parallelFor(chunks, 1 + chunks / MostRanges,
     [&](Index firstChunk, Index lastChunk)
     {
-      RowPlaces places;
+      // Where a column stands in the row, if that place has been given to it.
+      std::vector<int> place(columns, 0);
       Chunk scratch; // keeps its capacity from chunk to chunk
       for (Index c = firstChunk; c < lastChunk; ++c)
       {
@@ -440,20 +443,20 @@ M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
         for (int i = static_cast<int>(c * Grain); i < last; ++i)
         {
           const std::size_t start = scratch.column.size();
-          places.clear();
           makeRow(i,
             [&](int column, Scalar value)
             {
-              const std::size_t at = start + static_cast<std::size_t>(places.find(column));
-              if (at < scratch.value.size())
+              const std::size_t at = start + place[column];
+              if (at < scratch.column.size() && scratch.column[at] == column)
               {
                 scratch.value[at] += value;
                 return;
               }
+              place[column] = static_cast<int>(scratch.column.size() - start);
               scratch.column.push_back(column);
               scratch.value.push_back(value);
             });
-          scratch.size.push_back(places.size());
+          scratch.size.push_back(static_cast<int>(scratch.column.size() - start));
         }
         parts[c] = scratch;
       }
@@ -491,13 +494,13 @@ M assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
 }
 
 Multigrid::Matrix Multigrid::prolongation(const Level& level, const std::vector<std::uint8_t>& near,
-  const std::vector<int>& group, Monitor& monitor)
+  const std::vector<int>& group, int groups, Monitor& monitor)
 {
   // P = (I - omega D^-1 A_F) T, T constant on the groups. A_F keeps the near neighbors and adds the
   // entries of the others to its diagonal.
   const Matrix& A = level.A;
   const float omega = 4.f / 3.f / level.eigenvalue;
-  return assembleRows<Matrix>(A.rows, monitor,
+  return assembleRows<Matrix>(A.rows, groups, monitor,
     [&](int i, const auto& add)
     {
       float diagonal = 0;
@@ -550,9 +553,9 @@ Multigrid::Matrix Multigrid::transpose(const Matrix& A, int columns)
 
 template <typename ScalarA, typename ScalarB>
 Multigrid::ExactMatrix Multigrid::product(
-  const Rows<ScalarA>& A, const Rows<ScalarB>& B, Monitor& monitor)
+  const Rows<ScalarA>& A, const Rows<ScalarB>& B, int columns, Monitor& monitor)
 {
-  return assembleRows<ExactMatrix>(A.rows, monitor,
+  return assembleRows<ExactMatrix>(A.rows, columns, monitor,
     [&](int i, const auto& add)
     {
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)

@@ -117,10 +117,11 @@ private:
   static int aggregate(const Matrix& A, const Points& coordinates,
     const std::vector<std::uint8_t>& near, std::vector<int>& group);
   static Matrix prolongation(const Level& level, const std::vector<std::uint8_t>& near,
-    const std::vector<int>& group, Monitor& monitor);
+    const std::vector<int>& group, int groups, Monitor& monitor);
   static Matrix transpose(const Matrix& A, int columns);
   template <typename ScalarA, typename ScalarB>
-  static ExactMatrix product(const Rows<ScalarA>& A, const Rows<ScalarB>& B, Monitor& monitor);
+  static ExactMatrix product(
+    const Rows<ScalarA>& A, const Rows<ScalarB>& B, int columns, Monitor& monitor);
   /// Appends the level of `exact`, divided by `unit`, and takes its structure over. False, and no
   /// level, where the diagonal is not positive and finite.
   bool addLevel(ExactMatrix& exact, double unit, Monitor& monitor);

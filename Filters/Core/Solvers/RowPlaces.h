@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace morph
@@ -11,75 +12,93 @@ namespace morph
 class RowPlaces
 {
 public:
-  RowPlaces()
-    : slots_(128)
-    , mask_(this->slots_.size() - 1)
-  {
-  }
+  RowPlaces() { this->resize(LeastBits); }
 
-  /// For the next row.
+  /// For the next row. Cost: that of the present row's columns.
   void clear()
   {
-    this->row_ += RowStep;
-    this->size_ = 0;
+    for (const std::uint32_t at : this->used_)
+    {
+      this->slots_[at].column = None;
+    }
+    this->used_.clear();
   }
   /// How many different columns this row has.
-  int size() const { return this->size_; }
+  int size() const { return static_cast<int>(this->used_.size()); }
+
+  /// The column that has the number `place`.
+  int column(int place) const { return this->slots_[this->used_[place]].column; }
 
   /// The number of `column`, which becomes size() - 1 where it is new.
   int find(int column)
   {
-    const std::uint64_t key = this->row_ | static_cast<std::uint32_t>(column);
-    Slot* slot = this->slotOf(key);
-    if (slot->key != key)
+    std::uint32_t at = this->home(column);
+    while (this->slots_[at].column != column)
     {
-      if (2 * static_cast<std::size_t>(this->size_) >= this->mask_)
+      if (this->slots_[at].column == None)
       {
-        this->grow();
-        slot = this->slotOf(key);
+        return this->insert(at, column);
       }
-      *slot = { key, this->size_++ };
+      at = (at + 1) & this->mask_;
     }
-    return slot->place;
+    return this->slots_[at].place;
   }
 
 private:
-  static constexpr std::uint64_t RowStep = std::uint64_t(1) << 32;
+  static constexpr int None = std::numeric_limits<int>::min();
+  static constexpr int LeastBits = 9; // three quarters stay empty: columns seldom meet in a slot
+  static constexpr std::uint32_t Fill = 4;
 
   struct Slot
   {
-    std::uint64_t key = 0; ///< row and column; a slot of any other row than the present is empty
+    int column = None;
     int place = 0;
   };
 
-  /// The slot that holds `key`, or the empty one where it belongs.
-  Slot* slotOf(std::uint64_t key)
+  std::uint32_t home(int column) const
   {
-    std::size_t at = (static_cast<std::uint32_t>(key) * 2654435769u >> 12) & this->mask_;
-    while (this->slots_[at].key != key && this->slots_[at].key >= this->row_)
+    return static_cast<std::uint32_t>(column) * 2654435769u >> this->shift_;
+  }
+
+  void resize(int bits)
+  {
+    this->slots_.assign(std::size_t(1) << bits, {});
+    this->mask_ = (std::uint32_t(1) << bits) - 1;
+    this->shift_ = 32 - bits;
+  }
+
+  int insert(std::uint32_t at, int column)
+  {
+    const int place = this->size();
+    this->slots_[at] = { column, place };
+    this->used_.push_back(at);
+    if (Fill * this->used_.size() > this->mask_)
     {
-      at = (at + 1) & this->mask_;
+      this->grow();
     }
-    return &this->slots_[at];
+    return place;
   }
 
   void grow()
   {
-    std::vector<Slot> old(2 * this->slots_.size());
+    std::vector<Slot> old;
     old.swap(this->slots_);
-    this->mask_ = this->slots_.size() - 1;
-    for (const Slot& slot : old)
+    this->resize(33 - this->shift_);
+    for (std::uint32_t& used : this->used_)
     {
-      if (slot.key >= this->row_)
+      const Slot slot = old[used];
+      used = this->home(slot.column);
+      while (this->slots_[used].column != None)
       {
-        *this->slotOf(slot.key) = slot;
+        used = (used + 1) & this->mask_;
       }
+      this->slots_[used] = slot;
     }
   }
 
   std::vector<Slot> slots_;
-  std::size_t mask_;
-  std::uint64_t row_ = RowStep; ///< the present row's keys start here, and no key is above it
-  int size_ = 0;
+  std::vector<std::uint32_t> used_; ///< the slot of each place
+  std::uint32_t mask_ = 0;
+  int shift_ = 0;
 };
 }
