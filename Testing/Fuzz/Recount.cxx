@@ -329,7 +329,7 @@ bool isValid(const Mesh& mesh, const Points& points, double least)
 }
 
 Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& points,
-  const std::vector<signed char>& certificate, std::uint64_t seed)
+  const std::vector<signed char>& claim, double rounding, std::uint64_t seed)
 {
   const std::vector<int> sense = senses(mesh, reference);
   const double unit = extent(points);
@@ -337,7 +337,7 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
   vtkNew<vtkGenericCell> cell;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (!isVolume(mesh, c) || certificate[c] != 1 || sense[c] == 0)
+    if (!isVolume(mesh, c) || claim[c] != 1 || sense[c] == 0)
     {
       continue;
     }
@@ -390,7 +390,7 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
       }
       const double lengths =
         jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
-      if (sense[c] * jacobian.determinant() < -1e-8 * lengths)
+      if (sense[c] * jacobian.determinant() < -rounding * lengths)
       {
         return c;
       }

@@ -31,8 +31,9 @@ int isMirrored(const morph::Mesh& mesh);
 /// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
 bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
 
-/// A cell that `certificate` calls positive everywhere, and that is inverted at a random place; -1
-/// if there is none. Determinants are those of VTK's own shape functions.
+/// A cell whose `claim` is 1, positive everywhere, and that is inverted at a random place by more
+/// than `rounding`; -1 if there is none. Determinants are those of VTK's own shape functions.
 morph::Index falselyCertified(const morph::Mesh& mesh, const morph::Points& reference,
-  const morph::Points& points, const std::vector<signed char>& certificate, std::uint64_t seed);
+  const morph::Points& points, const std::vector<signed char>& claim, double rounding,
+  std::uint64_t seed);
 }
