@@ -145,8 +145,8 @@ Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
           (count.bad[c] == 1 ? ", but it is inverted" : ", but it is not") };
     }
   }
-  // Of linear hexahedra and wedges the scaled Jacobian says nothing about the inside, and of quadratic
-  // cells with a node very far away rounding decides.
+  // Of linear hexahedra and wedges the scaled Jacobian says nothing about the inside, and of
+  // quadratic cells with a node very far away rounding decides.
   std::vector<signed char> isPositive(mesh.numberOfCells(), 0);
   for (Index c = 0; quality && c < mesh.numberOfCells(); ++c)
   {
