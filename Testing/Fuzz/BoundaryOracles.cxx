@@ -93,8 +93,10 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   }
   const std::map<Index, Row> targets(made.boundary.targets.begin(), made.boundary.targets.end());
   const double scale = filter->GetScaleFactor();
-  // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning.
+  // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning,
+  // and smoothing improves faces that a strong one distorts.
   const bool isAffine = made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
+                        filter->GetSurfaceMethod() == vtkMorphBoundary::WEIGHTED_RESIDUAL &&
                         made.choices.value("property.FeatureAngle") < 60 &&
                         filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_AFFINELY &&
                         made.choices.value("hostile.mesh") == 0 &&

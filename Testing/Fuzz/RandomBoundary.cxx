@@ -154,6 +154,17 @@ std::vector<Index> chooseNodes(Choices& choices, const RandomGrid& grid, RandomB
   return nodes;
 }
 
+/// Whether two nodes are in one place: no position tells which is meant.
+bool hasTwins(const morph::Mesh& mesh)
+{
+  std::set<std::array<double, 3>> places;
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    places.insert({ mesh.points(n, 0), mesh.points(n, 1), mesh.points(n, 2) });
+  }
+  return static_cast<Index>(places.size()) < mesh.numberOfNodes();
+}
+
 vtkSmartPointer<vtkPoints> newPoints(int type)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -417,7 +428,7 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
   // As many points as the mesh has nodes are matched by their numbers before their names are looked
   // at.
   const bool isLikeMesh = data->GetNumberOfPoints() == grid.mesh.numberOfNodes();
-  if (isLikeMesh && (ids == 3 || ids == 4 || ids == 6))
+  if ((isLikeMesh && (ids == 3 || ids == 4 || ids == 6)) || (ids == 6 && hasTwins(grid.mesh)))
   {
     boundary.isRight = false;
   }
