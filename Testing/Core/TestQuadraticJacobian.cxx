@@ -340,6 +340,26 @@ TEST(QuadraticJacobian, DegenerateCellsAreNotCertified)
   }
 }
 
+TEST(QuadraticJacobian, APointInvertedInsideIsFoundThoughTheDeterminantVanishesAtACorner)
+{
+  // Coordinates rounded to whole numbers: mid-side nodes lie on corners, where the determinant is 0.
+  const Cell first = { { -6, 3, -1 }, { -7, 3, 0 }, { -6, 2, 0 }, { -6, 4, 0 }, { -7, 3, 0 },
+    { -6, 3, 0 }, { -6, 3, 0 }, { -6, 4, 0 }, { -6, 3, 0 }, { -6, 3, 0 } };
+  const Cell second = { { 148, -102, 44 }, { 149, -101, 44 }, { 148, -101, 45 }, { 149, -102, 45 },
+    { 149, -102, 44 }, { 149, -101, 44 }, { 149, -102, 44 }, { 149, -102, 44 }, { 149, -102, 44 },
+    { 149, -102, 45 } };
+  for (const Cell& cell : { first, second })
+  {
+    EXPECT_EQ(certificate(QuadraticTetra, cell), Certificate::Inverted);
+    const double corners[4][3] = { { cell[0][0], cell[0][1], cell[0][2] },
+      { cell[1][0], cell[1][1], cell[1][2] }, { cell[2][0], cell[2][1], cell[2][2] },
+      { cell[3][0], cell[3][1], cell[3][2] } };
+    const double ofCorners = scaledJacobian(Tetra, corners);
+    EXPECT_GT(ofCorners, 0);
+    EXPECT_LT(quadraticScaledJacobian(QuadraticTetra, cell.data(), ofCorners), 0);
+  }
+}
+
 TEST(QuadraticJacobian, DecidesNextToTheLimit)
 {
   for (const quadratic::Type& type : quadratic::Types)

@@ -62,7 +62,7 @@ Finding checkFinite(vtkPointSet* output, const char* written)
   {
     return { "not finite", "points" };
   }
-  vtkDataArray* array = output->GetPointData()->GetArray(written);
+  vtkDataArray* array = *written ? output->GetPointData()->GetArray(written) : nullptr;
   for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
   {
     const int components = array->GetNumberOfComponents();

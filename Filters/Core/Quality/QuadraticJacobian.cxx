@@ -18,7 +18,7 @@ namespace
 using Vector = Eigen::Vector3d;
 using Part = BernsteinHalving::Part;
 
-constexpr int MostHalvings = 36;
+constexpr int MostHalvings = 36, MostHalvingsNextToZero = 9;
 constexpr int MostParts = 2048;
 
 /// A cell's nodes, scaled, and its derivatives.
@@ -105,8 +105,10 @@ QuadraticProof prove(const CellShape& shape, const Cell& cell)
       stack.pop_back();
       continue;
     }
-    // Pieces of a part with a corner next to zero will not be certified either.
-    if (corner <= error || part.halvings == MostHalvings)
+    // A part with a corner next to zero is not certified any more, but may hold an inverted point.
+    const bool isNextToZero = corner <= error;
+    isOpen = isOpen || isNextToZero;
+    if (part.halvings >= (isNextToZero ? MostHalvingsNextToZero : MostHalvings))
     {
       isOpen = true;
       stack.pop_back();
