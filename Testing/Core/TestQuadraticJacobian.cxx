@@ -342,7 +342,8 @@ TEST(QuadraticJacobian, DegenerateCellsAreNotCertified)
 
 TEST(QuadraticJacobian, APointInvertedInsideIsFoundThoughTheDeterminantVanishesAtACorner)
 {
-  // Coordinates rounded to whole numbers: mid-side nodes lie on corners, where the determinant is 0.
+  // Coordinates rounded to whole numbers: mid-side nodes lie on corners, where the determinant
+  // is 0.
   const Cell first = { { -6, 3, -1 }, { -7, 3, 0 }, { -6, 2, 0 }, { -6, 4, 0 }, { -7, 3, 0 },
     { -6, 3, 0 }, { -6, 3, 0 }, { -6, 4, 0 }, { -6, 3, 0 }, { -6, 3, 0 } };
   const Cell second = { { 148, -102, 44 }, { 149, -101, 44 }, { 148, -101, 45 }, { 149, -102, 45 },

@@ -66,7 +66,7 @@ struct Determinants
 {
   double least = std::numeric_limits<double>::infinity(); ///< of edges of length 1
   double most = -std::numeric_limits<double>::infinity();
-  bool isCollapsed = false; ///< two corners are in one place
+  bool isCollapsed = false; ///< two corners are in one place, or as good as that
 };
 
 bool isVolume(const Mesh& mesh, Index c)
@@ -99,7 +99,8 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
   {
     for (int other = 0; other < k; ++other)
     {
-      result.isCollapsed = result.isCollapsed || corner(k) == corner(other);
+      const double distance = ((corner(k) - corner(other)) / unit).stableNorm();
+      result.isCollapsed = result.isCollapsed || distance <= 1e-100;
     }
   }
   if (shape.shape == morph::Shape::Hex)
