@@ -66,7 +66,7 @@ struct Determinants
 {
   double least = std::numeric_limits<double>::infinity(); ///< of edges of length 1
   double most = -std::numeric_limits<double>::infinity();
-  bool isCollapsed = false; ///< two corners are in one place, or as good as that
+  bool isCollapsed = false; ///< two corners are in one place
 };
 
 bool isVolume(const Mesh& mesh, Index c)
@@ -99,8 +99,7 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
   {
     for (int other = 0; other < k; ++other)
     {
-      const double distance = ((corner(k) - corner(other)) / unit).stableNorm();
-      result.isCollapsed = result.isCollapsed || distance <= 1e-100;
+      result.isCollapsed = result.isCollapsed || corner(k) == corner(other);
     }
   }
   if (shape.shape == morph::Shape::Hex)
