@@ -2,7 +2,7 @@
 #include "Oracles.h"
 
 #include "BoundaryOracles.h"
-#include "CellShape.h"
+#include "Mesh/CellShape.h"
 #include "RandomMesh.h"
 #include "Recount.h"
 #include "vtkInversionFreeMorph.h"
