@@ -42,7 +42,7 @@ class InstalledPython(unittest.TestCase):
         blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
         lines = [line for line in blocks[0].splitlines() if line and not line.startswith(("import", "from"))]
-        self.assertEqual(len(lines), 12)
+        self.assertEqual(len(lines), 14)
         with tempfile.TemporaryDirectory() as folder:
             writer = vtkXMLUnstructuredGridWriter()
             writer.SetFileName(os.path.join(folder, "part.vtu"))
