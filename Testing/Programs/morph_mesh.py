@@ -190,7 +190,9 @@ class MorphMesh(unittest.TestCase):
                     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0")
         legacy = "# vtk DataFile Version 4.2\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1000000000000000 double\n"
         vtu = Path(BORE).read_text()
-        memory, endless = "did not get the memory that it asked for. ", "has not ended after computing for 3 s. "
+        # VTK 9.1 ends with its own exception where VTK 9.2 lets the C++ library throw.
+        memory = "did not get the memory that it asked for|Unable to allocate"
+        endless = "has not ended after computing for 3 s. "
         files = {
             "cut.vtu": (vtu[:2000], ": Error parsing XML"),
             "empty.vtu": ("", "damaged"),
@@ -210,8 +212,7 @@ class MorphMesh(unittest.TestCase):
                 self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
                 self.assertTrue(result.stderr.startswith(f"morph-mesh: Cannot read {file}: "), result.stderr)
                 self.assertRegex(result.stderr, "[Tt]he file is damaged, or not what its extension says")
-                self.assertIn(message, result.stderr)
-
+                self.assertRegex(result.stderr, message)
 
 
 if __name__ == "__main__":
