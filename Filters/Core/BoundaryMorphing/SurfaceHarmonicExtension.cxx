@@ -3,6 +3,7 @@
 
 #include "BoundaryMorphing/MotionFit.h"
 #include "Solvers/SpdSolver.h"
+#include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <utility>
@@ -144,8 +145,9 @@ private:
       CsrMatrix matrix(n, n);
       matrix.setFromTriplets(entries.begin(), entries.end());
       SpdSolver solver;
-      solver.prepare(matrix, place, monitor);
-      solver.solve(b, x, 1e-12, 2000, monitor);
+      ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+      solver.prepare(matrix, place, first);
+      solver.solve(b, x, 1e-12, 2000, second);
     }
     for (Index i = 0; i < n; ++i)
     {

@@ -17,7 +17,7 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 1024;
+constexpr Index Grain = 256;
 constexpr Index Batch = 64 * Grain; // places between two looks at the monitor
 
 /// Places with the same number of neighbors, along a space-filling curve.

@@ -10,6 +10,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Solvers/RowPlaces.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 
 #include <algorithm>
 
@@ -346,7 +347,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->coupling_.swap(system.coupling);
   try
   {
-    this->solver_.prepare(system.interior, coordinates, monitor);
+    ProgressRange last(monitor, 0.6, 1);
+    this->solver_.prepare(system.interior, coordinates, last);
   }
   catch (const SingularRows& error)
   {

@@ -5,6 +5,7 @@
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 
 #include <sstream>
 
@@ -70,7 +71,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rowPositions(rest.points, this->rows_);
   this->coupling_.swap(system.coupling);
-  this->solver_.prepare(system.interior, coordinates, monitor);
+  ProgressRange last(monitor, 0.6, 1);
+  this->solver_.prepare(system.interior, coordinates, last);
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 

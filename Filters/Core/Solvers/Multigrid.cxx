@@ -111,6 +111,9 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   }
   Points places = coordinates;
 
+  // A level has about an eighth of the rows of the one before.
+  double left = 1;
+  const auto progress = [&](double part) { monitor.progress(1 - left * (1 - 0.875 * part)); };
   while (exact.rows > CoarsestSize && this->numberOfLevels() < MostLevels)
   {
     monitor.check();
@@ -123,13 +126,20 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     {
       break; // nothing left to group: the smoother is all there is
     }
+    progress(0.2);
     level.eigenvalue = largestEigenvalue(level, monitor);
+    progress(0.3);
     level.P = prolongation(level, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
+    progress(0.4);
 
-    ExactMatrix coarse =
-      product(level.R, product(exact, level.P, groups, monitor), groups, monitor);
+    ExactMatrix right = product(exact, level.P, groups, monitor);
+    progress(0.7);
+    ExactMatrix coarse = product(level.R, right, groups, monitor);
+    right = {};
+    progress(1);
+    left *= 0.125;
     if (!this->addLevel(coarse, unit, monitor))
     {
       break; // lost to rounding next to cells that are nearly flat
