@@ -48,7 +48,7 @@ int main(int argc, char* argv[])
   result->SetInputConnection(morph->GetOutputPort());
   result->SetFileName(argv[3]);
   result->Write();
-  std::cout << "least scaled Jacobian " << morph->GetMinScaledJacobian() << ", inverted cells "
+  std::cout << "minimum scaled Jacobian " << morph->GetMinScaledJacobian() << ", inverted cells "
             << morph->GetInvertedCells() << "\n";
   return std::string(morph->GetMorphStatus()) == "Valid" ? 0 : 1;
 }

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gradient descent with the adjoint of a morph: fits the boundary of the bore to a target shape that is known by the mesh inside.
+"""Gradient descent with the adjoint of a morph: fits the boundary of the bore to a target shape.
+The target is known by the positions of all nodes of the target mesh.
 
-The objective is an integral over the volume, J = 1/2 integral |x - x_target|^2 dV, a sum over the nodes of the mesh, each with the
-volume that belongs to it. Its derivatives with respect to all nodes are written down at once; MorphAdjoint makes of them those with
-respect to the boundary's points, which are the unknowns. J is quadratic in them, so that the best step along the gradient is known too:
-an iteration morphs twice and applies the adjoint once.
+The objective is an integral over the volume, J = 1/2 integral |x - x_target|^2 dV: a sum over the
+nodes of the mesh, each weighted by the volume that belongs to it. Its derivatives with respect to
+all nodes have a closed form. MorphAdjoint turns them into derivatives with respect to the
+boundary's points, which are the unknowns. J is quadratic in the unknowns, so the best step along
+the gradient is known too: an iteration morphs twice and applies the adjoint once.
 
-Run: pvpython fit_bore.py <MeshMorphing.so> <Data/Models/small/bore_hex_small.vtu> [--iterations 20] [--method FEMWARP]
+Run: pvpython fit_bore.py <MeshMorphing.so> <Data/Models/small/bore_hex_small.vtu>
+         [--iterations 20] [--method FEMWARP]
 """
 import argparse
 
@@ -25,7 +28,9 @@ simple.LoadPlugin(arguments.plugin, remote=False, ns=globals())
 
 
 class Given:
-    """A source whose data this script sets: a copy of `template` with other points or another array."""
+    """A source whose data this script sets.
+
+    The data are a copy of `template` with other points or another array."""
 
     def __init__(self, template):
         self.template = template
@@ -54,7 +59,8 @@ def node_volumes(grid):
     cells = grid.VTKObject.GetCells()
     sizes = numpy.diff(vtk_to_numpy(cells.GetOffsetsArray()))
     shares = numpy.repeat(volumes / sizes, sizes)
-    return numpy.bincount(vtk_to_numpy(cells.GetConnectivityArray()), shares, grid.GetNumberOfPoints())[:, None]
+    nodes_of_cells = vtk_to_numpy(cells.GetConnectivityArray())
+    return numpy.bincount(nodes_of_cells, shares, grid.GetNumberOfPoints())[:, None]
 
 
 part = simple.XMLUnstructuredGridReader(FileName=[arguments.model])
@@ -63,17 +69,19 @@ start = result_of(ExtractMorphBoundary(Input=part))              # knows which n
 volume = node_volumes(rest)
 
 boundary = Given(start)
-morph = globals()["Morph" + arguments.method](Input=part, Boundary=boundary.proxy, OutputPointsPrecision="Double")
+morph = globals()["Morph" + arguments.method](Input=part, Boundary=boundary.proxy,
+                                              OutputPointsPrecision="Double")
 derivatives = Given(rest)
 derivatives.set(rest.Points, dJdx=numpy.zeros(rest.Points.shape))
-adjoint = MorphAdjoint(Input=part, Boundary=boundary.proxy, Gradient=derivatives.proxy, GradientArray="dJdx", Morph=morph)
+adjoint = MorphAdjoint(Input=part, Boundary=boundary.proxy, Gradient=derivatives.proxy,
+                       GradientArray="dJdx", Morph=morph)
 
 
 def nodes(points):
     """The mesh for a boundary at `points`."""
     boundary.set(points)
     result = result_of(morph)
-    if morph.MorphStatus not in ("Valid", "Inverted"):           # "Failed" after an error, which has been printed
+    if morph.MorphStatus not in ("Valid", "Inverted"):  # "Failed": the error has been printed
         raise SystemExit(f"no mesh for this boundary: {morph.MorphStatus}")
     return numpy.array(result.Points)
 
@@ -95,13 +103,15 @@ x = numpy.array(start.Points, dtype=float)
 direction = numpy.random.default_rng(1).normal(size=x.shape)
 difference = (objective(x + 1e-3 * direction) - objective(x - 1e-3 * direction)) / 2e-3
 exact = (gradient(x) * direction).sum()
-print(f"derivative: adjoint {exact:.10g}, central difference {difference:.10g}, relative error {abs(exact / difference - 1):.1e}")
+print(f"derivative: adjoint {exact:.10g}, central difference {difference:.10g}, "
+      f"relative error {abs(exact / difference - 1):.1e}")
 
 for iteration in range(arguments.iterations + 1):
     at = nodes(x)
     J = 0.5 * (volume * (at - target) ** 2).sum()
     error = abs(x - goal).max()
-    print(f"iteration {iteration:2d}: objective {J:.4e}, largest distance to the target boundary {error:.2e}")
+    print(f"iteration {iteration:2d}: objective {J:.4e}, "
+          f"largest distance to the target boundary {error:.2e}")
     descent = -gradient(x)
     change = nodes(x + descent) - at                             # linear in the boundary
     x = x + (descent ** 2).sum() / (volume * change ** 2).sum() * descent

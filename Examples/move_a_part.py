@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a mesh to a morphed one, by Documentation/Tutorial.md's steps.
 
-As a macro (Macros > Import new macro...): select a volume mesh, run it, and drag the box; tick Auto Apply (Edit > Settings) to see the
-mesh follow. As a script:
+As a macro (Macros > Import new macro...): select a volume mesh, run it, and drag the box; tick Auto
+Apply (Edit > Settings) to see the mesh follow. As a script:
 
     PV_PLUGIN_PATH=<folder of MeshMorphing> pvpython move_a_part.py part.vtu part-moved.vtu
 
@@ -14,15 +14,16 @@ from paraview.simple import *
 
 
 def follow(mesh, **displacement):
-    """A part of the mesh's boundary that moves, and the mesh that follows it: both as pipeline sources."""
+    """Moves a part of the mesh's boundary, and the mesh with it; returns both as sources."""
     boundary = BoundaryDisplacement(Input=mesh, **displacement)
     return boundary, MorphFEMWARP(Input=mesh, Boundary=boundary)
 
 
 def lift(mesh):
-    """What is in the uppermost tenth goes up by a twentieth of the height; sides follow, the bottom stays."""
+    """Lifts the uppermost tenth by a twentieth of the height; sides follow, the bottom stays."""
     low, high = mesh.GetDataInformation().GetBounds()[4:]
-    boundary, morph = follow(mesh, Moving="Inside Region", Motion="Vector", Surroundings="Fade", FalloffRadius=0.5)
+    boundary, morph = follow(mesh, Moving="Inside Region", Motion="Vector", Surroundings="Fade",
+                             FalloffRadius=0.5)
     boundary.Region = "Plane"
     boundary.Region.Origin = [0, 0, high - 0.1 * (high - low)]
     boundary.Region.Normal = [0, 0, -1]
@@ -36,8 +37,10 @@ def script(source, target):
     morph = lift(mesh)
     morph.UpdatePipeline()
     if morph.MorphStatus != "Valid":
-        raise SystemExit(f"no valid mesh: {morph.MorphStatus}, {morph.InvertedCells:.0f} inverted cells")
-    print(f"least scaled Jacobian {morph.MinScaledJacobian:.4f}, inverted cells {morph.InvertedCells:.0f}")
+        raise SystemExit(f"no valid mesh: {morph.MorphStatus}, "
+                         f"{morph.InvertedCells:.0f} inverted cells")
+    print(f"minimum scaled Jacobian {morph.MinScaledJacobian:.4f}, "
+          f"inverted cells {morph.InvertedCells:.0f}")
     # Debian's ParaView cannot read the appended data that it writes by default.
     SaveData(target, proxy=morph, **({"DataMode": "Binary"} if target.endswith(".vtu") else {}))
 

@@ -3,12 +3,13 @@
 """Holds every #include in Filters against the arrows that Filters/layers.txt allows.
 
 Usage: layers.py [--source FOLDER] [--write] [--try-wrong-includes]
-It fails, and names file and line, for an include that no arrow allows, a file in a folder that the table does not
-have, a header that does not exist, a folder without a README.md of at most ten lines, and arrows in a circle. It also
-fails where the picture in CONTRIBUTING.md, or a README's last line, is not what the table says, and where the
-headers at the top of Filters/Morphing are not those of its public classes.
+It fails, and names file and line, for an include that no arrow allows, a file in a folder that the
+table does not have, a header that does not exist, a folder without a README.md of at most ten
+lines, and arrows in a circle. It also fails where the picture in CONTRIBUTING.md, or a README's
+last line, is not what the table says, and where the headers at the top of Filters/Morphing are not
+those of its public classes.
   --source FOLDER        the project (default: where this script lies)
-  --write                writes the picture into CONTRIBUTING.md, and the last line of each README.md
+  --write                writes the picture into CONTRIBUTING.md, and each README.md's last line
   --try-wrong-includes   shows that each kind of wrong include is found, in a copy of Filters
 """
 import argparse
@@ -57,7 +58,8 @@ class Table:
         """The row, the group of rows or the library that `name` means in the row of `folder`."""
         sibling = os.path.join(os.path.dirname(folder), name)
         for candidate in (sibling, name):
-            if candidate in self.arrows or any(row.startswith(candidate + "/") for row in self.arrows):
+            if candidate in self.arrows or any(row.startswith(candidate + "/")
+                                               for row in self.arrows):
                 return candidate
         if name not in LIBRARIES:
             self.problems.append(
@@ -84,7 +86,8 @@ def sources(folder):
 
 
 def quoted(filters, file, name):
-    """The file, named from Filters, that #include "name" means in `file`; None where there is none."""
+    """The file, named from Filters, that #include "name" means in `file`; None where there is
+    none."""
     library = file.split(os.sep)[0]
     for candidate in (os.path.join(os.path.dirname(file), name) if "/" not in name else "",
                       os.path.join(library, name), os.path.join("Core", name)):
@@ -153,21 +156,24 @@ def check_readmes(table, write):
                 with open(readme, "w", encoding="utf-8") as text:
                     text.writelines(lines[:-1] + [may_include(table, row)])
             else:
-                table.problems.append("Filters/%s/README.md: its last line is not what Filters/layers.txt "
-                                      "says: run Testing/layers.py --write" % row)
+                table.problems.append(
+                    "Filters/%s/README.md: its last line is not what Filters/layers.txt "
+                    "says: run Testing/layers.py --write" % row)
         if sum(file.endswith((".h", ".cxx")) for file in os.listdir(folder)) < 2:
             table.problems.append("Filters/%s holds fewer than two sources" % row)
 
 
 def check_classes(table):
-    """The headers at the top of Filters/Morphing are those of the classes that its CMakeLists.txt lists."""
+    """Checks that the headers at the top of Filters/Morphing are those of the classes that its
+    CMakeLists.txt lists."""
     folder = os.path.join(table.filters, "Morphing")
     with open(os.path.join(folder, "CMakeLists.txt"), encoding="utf-8") as f:
         classes = set(re.search(r"set\(classes\s([^)]*)\)", f.read()).group(1).split())
     headers = {file[:-2] for file in os.listdir(folder) if file.endswith(".h")}
     for name in sorted(classes ^ headers):
-        table.problems.append("Filters/Morphing/%s.h: %s" % (name, "no public class of CMakeLists.txt: "
-                              "move it to Private" if name in headers else "it is listed, but not there"))
+        table.problems.append("Filters/Morphing/%s.h: %s" % (
+            name, "no public class of CMakeLists.txt: move it to Private" if name in headers
+            else "it is listed, but not there"))
 
 
 def picture(table):
@@ -231,7 +237,8 @@ def try_wrong_includes(source):
                            'there is no "Mesh/Nothing.h"'),
         "private parts of each other": ("Morphing/Private/Data/Output.cxx",
                                         '#include "Private/Morph/Series.h"',
-                                        "Morphing/Private/Data may not include Morphing/Private/Morph"),
+                                        "Morphing/Private/Data may not include "
+                                        "Morphing/Private/Morph"),
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
         "a file in no folder": ("Core/Stray.h", "#pragma once", "its folder is no row"),
     }

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter upstream to the finished
-picture, and where the time goes. Median of several drags after the first, which prepares the method.
+"""How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter
+upstream to the finished picture, and where the time goes. Median of several drags after the first,
+which prepares the method.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
-         pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] [--methods FEMWARP,LBWARP] [--upstream Transform]
+         pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\
+         [--methods FEMWARP,LBWARP] [--upstream Transform]
 """
 import argparse
 import os
@@ -20,7 +22,8 @@ simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 # SimplexNaturalNeighbor is left out: on this regular grid its weights take more than a minute.
 METHODS = "FEMWARP", "LBWARP", "WeightedResidual", "SimplexLinear"
-COLUMNS = ("boundary", "prepare", "evaluate", "rest of filter", "surface", "render", "drag to picture")
+COLUMNS = ("boundary", "prepare", "evaluate", "rest of filter", "surface", "render",
+           "drag to picture")
 
 
 def cube(cells):
@@ -46,14 +49,18 @@ def seconds(action):
 
 
 class Drag:
-    """A boundary and what moves it; `move` makes step i's motion, with the boundary's top turned and lifted a bit more."""
+    """A boundary and what moves it.
+
+    `move` makes step i's motion, with the boundary's top turned and lifted a bit more."""
 
     def __init__(self, part, upstream):
         if upstream == "Transform":
             self.moved = simple.Transform(Input=ExtractMorphBoundary(Input=part))
         else:
-            self.moved = BoundaryDisplacement(Input=part, Moving="Inside Region", Region="Box", Surroundings="Follow")
-            self.moved.Region.Position, self.moved.Region.Length = [-0.1, -0.1, 0.9], [1.2, 1.2, 0.2]
+            self.moved = BoundaryDisplacement(Input=part, Moving="Inside Region", Region="Box",
+                                              Surroundings="Follow")
+            self.moved.Region.Position = [-0.1, -0.1, 0.9]
+            self.moved.Region.Length = [1.2, 1.2, 0.2]
         self.transform = self.moved.Transform
 
     def move(self, step):
@@ -83,7 +90,8 @@ def measure(method, part, drag, drags):
         extraction = seconds(surface.UpdatePipeline)
         picture = seconds(lambda: simple.Render(view))
         rows.append((boundary, morph.PrepareSeconds, morph.EvaluateSeconds,
-                     whole - morph.PrepareSeconds - morph.EvaluateSeconds, extraction, picture - extraction, total))
+                     whole - morph.PrepareSeconds - morph.EvaluateSeconds, extraction,
+                     picture - extraction, total))
     count = morph.PrepareCount
     simple.Delete(surface)
     simple.Delete(view)
@@ -96,18 +104,22 @@ def main():
     parser.add_argument("--cells", type=int, default=50, help="cells along an edge of the cube")
     parser.add_argument("--drags", type=int, default=7)
     parser.add_argument("--methods", default=",".join(METHODS))
-    parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"), default="Transform")
+    parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"),
+                        default="Transform")
     options = parser.parse_args()
     grid = cube(options.cells)
     part = simple.TrivialProducer()
     part.GetClientSideObject().SetOutput(grid)
-    print(f"{grid.GetNumberOfPoints():,} nodes, {grid.GetNumberOfCells():,} hexahedra; milliseconds; {options.upstream}; "
+    print(f"{grid.GetNumberOfPoints():,} nodes, {grid.GetNumberOfCells():,} hexahedra; "
+          f"milliseconds; {options.upstream}; "
           f"VTK's threads: {vtkSMPTools.GetBackend()}, cores: {os.cpu_count()}")
-    print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS) + f"{'prepared':>10}{'first':>10}")
+    print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS)
+          + f"{'prepared':>10}{'first':>10}")
     for method in options.methods.split(","):
         drag = Drag(part, options.upstream)
         medians, count, first, prepare = measure(method, part, drag, options.drags)
-        print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians) + f"{count:>10.0f}{1e3 * first:10.0f}"
+        print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians)
+              + f"{count:>10.0f}{1e3 * first:10.0f}"
               f"   (of it prepare {1e3 * prepare:.0f})", flush=True)
 
 

@@ -11,8 +11,10 @@ BUILT = Path(__file__).resolve().parent.parent / "build" / "paraview" / "lib"
 
 
 def load_plugin(given):
-    """`given`: the plugin's file; None or empty: the one that was built. Ends the program where there is none."""
+    """Loads the plugin: the file `given`, or, where that is None or empty, the one that was built.
+    Ends the program where there is none."""
     built = sorted(BUILT.glob("**/MeshMorphing.so"))
     if not given and not built:
-        sys.exit(f"no MeshMorphing.so under {BUILT}: build it, by Utilities/demo.sh for one, or use --plugin")
+        sys.exit(f"no MeshMorphing.so under {BUILT}: "
+                 "build it, by Utilities/demo.sh for one, or use --plugin")
     simple.LoadPlugin(str(given or built[0]), remote=False, ns=vars(simple))

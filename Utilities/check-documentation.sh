@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the reference of the classes with Doxygen (Debian package doxygen) into build/documentation/html. Fails where
-# Doxygen warns, and shows the warnings.
+# Builds the reference of the classes with Doxygen (Debian package doxygen) into
+# build/documentation/html. Fails where Doxygen warns, and shows the warnings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,7 +10,8 @@ output=build/documentation
 version=$(sed -n 's/^project(MeshMorphing VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 rm -rf "$output"
 mkdir -p "$output"
-sed -e "s|@VERSION@|$version|" -e "s|@OUTPUT@|$output|" Documentation/Doxyfile.in > "$output/Doxyfile"
+sed -e "s|@VERSION@|$version|" -e "s|@OUTPUT@|$output|" Documentation/Doxyfile.in \
+  > "$output/Doxyfile"
 doxygen "$output/Doxyfile"
 if [ -s "$output/warnings.txt" ]; then
   cat "$output/warnings.txt" >&2

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morphs the bore, as hexahedra and as tetrahedra, from its initial to its final shape with each
 method, the way a script in an optimisation loop would: one filter, a new boundary each step, the
-rest mesh prepared once.
+undeformed mesh prepared once.
 
 Run by Utilities/demo.sh, which builds the plugin first, or by hand (a picture needs a display):
 
     pvpython --force-offscreen-rendering Utilities/demo.py --output demo-output
 
-Writes into the output directory, for each mesh, <name>_before.vtu and FEMWARP's <name>_after.vtu and
-<name>.pvd, the series over pseudo-time t = 0 ... 1 for ParaView's time controls; and
-bore-femwarp.png. With --picture-each also bore-<method>.png for the other methods. Prints a table of
-quality and times."""
+Writes into the output directory, for each mesh, <name>_before.vtu and FEMWARP's <name>_after.vtu
+and <name>.pvd, the series over pseudo-time t = 0 ... 1 for ParaView's time controls; and
+bore-femwarp.png. With --picture-each also bore-<method>.png for the other methods. Prints a table
+of quality and times."""
 
 import argparse
 import os
@@ -33,8 +33,8 @@ from Models.vtk_files import write_grid, write_pvd  # noqa: E402
 
 @dataclass
 class Method:
-    """How a method is called in tables, in file names and in pvpython. every_step: whether it is fast
-    enough to go through all steps rather than from the first to the last."""
+    """How a method is called in tables, in file names and in pvpython. every_step: whether it is
+    fast enough to go through all steps rather than from the first to the last."""
 
     name: str
     file_name: str
@@ -56,8 +56,8 @@ METHODS = (
 
 @dataclass
 class Series:
-    """One method's way through one mesh: the filter's output at t = 0 ... 1 or at both ends alone, and
-    seconds to prepare and (median) to evaluate."""
+    """One method's way through one mesh: the filter's output at t = 0 ... 1 or at both ends alone,
+    and seconds to prepare and (median) to evaluate."""
 
     method: Method
     grids: list

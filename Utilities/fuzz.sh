@@ -62,7 +62,7 @@ for first in $(seq "$from" "$block" $((from + cases - 1))); do
     findings=$((findings + $(grep -c '^FINDING' "$state/$first.txt" || true)))
   fi
 done
-echo "Seeds $from to $((from + cases - 1)), preset $preset: $finished cases finished, $findings findings," \
-  "$((($(date +%s) - start + 30) / 60)) minutes in this run. Reports: $state"
+echo "Seeds $from to $((from + cases - 1)), preset $preset: $finished cases finished," \
+  "$findings findings, $((($(date +%s) - start + 30) / 60)) minutes in this run. Reports: $state"
 if [ "$findings" -gt 0 ]; then grep -h '^FINDING' "$state"/*.txt | head -n 50; fi
 [ "$findings" -eq 0 ] && [ "$finished" -ge "$cases" ]

@@ -5,10 +5,11 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: install-packages.sh [--benchmark] [--developer]
-Installs the Debian 12 packages that MeshMorphing is built and tested with, as root or through sudo. Does nothing
-where they are all installed.
+Installs the Debian 12 packages that MeshMorphing is built and tested with, as root or through sudo.
+Does nothing where they are all installed.
   --benchmark   also the solvers that the benchmark compares with (SuiteSparse, OpenBLAS)
-  --developer   also what format.sh, lint.sh and check-documentation.sh need (clang-format, clang-tidy, doxygen)
+  --developer   also what format.sh, lint.sh and check-documentation.sh need (clang-format,
+                clang-tidy, doxygen)
 END
 }
 
@@ -35,12 +36,14 @@ for option in "$@"; do
 done
 
 if ! command -v apt-get > /dev/null; then
-  echo "install-packages.sh: no apt-get here. Install what these Debian packages hold: ${packages[*]}" >&2
+  echo "install-packages.sh: no apt-get here. Install what these Debian packages hold:" \
+    "${packages[*]}" >&2
   exit 1
 fi
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")
 if [ "$release" != "debian 12" ]; then
-  echo "install-packages.sh: written for Debian 12, this is '$release'. Going on; package names may differ." >&2
+  echo "install-packages.sh: written for Debian 12, this is '$release'. Going on; package names" \
+    "may differ." >&2
 fi
 
 missing=()

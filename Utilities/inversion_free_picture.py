@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of Documentation/InversionFree.md: the small canister's hexahedra where FEMWARP inverts
-cells, by FEMWARP and by the inversion-free morph: two layers at two thirds of its height, and
-above them the inverted cells alone.
+"""The picture of Documentation/InversionFree.md: the small canister's hexahedra where FEMWARP
+inverts cells, by FEMWARP and by the inversion-free morph. It shows two layers at two thirds of its
+height, and above them the inverted cells alone.
 
     xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
         pvpython --force-offscreen-rendering Utilities/inversion_free_picture.py
@@ -38,7 +38,8 @@ def shown(mesh, grid):
 
 
 def panel(title, mesh, grid):
-    note = (f"{int(number(grid, 'InvertedCells')):,} of {grid.GetNumberOfCells():,} cells inverted\n"
+    count = int(number(grid, "InvertedCells"))
+    note = (f"{count:,} of {grid.GetNumberOfCells():,} cells inverted\n"
             f"min {number(grid, 'MinScaledJacobian'):.3f}, "
             f"mean {number(grid, 'MeanScaledJacobian'):.3f}")
     return Panel(title, note, grid, shown(mesh, grid))

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """FEMWARP beside the inversion-free morph, with default settings, on the models' exact surfaces.
 
-    pvpython Utilities/inversion_free_table.py     # a minute on an idle machine; needs the plugin, no Gmsh
+    pvpython Utilities/inversion_free_table.py    # a minute on an idle machine; needs no Gmsh
 
-Prints the table of Documentation/InversionFree.md: least scaled Jacobian, and in parentheses the
+Prints the table of Documentation/InversionFree.md: minimum scaled Jacobian, and in parentheses the
 number of inverted cells where there are any."""
 
 import argparse

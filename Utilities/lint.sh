@@ -6,8 +6,8 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: lint.sh [-p BUILD] [-j N] [FILE...]
-Runs clang-tidy (Debian package clang-tidy) by .clang-tidy over the sources of Filters and Programs, or over FILE...; fails where it
-finds something.
+Runs clang-tidy (Debian package clang-tidy) by .clang-tidy over the sources of Filters and Programs,
+or over FILE...; fails where it finds something.
   -p BUILD   a configured build folder of VTK mode; by default build/lint, which is configured first
   -j N       processes (default: all cores)
 END

@@ -6,8 +6,9 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: package.sh [-j N]
-Builds (preset deb) a Debian package with the plugin where ParaView lists it, the headers, the libraries with their CMake
-package, and morph-mesh; prints its path. Install it with: apt-get install <path>
+Builds (preset deb) a Debian package with the plugin where ParaView lists it, the headers, the
+libraries with their CMake package, and morph-mesh; prints its path. Install it with:
+apt-get install <path>
   -j N   processes to build with (default: all cores)
 END
 }

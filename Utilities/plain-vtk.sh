@@ -6,9 +6,10 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: plain-vtk.sh [--unpack-only] [-j N]
-Builds and tests the VTK library and the Python module with Debian's own VTK 9.1. Its packages cannot be installed beside
-ParaView's Python, so they are downloaded and unpacked (about 35 MB and 200 MB) into build/vtk-9.1; then the preset
-vtk91 is configured, built and tested there. The exit status is 0 if every test passed.
+Builds and tests the VTK library and the Python module with Debian's own VTK 9.1. Its packages
+cannot be installed beside ParaView's Python, so they are downloaded and unpacked (about 35 MB and
+200 MB) into build/vtk-9.1; then the preset vtk91 is configured, built and tested there. The exit
+status is 0 if every test passed.
   --unpack-only  stop before configuring
   -j N           processes to build and to test with (default: all cores)
 END
@@ -26,9 +27,10 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-# VTK's CMake files check that every library and wrapper of VTK is there, and look for TBB (its threads) and JsonCpp.
-packages=(libvtk9-dev libvtk9.1 libvtk9.1-qt libvtk9-java python3-vtk9 vtk9 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5
-  libjsoncpp-dev libjsoncpp25)
+# VTK's CMake files check that every library and wrapper of VTK is there, and look for TBB (its
+# threads) and JsonCpp.
+packages=(libvtk9-dev libvtk9.1 libvtk9.1-qt libvtk9-java python3-vtk9 vtk9 libtbb-dev libtbb12
+  libtbbmalloc2 libtbbbind-2-5 libjsoncpp-dev libjsoncpp25)
 folder=build/vtk-9.1
 if [ ! -e "$folder/complete" ]; then
   rm -rf "$folder"
@@ -36,7 +38,8 @@ if [ ! -e "$folder/complete" ]; then
   if ! apt-cache show "${packages[@]}" > /dev/null 2>&1; then
     if [ "$(id -u)" -eq 0 ]; then apt-get update; else sudo apt-get update; fi
   fi
-  (cd "$folder/packages" && apt-get -o APT::Sandbox::User="$(id -un)" -o Acquire::Retries=3 download "${packages[@]}")
+  (cd "$folder/packages" && apt-get -o APT::Sandbox::User="$(id -un)" -o Acquire::Retries=3 \
+    download "${packages[@]}")
   for package in "$folder"/packages/*.deb; do dpkg -x "$package" "$folder"; done
   rm -r "$folder/packages"
   touch "$folder/complete"

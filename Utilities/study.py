@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The experiment of the paper, with its six methods and the inversion-free one: four models as hexahedra and as tetrahedra, in 20 absolute and
-relative steps, and beyond them until the first inverted cell; surfaces by weighted residual, as in the paper, and exact.
+"""The experiment of the paper, with its six methods and the inversion-free one: four models as
+hexahedra and as tetrahedra, in 20 absolute and relative steps, and beyond them until the first
+inverted cell; surfaces by weighted residual, as in the paper, and exact.
 
     Utilities/study.sh                              # builds, and runs this: many hours
     pvpython Utilities/study.py --models bore pipe  # part of it
     pvpython Utilities/study.py --quick             # a small mesh, 4 steps
     pvpython Utilities/study.py --report            # tables and plots again, from what is there
 
-Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv (seconds per step), scaling.csv, Results.md
-with the tables, and figure-*.png. Goes on where an earlier run with the same output was interrupted. Validity is None: what is counted is what each method itself makes."""
+Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv
+(seconds per step), scaling.csv, Results.md with the tables, and figure-*.png. Resumes where an
+earlier run with the same output was interrupted. Validity is None: the cells that each method
+itself inverts are counted."""
 
 import argparse
 import os
@@ -69,23 +72,27 @@ def parse_arguments():
     parser.add_argument("--output", type=Path, default=Path("study-output"), metavar="DIR",
                         help="default: %(default)s")
     parser.add_argument("--models", nargs="+", choices=Models.NAMES + Models.VARIANTS,
-                        default=list(Models.NAMES), metavar="MODEL", help="default: the paper's four")
+                        default=list(Models.NAMES), metavar="MODEL",
+                        help="default: the paper's four")
     parser.add_argument("--kinds", nargs="+", choices=("hex", "tet"), default=["hex", "tet"])
     parser.add_argument("--surfaces", nargs="+", choices=SURFACES, default=list(SURFACES))
     parser.add_argument("--steppings", nargs="+", choices=STEPPINGS, default=list(STEPPINGS))
     parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
                         metavar="METHOD", help="default: all seven")
-    parser.add_argument("--steps", type=int, default=STEPS, help="from S_0 to S_F (default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=STEPS,
+                        help="from S_0 to S_F (default: %(default)s)")
     parser.add_argument("--to-final", action="store_true",
                         help="end each series at S_F; without it, t* is looked for")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="N",
                         help="for each filter (default: one for each core, %(default)s)")
-    parser.add_argument("--small", action="store_true", help="the small meshes, in Data/Models/small")
+    parser.add_argument("--small", action="store_true",
+                        help="the small meshes, in Data/Models/small")
     parser.add_argument("--no-matrix", action="store_true", help="leave the series of steps out")
     parser.add_argument("--no-timing", action="store_true", help="leave the seconds per step out")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
     parser.add_argument("--klu", type=Path, metavar="PROGRAM",
-                        help="benchmark-mesh, which times KLU (default: that under build/paraview, if it has been built)")
+                        help="benchmark-mesh, which times KLU (default: that under "
+                             "build/paraview, if it has been built)")
     parser.add_argument("--quick", action="store_true",
                         help="a small bore, 4 steps, one brick: in a minute")
     parser.add_argument("--report", action="store_true", help="run nothing")
@@ -115,8 +122,8 @@ def main():
         if not arguments.no_timing:
             time_steps(arguments)
         if not arguments.no_scaling:
-            study_scaling.run(arguments.output / "scaling.csv", arguments.methods, arguments.sizes, arguments.repeats,
-                              arguments.threads)
+            study_scaling.run(arguments.output / "scaling.csv", arguments.methods,
+                              arguments.sizes, arguments.repeats, arguments.threads)
     write_report(arguments.output, records, arguments.steps)
 
 

@@ -6,8 +6,9 @@ here=$(cd "$(dirname "$0")" && pwd)
 usage() {
   cat <<END
 Usage: study.sh [--no-install] [--quick] [--output DIR] [option of study.py ...]
-From a bare Debian 12 to the tables and plots of the paper's experiment: installs the packages, builds the plugin under build/paraview and
-runs study.py, which takes many hours on two cores; interrupted, it goes on where it was.
+From a bare Debian 12 to the tables and plots of the paper's experiment: installs the packages,
+builds the plugin under build/paraview and runs study.py, which takes many hours on two cores. An
+interrupted run resumes where it was.
   --no-install   leave the packages alone
   --quick        a small mesh and few steps, in a minute
   --output DIR   where to write (default: study-output)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The boundaries that a series of the study is morphed to, step by step, and the cells that they give no chance."""
+"""The boundaries that a series of the study is morphed to, step by step, and the cells that no
+interior node can make valid."""
 
 from typing import NamedTuple
 
@@ -22,8 +23,9 @@ _CORNERS = {
 
 
 class Boundaries(NamedTuple):
-    """positions: (n, #boundary nodes, 3) at each step. lost: for each step the ascending ids of cells that no interior node can
-    make valid, since a face of theirs is folded or a corner whose four nodes are all prescribed is inverted."""
+    """Boundaries step by step. positions: (n, #boundary nodes, 3) at each step. lost: for each step
+    the ascending ids of cells that no interior node can make valid, since one of their faces is
+    folded or a corner whose four nodes are all prescribed is inverted."""
 
     positions: np.ndarray
     lost: list
@@ -41,8 +43,8 @@ def exact_positions(mesh, ts):
 
 
 def residual_positions(mesh, ts, relative):
-    """As exact_positions, with surfaces moved after their exact curves by weighted residual, from S_0 or
-    from the step before. Ends before the first step at which that gives no surface."""
+    """As exact_positions, with surfaces moved after their exact curves by weighted residual, from
+    S_0 or from the step before. Ends before the first step at which that gives no surface."""
     surfaces = MovedSurfaces(mesh)
     found = []
     try:
@@ -57,8 +59,10 @@ def residual_positions(mesh, ts, relative):
 
 
 def folded_cells(mesh, positions):
-    """For each step the ids of cells with a folded boundary face: a face whose scaled Jacobian, signed by its surface's normal, is not
-    positive, as Morph Boundary measures it when all boundary nodes are given."""
+    """For each step the ids of cells with a folded boundary face.
+
+    A face is folded where its scaled Jacobian, signed by its surface's normal, is not positive, as
+    Morph Boundary measures it when all boundary nodes are given."""
     rest, moved = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
     measure = simple.MorphBoundary(Input=rest, Boundary=moved, PrescribedDimension=2)
     found = []
@@ -80,8 +84,8 @@ def folded_cells(mesh, positions):
 
 
 def _determined_corners(mesh):
-    """(n, 4) node ids of the corners whose four nodes, a corner and its neighbors along the edges, are all prescribed; (n,): their
-    cells."""
+    """The corners whose four nodes, a corner and its neighbors along the edges, are all prescribed:
+    (n, 4) their node ids; (n,) their cells."""
     prescribed = np.zeros(len(mesh.points), bool)
     prescribed[mesh.nodes] = True
     table = np.array(_CORNERS[mesh.cell_type == VTK_HEXAHEDRON])
@@ -100,8 +104,8 @@ def _volumes(a, b, c):
 
 
 def determined_cells(mesh, positions):
-    """For each step the ids of cells with a corner whose four nodes are all prescribed and span no positive
-    volume: what vtkMorphAlgorithm counts as BoundaryInvertedCells."""
+    """For each step the ids of cells with a corner whose four nodes are all prescribed and span no
+    positive volume: what vtkMorphAlgorithm counts as BoundaryInvertedCells."""
     corners, cells = _determined_corners(mesh)
     points, found = mesh.points.copy(), []
     for step in positions:
@@ -112,8 +116,9 @@ def determined_cells(mesh, positions):
 
 
 def quality_limit(mesh, positions):
-    """The least scaled Jacobian of the corners whose four nodes are all prescribed: no mesh with the boundary at `positions`,
-    (#boundary nodes, 3), has a higher one."""
+    """The minimum scaled Jacobian of the corners whose four nodes are all prescribed.
+
+    No mesh with the boundary at `positions`, (#boundary nodes, 3), has a higher one."""
     corners, _ = _determined_corners(mesh)
     points = mesh.points.copy()
     points[mesh.nodes] = positions
@@ -129,8 +134,8 @@ def lost_cells(mesh, positions):
 
 
 def read_boundaries(folder, series, mesh, ts):
-    """Boundaries of the series. They are kept in the folder: positions by weighted residual in an .npy, the lost cells by name in a .csv
-    of step and cell."""
+    """Boundaries of the series, kept in the folder: positions by weighted residual in an .npy, the
+    lost cells in a .csv of step and cell."""
     exact = series.surfaces == "exact"
     way = "exact" if exact else series.stepping
     name = f"boundary-{series.model}-{series.kind}-{way}-{len(mesh.nodes)}-{len(ts)}"
@@ -145,7 +150,8 @@ def read_boundaries(folder, series, mesh, ts):
 
 
 def _kept(file, read, write, make):
-    """What is in the file, or else is made; written under another name first, so that an interruption leaves no part of it."""
+    """What is in the file, or else is made. It is written under another name first, so that an
+    interruption leaves no part of it."""
     if not file.is_file():
         partial = file.with_name("partial-" + file.name)
         write(partial, make())

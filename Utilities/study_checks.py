@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Experiments behind the reading of the study's results in Documentation/Study.md, each a few seconds long.
+"""Experiments that support the reading of the study's results in Documentation/Study.md. Each takes
+a few seconds.
 
     pvpython Utilities/study_checks.py
 
-Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and absolute steps, where and when
-FEMWARP gives way on the canister and on the pipe, what a mere stretch does to hexahedra and tetrahedra, what quality the boundary allows, and where smoothing
+Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and
+absolute steps, where and when FEMWARP inverts cells on the canister and on the pipe, what a mere
+stretch does to hexahedra and tetrahedra, what quality the boundary allows, and where smoothing
 fails."""
 
 import argparse
@@ -56,7 +58,8 @@ def morph(method, mesh, stepping, last=STEPS):
 
 
 def final(method, mesh, stepping, last=STEPS):
-    """(least scaled Jacobian, (#nodes, 3) points, (#cells,) scaled Jacobians) of the last step."""
+    """(minimum scaled Jacobian, (#nodes, 3) points, (#cells,) scaled Jacobians) of the last step.
+    """
     for step, grid in morph(method, mesh, stepping, last):
         result = step.minimum, vtk_to_numpy(grid.GetPoints().GetData()).copy(), quality(grid).copy()
     return result
@@ -77,8 +80,11 @@ def edge(mesh):
 
 
 def check_steppings():
-    """LBWARP's weights are the mean where a node is the centre of its neighbors, and affinely so everywhere. Means of neighbors are kept by
-    the morph, so that the next relative step finds the same weights: it should end where absolute steps end, the others should not."""
+    """LBWARP should end in relative steps where it ends in absolute ones; the others should not.
+
+    LBWARP's weights are the mean where a node is the centre of its neighbors, and affinely so
+    everywhere. The morph keeps means of neighbors, so the next relative step finds the same
+    weights."""
     print("Relative against absolute steps: small bore, hexahedra, S_F\n"
           "  interior        method             absolute  relative  nodes apart, edges")
     for share in (0, 0.15):
@@ -87,21 +93,27 @@ def check_steppings():
             (absolute, a, _), (relative, b, _) = (
                 final(method, mesh, stepping) for stepping in ("absolute", "relative"))
             apart = np.linalg.norm(a - b, axis=1).max() / edge(mesh)
-            print(f"  {f'jittered {share}' if share else 'as made':15} {method:18} {absolute:8.4f}  {relative:8.4f}  {apart:8.3f}")
+            name = f"jittered {share}" if share else "as made"
+            print(f"  {name:15} {method:18} {absolute:8.4f}  {relative:8.4f}  {apart:8.3f}")
 
 
 def check_canister():
-    """Around a hole of radius r in a cylinder of radius R the harmonic displacement falls as the logarithm of the distance. The cells next
-    to the hole, h thick, are crushed on the side that the hole moves to when t D ln(1 + h/r) / ln(R/r) = h, D = 0.5. A displacement that is linear in
-    the gap, as simplex-linear's is, lasts until t D = R - r."""
+    """The harmonic displacement around a hole crushes the cells next to the hole before t = 1.
+
+    Around a hole of radius r in a cylinder of radius R it falls as the logarithm of the distance.
+    The cells next to the hole, h thick, are crushed on the side that the hole moves to when
+    t D ln(1 + h/r) / ln(R/r) = h, D = 0.5. A displacement that is linear in the gap, as that of
+    simplex-linear is, lasts until t D = R - r."""
     mesh = study_mesh("canister", "hex", small=True)
     hole, rim, travel = 0.25, 1, 0.5
     radius = np.linalg.norm(mesh.points[:, :2], axis=1)
     rings = np.unique(radius.round(6))
     thick = rings[1] - rings[0]
     crushed = thick * np.log(rim / hole) / (travel * np.log(1 + thick / hole))
-    print(f"\nCanister, hexahedra, absolute: cells at the hole {thick:.4f} thick; the logarithm crushes them at t = {crushed:.3f}"
-          f" (thinner ones from {hole * np.log(rim / hole) / travel:.3f} on), a linear displacement at {(rim - hole) / travel:.2f}")
+    print(f"\nCanister, hexahedra, absolute: cells at the hole {thick:.4f} thick; the logarithm "
+          f"crushes them at t = {crushed:.3f} (thinner ones from "
+          f"{hole * np.log(rim / hole) / travel:.3f} on), a linear displacement at "
+          f"{(rim - hole) / travel:.2f}")
     for method in ("FEMWARP", "Simplex-linear"):
         last = len(times(mesh.model, STEPS))
         for number in range(last):
@@ -113,28 +125,35 @@ def check_canister():
             print(f"  {method}: no inverted cell up to t = {(last - 1) / STEPS:.2f}")
             continue
         centres = mesh.points[bad].mean(axis=1)
-        print(f"  {method}: first at t = {number / STEPS:.2f}, {len(bad)} cells, of which {int((radius[bad].min(axis=1) < rings[0] + 1e-6).sum())} at the hole,"
-              f" within {np.degrees(np.abs(np.arctan2(centres[:, 1], centres[:, 0]))).max():.0f} degrees of the way it moves")
+        inner = int((radius[bad].min(axis=1) < rings[0] + 1e-6).sum())
+        angle = np.degrees(np.abs(np.arctan2(centres[:, 1], centres[:, 0]))).max()
+        print(f"  {method}: first at t = {number / STEPS:.2f}, {len(bad)} cells, of which {inner} "
+              f"at the hole, within {angle:.0f} degrees of the way it moves")
 
 
 def check_pipe():
-    """Where straight and elbow join, the stretch along the pipe changes at once, and a harmonic displacement rounds that off inside the wall:
-    FEMWARP's worst cells should lie there."""
+    """FEMWARP's worst cells should lie at the joints of straight and elbow.
+
+    There the stretch along the pipe changes at once, and a harmonic displacement rounds that off
+    inside the wall."""
     mesh = study_mesh("pipe", "hex", small=False)
     print("\nPipe, hexahedra, absolute, S_F")
     joints = np.array([[0, 0, 4.54], [3, 0, 7.54]])
     axes = np.array([[0, 0, 1.0], [1.0, 0, 0]])
     for method in ("FEMWARP", "LBWARP", "Simplex-linear"):
-        least, _, found = final(method, mesh, "absolute")
+        minimum, _, found = final(method, mesh, "absolute")
         worst = mesh.points[mesh.cells[np.argsort(found)[:40]]].mean(axis=1)
-        away = np.abs(np.einsum("nd,jd->nj", worst, axes) - np.sum(joints * axes, axis=1)).min(axis=1)
-        print(f"  {method}: least {least:.3f}; the 40 worst cells are up to {away.max():.2f} from a joint's plane, whose cells are 0.17 long;"
-              f" {int((found < 0.9).sum())} cells of {len(found)} below 0.9")
+        away = np.abs(np.einsum("nd,jd->nj", worst, axes)
+                      - np.sum(joints * axes, axis=1)).min(axis=1)
+        print(f"  {method}: minimum {minimum:.3f}; the 40 worst cells are up to {away.max():.2f} "
+              f"from a joint's plane, whose cells are 0.17 long; "
+              f"{int((found < 0.9).sum())} cells of {len(found)} below 0.9")
 
 
 def check_stretch():
-    """An affine stretch along the cells' own axes leaves a hexahedron's scaled Jacobian as it is, but not a tetrahedron's."""
-    print("\nSmall bore stretched along its axis, least and mean scaled Jacobian")
+    """An affine stretch along the cells' own axes leaves a hexahedron's scaled Jacobian as it is,
+    but not a tetrahedron's."""
+    print("\nSmall bore stretched along its axis, minimum and mean scaled Jacobian")
     for kind in ("hex", "tet"):
         mesh = study_mesh("bore", kind, small=True)
         line = []
@@ -145,8 +164,10 @@ def check_stretch():
 
 
 def check_limits():
-    """What the boundary alone leaves possible: no mesh has a higher least scaled Jacobian than a corner whose nodes are all prescribed."""
-    print("\nLeast scaled Jacobian that the boundary allows at S_F, exact surfaces, meshes of the paper's size")
+    """What the boundary alone leaves possible: no mesh has a higher minimum scaled Jacobian than a
+    corner whose nodes are all prescribed."""
+    print("\nMinimum scaled Jacobian that the boundary allows at S_F, exact surfaces, meshes of "
+          "the paper's size")
     for name in Models.NAMES:
         line = []
         for kind in ("hex", "tet"):
@@ -156,17 +177,20 @@ def check_limits():
 
 
 def check_smoothing():
-    """Smoothing starts with the interior where it was: in absolute steps at rest, in relative ones a step behind. It has to untangle what the
-    boundary has run through by then, and should fail where that is several cells deep."""
-    print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved alone, and after smoothing")
+    """Smoothing should fail where the boundary passes through several layers of cells.
+
+    It starts with the interior where it was: in absolute steps on the undeformed mesh, in relative
+    ones a step behind. It has to untangle what the boundary has passed through by then."""
+    print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved "
+          "alone, and after smoothing")
     for name in ("bore", "pipe"):
         mesh = study_mesh(name, "hex", small=True)
         for t in (0.05, 0.25, 0.5, 0.75, 1):
             start = measured(mesh.to_vtk(mesh.moved(t)))
             way = np.linalg.norm(mesh.moved(t) - mesh.points, axis=1).max() / edge(mesh)
             _, _, found = final("Smoothing", mesh, "absolute", round(t * STEPS))
-            print(f"  {name} t = {t:.2f}: boundary moved by up to {way:.1f} edges; {int((start <= 0).sum())} of {len(start)},"
-                  f" then {int((found <= 0).sum())}")
+            print(f"  {name} t = {t:.2f}: boundary moved by up to {way:.1f} edges; "
+                  f"{int((start <= 0).sum())} of {len(start)}, then {int((found <= 0).sum())}")
 
 
 def main():

@@ -7,13 +7,15 @@ import Models
 
 
 def settled(points):
-    """Points to ten decimals: without the last bits of NumPy's sines and products, which differ from one processor to the next. Simplex-linear's
-    ties, points on one sphere, would turn with them."""
+    """Points to ten decimals: without the last bits of NumPy's sines and products, which differ
+    from one processor to the next. Simplex-linear's ties, points on one sphere, would change with
+    these bits."""
     return np.round(points, 10)
 
 
 def study_mesh(name, kind, small):
-    """The ClassifiedMesh of a model, "hex" or "tet": small, from its file, or of the paper's size."""
+    """The ClassifiedMesh of a model, "hex" or "tet": small, from its file, or of the paper's
+    size."""
     model = Models.get(name)
     mesh = model.read_small(kind) if small else model.make(kind)
     mesh.points[:] = settled(mesh.points)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the paper prints: seconds per step by its Tables 2 to 5, sizes by Table 1, and the ranges of its experiment (M. L. Staten,
-S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh Morphing Methods for 3D Shape Optimization",
-Proceedings of the 20th International Meshing Roundtable, 2011). Its curves of quality are drawn only, so they are not here."""
+"""What the paper prints: seconds per step by its Tables 2 to 5, sizes by Table 1, and the ranges of
+its experiment (M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison
+of Mesh Morphing Methods for 3D Shape Optimization", Proceedings of the 20th International Meshing
+Roundtable, 2011). Its curves of quality are drawn only, so they are not here."""
 
 #: Steps from S_0 to S_F.
 STEPS = 20
@@ -10,7 +11,7 @@ STEPS = 20
 METHODS = ("Smoothing", "Weighted residual", "FEMWARP", "LBWARP", "Simplex-linear",
            "Simplex-natural neighbor")
 
-#: Figures of least scaled Jacobian and tables of seconds, by model.
+#: Figures of minimum scaled Jacobian and tables of seconds, by model.
 FIGURES = {"bore": 2, "pipe": 4, "canister": 6, "courier": 8}
 TABLES = {"bore": 2, "pipe": 3, "canister": 4, "courier": 5}
 
@@ -19,8 +20,8 @@ PANELS = (("hex", "relative"), ("hex", "absolute"), ("tet", "relative"), ("tet",
 
 STEPPINGS = ("relative", "absolute")
 
-#: Seconds per step, with a direct solver (KLU) on two Intel X5570: by model, for each of METHODS, in
-#: the order of PANELS.
+#: Seconds per step, with a direct solver (KLU) on two Intel X5570: by model, for each of METHODS,
+#: in the order of PANELS.
 SECONDS = {
     "bore": ((0.23, 0.75, 0.68, 1.75), (3.57, 3.65, 7.52, 7.40), (0.30, 0.29, 0.56, 0.58),
              (1.55, 1.36, 1.97, 1.96), (0.33, 0.40, 0.39, 0.36), (0.46, 0.38, 0.94, 0.56)),

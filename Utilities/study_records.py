@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The study's results in a CSV file, a row for each step of each series, written as they come, so that a study can be
-interrupted and gone on with."""
+"""The study's results in a CSV file, a row for each step of each series. Rows are written as they
+come, so that a study can be interrupted and resumed."""
 
 import csv
 from typing import NamedTuple
 
 
 class Series(NamedTuple):
-    """One line of a figure. kind: "hex" or "tet"; surfaces: "weighted residual", as in the paper, or
-    "exact"; stepping: "absolute" or "relative"."""
+    """One line of a figure. kind: "hex" or "tet"; surfaces: "weighted residual", as in the paper,
+    or "exact"; stepping: "absolute" or "relative"."""
 
     model: str
     kind: str
@@ -21,9 +21,11 @@ class Series(NamedTuple):
 
 
 class Step(NamedTuple):
-    """minimum, mean: scaled Jacobian. inverted: cells at or below 0, the degenerate ones included; boundary: of
-    these, the cells that the boundary inverts by itself, at a corner whose four nodes are all prescribed; folded: of the others, those with a
-    folded boundary face. What remains is the method's own. prepare, evaluate: seconds, with so many threads. cells: ids of the first of the method's own."""
+    """The result of one step. minimum, mean: scaled Jacobian. inverted: cells at or below 0, the
+    degenerate ones included; boundary: of these, the cells that the boundary inverts by itself, at
+    a corner whose four nodes are all prescribed; folded: of the others, the cells with a folded
+    boundary face. The remaining cells are the method's own. prepare, evaluate: seconds, with so
+    many threads. cells: ids of the first of the method's own."""
 
     step: int
     t: float
@@ -49,8 +51,10 @@ class Step(NamedTuple):
 
 
 class RowFile:
-    """A CSV file that grows by a row at a time. Made with its head unless it is there; a last row that an interruption has cut off
-    is dropped. Raises ValueError for a file with another head, as earlier versions wrote it."""
+    """A CSV file that grows by a row at a time.
+
+    It is made with its head unless it is there; a last row that an interruption has cut off is
+    dropped. Raises ValueError for a file with another head, as earlier versions wrote it."""
 
     def __init__(self, path, fields):
         self._path = path
@@ -58,7 +62,8 @@ class RowFile:
         head = ",".join(fields) + "\n"
         whole = text[:text.rfind("\n") + 1] or head
         if not whole.startswith(head):
-            raise ValueError(f"{path} has other columns than {', '.join(fields)}: give another folder, or move it away")
+            raise ValueError(f"{path} has other columns than {', '.join(fields)}: "
+                             "give another folder, or move it away")
         if whole != text:
             path.write_text(whole, encoding="utf-8")
 
@@ -104,7 +109,8 @@ class Records:
 
 
 def last_valid(steps):
-    """t*: the t of the last step up to which all are valid; None where the first is not, or there is none."""
+    """t*: the t of the last step up to which all are valid; None where the first is not, or there
+    is none."""
     result = None
     for step in steps:
         if not step.valid:

@@ -21,13 +21,16 @@ STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o")
 #: Whose absolute steps are a fixed matrix times the boundary's motion.
 LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))
 
-LEGEND = ("Quality: least scaled Jacobian at S_F (inverted cells of the method's own + those that the boundary takes with it, at a folded"
-          " face or a corner), and t*, the t of the last step up to which no cell of the method's own is inverted; >= where the series"
-          " did not end by one.")
+LEGEND = ("Quality: minimum scaled Jacobian at S_F (inverted cells of the method's own + those "
+          "that the boundary takes with it, at a folded face or a corner), and t*, the t of the "
+          "last step up to which no cell of the method's own is inverted; >= where the series did "
+          "not end by one.")
 
 
 def write_report(folder, records, steps):
-    """Writes Results.md and figure-*.png to the folder, as far as there are results. `steps`: to S_F."""
+    """Writes Results.md and figure-*.png to the folder, as far as there are results.
+
+    `steps`: to S_F."""
     text = ["# Results", "", LEGEND, ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
         found = [series for series in records.series() if series.surfaces == surfaces]
@@ -73,17 +76,17 @@ def _quality_table(records, model, surfaces, steps, picture):
         rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
-    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "", f"![Least scaled Jacobian, step by step]({picture})", ""]
-            + _table(head, rows))
+    return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "",
+             f"![Minimum scaled Jacobian, step by step]({picture})", ""] + _table(head, rows))
 
 
 def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
-    return f"{_least(steps[to_final])}; t* {_survived(steps)}"
+    return f"{_minimum(steps[to_final])}; t* {_survived(steps)}"
 
 
-def _least(step):
+def _minimum(step):
     parts = [step.own] + [count for count in (step.boundary + step.folded,) if count]
     count = f" ({' + '.join(f'{part:,}' for part in parts)})" if step.inverted else ""
     return f"{step.minimum:.3f}{count}"
@@ -107,16 +110,21 @@ def _linear_table(records, steps):
         linear = {method: found for method, found in linear.items() if len(found) > steps}
         if not linear:
             continue
-        best = max(linear, key=lambda method: (-linear[method][steps].own, linear[method][steps].minimum))
+        best = max(linear, key=lambda method: (-linear[method][steps].own,
+                                               linear[method][steps].minimum))
         lasting = max(linear, key=lambda method: last_valid(linear[method]) or -1)
-        rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}", _least(own[steps]),
-                     _survived(own), f"{best} {_least(linear[best][steps])}",
+        rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}",
+                     _minimum(own[steps]), _survived(own),
+                     f"{best} {_minimum(linear[best][steps])}",
                      f"{lasting} {_survived(linear[lasting])}"])
     if not rows:
         return []
     return (["## The inversion-free morph beside the linear methods", "",
-             "Of the linear methods first that with the fewest inverted cells of its own at S_F, and among those the highest least scaled Jacobian; then that with the largest t*.", ""]
-            + _table(["series, surfaces", "inversion-free at S_F", "t*", "best linear method at S_F", "longest-lived linear method, t*"],
+             "Of the linear methods first that with the fewest inverted cells of its own at S_F, "
+             "and among those the highest minimum scaled Jacobian; then that with the largest t*.",
+             ""]
+            + _table(["series, surfaces", "inversion-free at S_F", "t*",
+                      "best linear method at S_F", "longest-lived linear method, t*"],
                      sorted(rows)))
 
 
@@ -135,7 +143,7 @@ def _draw_quality(path, records, model, surfaces, steps):
         axis.axhline(0, color="black", linewidth=0.6)
         axis.set_title(f"({letter}) {key[0]} mesh, {key[2]} morph")
         axis.set_xlabel("step")
-        axis.set_ylabel("least scaled Jacobian")
+        axis.set_ylabel("minimum scaled Jacobian")
     for row in axes:  # both share it
         low, high = row[0].get_ylim()
         row[0].set_ylim(min(low, -0.02), max(high, 0.02))
@@ -161,9 +169,10 @@ def _seconds_table(timings, model):
         rows.append(row)
     head = ["method"] + [f"{kind} {stepping}: ours; paper" for kind, stepping in paper.PANELS]
     runs, threads = (" or ".join(sorted({value[k] for value in mine.values()})) for k in (2, 3))
-    return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})", "",
-             "Relative: the first of 20 steps, prepare and evaluate, since each step prepares anew. Absolute: evaluate at S_F, and in brackets"
-             f" prepare, once for all steps. Exact surfaces. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
+    return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})",
+             "", "Relative: the first of 20 steps, prepare and evaluate, since each step prepares "
+             "again. Absolute: evaluate at S_F, and in brackets prepare, once for all steps. Exact "
+             f"surfaces. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
             + _table(head, rows))
 
 
@@ -188,17 +197,21 @@ def _klu_table(found):
                     f"> {figures['limit / warm']:,.0f}"]
         rows.append(row)
     return (["## The paper's direct solver", "",
-             "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, factorisation and solution (1 thread) in the same run; and that over our step,"
-             " evaluate alone. KLU has 10 minutes a system.", ""]
+             "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, "
+             "factorisation and solution (1 thread) in the same run; and that over our step, "
+             "evaluate alone. KLU has 10 minutes a system.", ""]
             + _table(["mesh", "method", "prepare", "evaluate", "KLU", "KLU, solution alone",
                       "KLU / evaluate"], rows))
 
 
 def _scaling_table(folder, rows):
-    runs, threads = (" or ".join(sorted({row[field] for row in rows})) for field in ("runs", "threads"))
+    runs, threads = (" or ".join(sorted({row[field] for row in rows}))
+                     for field in ("runs", "threads"))
     text = ["## Time against size (the paper's Section 4.5 and Figure 10)", "",
-            "Bricks of N x 20 x 20 hexahedra. The power of the number of nodes that prepare and evaluate together, and evaluate alone, grow with"
-            f" over N = 60 and more, and seconds of both at the largest N. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
+            "Bricks of N x 20 x 20 hexahedra. The power of the number of nodes that prepare and "
+            "evaluate together, and evaluate alone, grow with over N = 60 and more, and seconds of "
+            "both at the largest N. "
+            f"Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
     table = []
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.5), sharey=True)
     for axis, motion in zip(axes, scaling.MOTIONS):

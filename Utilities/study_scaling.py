@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the methods' time grows with the number of nodes: the paper's Section 4.5, bricks of N x 20 x 20 hexahedra stretched to twice their height,
-and the same with a twist, since a solver that starts from the nearest affine map has nothing to do for the stretch."""
+"""How the methods' time grows with the number of nodes: the paper's Section 4.5, bricks of
+N x 20 x 20 hexahedra stretched to twice their height. The same with a twist, since a solver that
+starts from the nearest affine map has nothing to do for the stretch."""
 
 from statistics import median
 
@@ -33,7 +34,8 @@ def brick(n):
 
 
 def moved(points, motion):
-    """Where points go: z stretched to twice its length; with "twist" turned by up to 90 degrees about the long axis as well."""
+    """Where points go: z stretched to twice its length; with "twist" also turned by up to 90
+    degrees about the long axis."""
     x, y, z = points.T
     z = 2 * z
     if motion == "twist":
@@ -57,7 +59,8 @@ def seconds(method, rest, boundary, threads):
 
 
 def run(path, methods, sizes, repeats, threads):
-    """Writes medians of `repeats` runs to the CSV file `path`, and goes on where an earlier call has stopped."""
+    """Writes medians of `repeats` runs to the CSV file `path`, and resumes where an earlier call
+    has stopped."""
     file = RowFile(path, FIELDS)
     done = {(row["motion"], row["method"], int(row["n"])) for row in file.rows()}
     for n in sizes:
@@ -84,7 +87,8 @@ def read(path):
 
 
 def exponent(nodes, values):
-    """p of values ~ nodes^p over meshes of at least N = 60, by least squares; None with fewer than three of them."""
+    """p of values ~ nodes^p over meshes of at least N = 60, by least squares; None with fewer than
+    three of them."""
     large = [(n, value) for n, value in zip(nodes, values) if n >= LEAST_NODES]
     if len(large) < 3:
         return None

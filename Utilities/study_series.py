@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs one series of the study: a model's mesh, morphed by one method to one boundary after the other."""
+"""Runs one series of the study: a model's mesh, morphed by one method to one boundary after the
+other."""
 
 import numpy as np
 from paraview import simple
@@ -52,7 +53,10 @@ class BoundarySource(VTKPythonAlgorithmBase):
 
 
 class SeriesRun:
-    """A method at work on a mesh. `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"; `threads`: 1 or more."""
+    """A method at work on a mesh.
+
+    `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"; `threads`: 1 or
+    more."""
 
     def __init__(self, method, mesh, boundaries, ts, stepping, threads):
         self._ts, self._lost, self._threads = ts, boundaries.lost, threads
@@ -68,8 +72,8 @@ class SeriesRun:
         self._filter.SetInputConnection(1, self._source.GetOutputPort())
 
     def step(self, number):
-        """The Step of that number; relative steps before it that were not asked for are made on the way. Raises RuntimeError
-        where the method gives no mesh."""
+        """The Step of that number. Relative steps before it that were not asked for are computed
+        first. Raises RuntimeError where the method gives no mesh."""
         self._filter.UpdateTimeStep(float(number))
         output = self.mesh()
         field = output.GetFieldData()
@@ -89,7 +93,8 @@ class SeriesRun:
                     value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])))
 
     def mesh(self):
-        """The mesh (vtkUnstructuredGrid) of the last step, with the arrays that the filter makes."""
+        """The mesh (vtkUnstructuredGrid) of the last step, with the arrays that the filter
+        makes."""
         return self._filter.GetOutputDataObject(0)
 
     def remove(self):
@@ -99,15 +104,18 @@ class SeriesRun:
 
 
 def finished(steps, to_final, ts):
-    """Whether a series of these Steps ends here: `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F, as far as they go, it
-    goes on until the method inverts a cell."""
+    """Whether a series of these Steps ends here.
+
+    `to_final` steps lead to S_F, at `ts` there are boundaries. Past S_F, as far as they go, the
+    series continues until the method inverts a cell."""
     if len(steps) >= len(ts):
         return True
     return len(steps) > to_final and not all(step.valid for step in steps)
 
 
 def run(series, mesh, boundaries, ts, to_final, records, threads):
-    """Runs what is missing of the series, and records each step. A method that gives no mesh ends it."""
+    """Runs what is missing of the series, and records each step. A method that gives no mesh ends
+    it."""
     steps = records.steps(series)
     if finished(steps, to_final, ts):
         return

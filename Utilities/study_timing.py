@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step costs: the paper's Tables 2 to 5, as medians of several runs; and its direct solver KLU on the systems of FEMWARP and LBWARP.
+"""What a step costs: the paper's Tables 2 to 5, as medians of several runs; and its direct solver
+KLU on the systems of FEMWARP and LBWARP.
 
-An absolute step is that to S_F, whose evaluation alone counts, since all steps share one preparation; a relative step is the first of 20, with its
-preparation. Surfaces are exact, which costs the methods nothing."""
+Of the absolute step to S_F the evaluation alone counts, since all steps share one preparation. A
+relative step is the first of 20, with its preparation. Surfaces are exact, which costs the methods
+nothing."""
 
 import csv
 import re
@@ -26,7 +28,8 @@ FIELDS = ("model", "kind", "stepping", "method", "prepare", "evaluate", "runs", 
 
 
 def run(path, models, kinds, methods, steps, small, repeats, threads):
-    """Writes a row for each model, kind, stepping and method to the CSV file `path`, and goes on where an earlier call has stopped."""
+    """Writes a row for each model, kind, stepping and method to the CSV file `path`, and resumes
+    where an earlier call has stopped."""
     file = RowFile(path, FIELDS)
     done = {tuple(row.values())[:4] for row in file.rows()}
     for name in models:
@@ -56,7 +59,8 @@ def _medians(method, rest, boundary, repeats, threads):
 
 
 def run_klu(folder, program, models, kinds, small):
-    """Writes klu-MODEL-KIND.csv to the folder, by benchmark-mesh, which gives KLU 10 minutes a system."""
+    """Writes klu-MODEL-KIND.csv to the folder, by benchmark-mesh, which gives KLU 10 minutes a
+    system."""
     for name in models:
         for kind in kinds:
             file = folder / f"klu-{name}-{kind}.csv"
@@ -75,13 +79,15 @@ def run_klu(folder, program, models, kinds, small):
 
 
 def read(path):
-    """{(model, kind, stepping, method): (prepare, evaluate, runs, threads)}, as texts but for the seconds."""
+    """{(model, kind, stepping, method): (prepare, evaluate, runs, threads)}, as texts but for the
+    seconds."""
     return {tuple(row.values())[:4]: (float(row["prepare"]), float(row["evaluate"]), row["runs"],
                                       row["threads"]) for row in RowFile(path, FIELDS).rows()}
 
 
 def read_klu(folder):
-    """{(model, kind, method): {figure: value}} of FEMWARP and LBWARP: `warm`, `KLU cold` and so on, without the threads."""
+    """{(model, kind, method): {figure: value}} of FEMWARP and LBWARP: `warm`, `KLU cold` and so on,
+    without the threads."""
     found = {}
     for name in Models.NAMES:
         for kind, _ in PANELS[::2]:

@@ -11,14 +11,15 @@ usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package] [-j N]
 From a bare Debian 12 to tested builds: installs the packages, then
-- builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs, install and paraview;
-- builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget of
-  $sanitizer_budget minutes is left;
-- unpacks Debian's VTK 9.1, builds the library and the Python module with it (preset vtk91), and runs core, filters,
-  fuzz, programs and install;
+- builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
+  install and paraview;
+- builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
+  of $sanitizer_budget minutes is left;
+- unpacks Debian's VTK 9.1, builds the library and the Python module with it (preset vtk91), and
+  runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine.
-The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a stage that takes
-longer than its budget is named, but is no failure.
+The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a
+stage that takes longer than its budget is named, but is no failure.
   --no-install    leave the packages alone
   --no-asan       leave the sanitizers out
   --asan-filters  the filters with sanitizers however long that takes
@@ -33,7 +34,11 @@ package=yes
 asan_filters=no
 presets=(paraview asan vtk91)
 jobs=$(nproc)
-leave_out() { for i in "${!presets[@]}"; do if [ "${presets[$i]}" = "$1" ]; then unset "presets[$i]"; fi; done; }
+leave_out() {
+  for i in "${!presets[@]}"; do
+    if [ "${presets[$i]}" = "$1" ]; then unset "presets[$i]"; fi
+  done
+}
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
@@ -58,7 +63,10 @@ stage() {
   stages+=("$((SECONDS - start)) $group $name")
   return $result
 }
-seconds_of() { printf '%s\n' "${stages[@]}" | awk -v group="$1" '$2 == group { sum += $1 } END { print sum + 0 }'; }
+seconds_of() {
+  printf '%s\n' "${stages[@]}" |
+    awk -v group="$1" '$2 == group { sum += $1 } END { print sum + 0 }'
+}
 minutes() { awk -v seconds="$1" 'BEGIN { printf "%.1f", seconds / 60 }'; }
 
 status=0
@@ -67,7 +75,8 @@ build() { cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
 tests() { ctest --preset "$1" -j "$jobs" "${@:2}" 2>&1 | tee -a "build/$1/ctest.log"; }
 
 sanitized() {
-  stage sanitizers "build asan (core, fuzz)" build asan --target MeshMorphingCoreTests MeshMorphingFuzz
+  stage sanitizers "build asan (core, fuzz)" \
+    build asan --target MeshMorphingCoreTests MeshMorphingFuzz
   stage sanitizers "tests asan (core)" tests asan -L core || status=1
   stage sanitizers "tests asan (fuzz)" tests asan -L fuzz || status=1
   if [ "$asan_filters" = no ] && [ "$(seconds_of sanitizers)" -gt $((sanitizer_budget * 30)) ]; then
@@ -79,7 +88,8 @@ sanitized() {
 }
 
 make_package() {
-  { Utilities/package.sh -j "$jobs" && Testing/Install/package.sh build/deb/*.deb; } 2>&1 | tee build/package.log
+  { Utilities/package.sh -j "$jobs" && Testing/Install/package.sh build/deb/*.deb; } 2>&1 |
+    tee build/package.log
 }
 
 if [ "$install" = yes ]; then stage setup "packages" Utilities/install-packages.sh; fi

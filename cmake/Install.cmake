@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The CMake package MeshMorphing: find_package(MeshMorphing) gives the targets MeshMorphing::Core and MeshMorphing::FiltersMorphing,
-# a static library beside the plugin, a shared one with plain VTK.
+# The CMake package MeshMorphing: find_package(MeshMorphing) gives the targets MeshMorphing::Core
+# and MeshMorphing::FiltersMorphing, a static library beside the plugin, a shared one with plain
+# VTK.
 include(CMakePackageConfigHelpers)
 set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
 set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
 
-# The interface: Documentation/API.md has the same list, and Testing/Install/Headers.cmake compiles it.
+# The interface. Documentation/API.md has the same list, and Testing/Install/Headers.cmake compiles
+# it.
 set(core_headers
   Boundary/Classification.h
   BoundaryMorphing/BoundaryMotion.h
@@ -67,18 +69,21 @@ install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
   DESTINATION "${package_destination}"
   COMPONENT   sdk)
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+install(FILES LICENSE README.md CHANGELOG.md
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
-  # Debian's ParaView looks for plugins in the folder "plugins" beside its programs and nowhere else (PV_PLUGIN_PATH apart), though
-  # its own plugins lie in the library folder: where this is installed beside ParaView, a link makes it listed and loaded.
+  # Debian's ParaView looks for plugins in the folder "plugins" beside its programs and nowhere else
+  # (PV_PLUGIN_PATH apart), though its own plugins lie in the library folder. Where this is
+  # installed beside ParaView, a link makes it listed and loaded.
   find_program(MESHMORPHING_PVPYTHON pvpython)
   get_filename_component(paraview_programs "${MESHMORPHING_PVPYTHON}" DIRECTORY)
   install(CODE "
     if (\"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\" STREQUAL \"${paraview_programs}\")
       set(link \"${paraview_programs}/plugins/MeshMorphing/MeshMorphing.so\")
+      set(plugin paraview-5.11/plugins/MeshMorphing/MeshMorphing.so)
       file(RELATIVE_PATH target \"${paraview_programs}/plugins/MeshMorphing\"
-        \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/paraview-5.11/plugins/MeshMorphing/MeshMorphing.so\")
+        \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/\${plugin}\")
       message(STATUS \"Linking: \${link}\")
       file(MAKE_DIRECTORY \"\$ENV{DESTDIR}${paraview_programs}/plugins/MeshMorphing\")
       file(CREATE_LINK \"\${target}\" \"\$ENV{DESTDIR}\${link}\" SYMBOLIC)

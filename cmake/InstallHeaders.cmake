@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs at installation: installs the headers PUBLIC_HEADERS of the folder CORE (Documentation/API.md lists them) and
-# those that they include, under DESTINATION. Their #include "Mesh/Mesh.h" becomes #include <MeshMorphing/Mesh/Mesh.h>,
-# so that no folder with names like Mesh or Support is on the include path of a project that uses them. Copies: the
-# folder COPIES.
+# Runs at installation: installs the headers PUBLIC_HEADERS of the folder CORE (Documentation/API.md
+# lists them) and those that they include, under DESTINATION. Their #include "Mesh/Mesh.h" becomes
+# #include <MeshMorphing/Mesh/Mesh.h>, so that no folder with names like Mesh or Support is on the
+# include path of a project that uses them. Copies: the folder COPIES.
 cmake_minimum_required(VERSION 3.18)
 set(todo ${PUBLIC_HEADERS})
 set(done)
@@ -25,5 +25,6 @@ while (todo)
   string(REGEX REPLACE "#include \"([^\"\n]+)\"" "#include <MeshMorphing/\\1>" text "${text}")
   file(WRITE "${COPIES}/${header}" "${text}")
   get_filename_component(folder "${header}" DIRECTORY)
-  file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${DESTINATION}/${folder}" TYPE FILE FILES "${COPIES}/${header}")
+  file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${DESTINATION}/${folder}" TYPE FILE
+    FILES "${COPIES}/${header}")
 endwhile ()

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack -G DEB` in a build that was configured for the prefix /usr, as preset deb is (Utilities/package.sh).
+# `cpack -G DEB` in a build that was configured for the prefix /usr, as preset deb is
+# (Utilities/package.sh).
 set(CPACK_PACKAGE_NAME "meshmorphing")
 set(CPACK_PACKAGE_VENDOR "MeshMorphing")
 set(CPACK_PACKAGE_CONTACT "The MeshMorphing developers <meshmorphing@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Mesh morphing filters for ParaView and VTK")
-set(CPACK_PACKAGE_DESCRIPTION
-  "Moves the nodes of an existing hexahedral, tetrahedral or mixed mesh so that it fits a changed boundary: a ParaView plugin, VTK filters for C++ programs, and the command-line tool morph-mesh.")
+string(CONCAT CPACK_PACKAGE_DESCRIPTION
+  "Moves the nodes of an existing hexahedral, tetrahedral or mixed mesh so that it fits a changed "
+  "boundary: a ParaView plugin, VTK filters for C++ programs, and the command-line tool "
+  "morph-mesh.")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set(CPACK_GENERATOR DEB)
 set(CPACK_STRIP_FILES ON)
@@ -15,7 +18,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev, libgmp-dev, libmpfr-dev")
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
-  # ParaView's own rules put an archive that only its own build can use into the component development.
+  # ParaView's own rules put an archive that only its own build can use into the component
+  # development.
   set(CPACK_INSTALL_CMAKE_PROJECTS "")
   foreach (component plugin runtime sdk)
     list(APPEND CPACK_INSTALL_CMAKE_PROJECTS

@@ -9,7 +9,8 @@ vtk_module_wrap_python(
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   INSTALL_HEADERS     OFF
   COMPONENT           runtime)
-configure_file(Python/__init__.py.in "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py" @ONLY)
+configure_file(Python/__init__.py.in
+  "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py"
   DESTINATION "${python_destination}/meshmorphing"
   COMPONENT   runtime)

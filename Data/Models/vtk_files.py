@@ -8,8 +8,8 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWrit
 
 
 def write_grid(data, path, compression=1):
-    """Writes a vtkUnstructuredGrid as compressed .vtu or a vtkPolyData as .vtp; `compression` from 1, fast, to 9. Raises OSError
-    where the file cannot be written."""
+    """Writes a vtkUnstructuredGrid as compressed .vtu or a vtkPolyData as .vtp; `compression` from
+    1, fast, to 9. Raises OSError where the file cannot be written."""
     is_surface = isinstance(data, vtkPolyData)
     writer = vtkXMLPolyDataWriter() if is_surface else vtkXMLUnstructuredGridWriter()
     # Appended data, VTK's default, cannot be read back by VTK 9.2 with an expat that defers

@@ -27,7 +27,7 @@ void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* after)
             << " of them prescribed; " << grid->GetNumberOfCells() << " cells\n";
   std::cout << std::fixed << std::setprecision(4);
   row("", "before", "after");
-  row("least scaled Jacobian", before->GetMinScaledJacobian(), after->GetMinScaledJacobian());
+  row("minimum scaled Jacobian", before->GetMinScaledJacobian(), after->GetMinScaledJacobian());
   row("mean scaled Jacobian", before->GetMeanScaledJacobian(), after->GetMeanScaledJacobian());
   row("inverted cells", before->GetInvertedCells(), after->GetInvertedCells());
   row("collapsed cells", before->GetDegenerateCells(), after->GetDegenerateCells());

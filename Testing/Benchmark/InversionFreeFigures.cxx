@@ -65,7 +65,7 @@ void Run::addCounts(const Problem& problem, const std::string& name, const Outco
   {
     this->add(problem, name + ": " + count.name, static_cast<double>(count.value), "");
   }
-  this->add(problem, name + ": least scaled Jacobian", outcome.quality.minimum, "");
+  this->add(problem, name + ": minimum scaled Jacobian", outcome.quality.minimum, "");
   this->add(problem, name + ": evaluate" + withThreads(this->cores_), median(outcome.seconds), "s");
 }
 
@@ -83,7 +83,7 @@ void Run::againstBfgs(const Problem& problem, Target target)
   this->check(problem, "difference of the minimisers' mean scaled Jacobians",
     std::abs(newton.quality.mean - bfgs.quality.mean), 1e-3);
   this->add(
-    problem, "least scaled Jacobian", whole.quality.minimum, "", Target::atLeast(ExactMinimum));
+    problem, "minimum scaled Jacobian", whole.quality.minimum, "", Target::atLeast(ExactMinimum));
   this->add(problem, "L-BFGS / Newton, to the first minimum",
     median(bfgs.seconds) / median(newton.seconds), "", target);
   this->addCounts(problem, "Newton, to the first minimum", newton);

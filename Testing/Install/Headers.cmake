@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The headers that are installed in PREFIX: vtk classes and folders alone at the top, so that no project gets a bare
-# Mesh.h or Error.h; no private ones; every one that Documentation/API.md (API) lists; and these compile in a project of
-# their own, made in WORK, which links the core alone.
+# Checks the headers that are installed in PREFIX: vtk classes and folders alone at the top, so that
+# no project gets a bare Mesh.h or Error.h; no private ones; every one that Documentation/API.md
+# (API) lists; and these compile in a project of their own, made in WORK, which links the core
+# alone.
 cmake_minimum_required(VERSION 3.18)
 set(root "${PREFIX}/${INCLUDE}/MeshMorphing")
 file(GLOB top RELATIVE "${root}" LIST_DIRECTORIES false "${root}/*")
@@ -21,7 +22,10 @@ list(LENGTH listed number)
 if (number LESS 15)
   message(FATAL_ERROR "${API} lists ${number} headers of the core.")
 endif ()
-set(code "#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)\n#error a core header is on the include path\n#endif\n")
+set(code "#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
+#error a core header is on the include path
+#endif
+")
 foreach (header IN LISTS listed)
   string(REPLACE "`" "" header "${header}")
   if (NOT EXISTS "${root}/${header}")
@@ -39,9 +43,13 @@ find_package(MeshMorphing REQUIRED)
 add_executable(all-headers All.cxx)
 target_link_libraries(all-headers PRIVATE MeshMorphing::Core)
 ")
-foreach (step "-S;${WORK};-B;${WORK}/build;-G;${GENERATOR};-DCMAKE_PREFIX_PATH=${PREFIX};-DCMAKE_BUILD_TYPE=${TYPE};-DCMAKE_EXE_LINKER_FLAGS=${LINKER_FLAGS};-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror"
-              "--build;${WORK}/build")
-  execute_process(COMMAND "${CMAKE_COMMAND}" ${step} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+set(configure -S "${WORK}" -B "${WORK}/build" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${PREFIX}"
+  "-DCMAKE_BUILD_TYPE=${TYPE}" "-DCMAKE_EXE_LINKER_FLAGS=${LINKER_FLAGS}"
+  "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+set(build --build "${WORK}/build")
+foreach (step configure build)
+  execute_process(COMMAND "${CMAKE_COMMAND}" ${${step}}
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if (result)
     message(FATAL_ERROR "The headers do not compile on their own:\n${output}")
   endif ()

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build tree BUILD into an empty PREFIX; nothing that lay there, or in EXAMPLES, can help a test.
+# Installs the build tree BUILD into an empty PREFIX. No file left there, or in EXAMPLES, can help a
+# test.
 file(REMOVE_RECURSE "${PREFIX}" "${EXAMPLES}")
-execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}" RESULT_VARIABLE result)
+execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}"
+  RESULT_VARIABLE result)
 if (result)
   message(FATAL_ERROR "cmake --install failed: ${result}")
 endif ()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A project that finds another VTK than the one the package was built with (BUILT) is told so by find_package().
+# find_package() tells a project that finds another VTK than the one the package was built with
+# (BUILT).
 file(REMOVE_RECURSE "${WORK}")
 file(WRITE "${WORK}/vtk/vtk-config.cmake" "set(VTK_FOUND 1)\nset(VTK_VERSION 8.2.0)\n")
 file(WRITE "${WORK}/vtk/vtk-config-version.cmake"

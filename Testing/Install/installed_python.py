@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python module as it is installed: README.md's example, numpy there and back, docstrings, what it refuses.
+"""The Python module as it is installed: README.md's example, numpy there and back, docstrings, and
+what the module refuses.
 
-Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models> python3 installed_python.py
+Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models>
+         python3 installed_python.py
 """
 import os
 import re
@@ -19,8 +21,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructured
 
 README = Path(__file__).resolve().parents[2] / "README.md"
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
-METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph, meshmorphing.vtkSimplexLinearMorph,
-           meshmorphing.vtkSimplexNaturalNeighborMorph, meshmorphing.vtkWeightedResidualMorph]
+METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph,
+           meshmorphing.vtkSimplexLinearMorph, meshmorphing.vtkSimplexNaturalNeighborMorph,
+           meshmorphing.vtkWeightedResidualMorph]
 
 
 def read():
@@ -39,9 +42,11 @@ def boundary_of(grid):
 
 class InstalledPython(unittest.TestCase):
     def test_readme_example(self):
-        blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+        blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"),
+                            re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
-        lines = [line for line in blocks[0].splitlines() if line and not line.startswith(("import", "from"))]
+        lines = [line for line in blocks[0].splitlines()
+                 if line and not line.startswith(("import", "from"))]
         self.assertEqual(len(lines), 14)
         with tempfile.TemporaryDirectory() as folder:
             writer = vtkXMLUnstructuredGridWriter()
@@ -73,7 +78,8 @@ class InstalledPython(unittest.TestCase):
                 moved = dataset_adapter.WrapDataObject(morph.GetOutput())
                 self.assertTrue(numpy.array_equal(moved.Points[ids], boundary.Points))
                 self.assertLess(abs(moved.Points - grid.Points @ shear).max(), 1e-5)
-                self.assertEqual(moved.CellData["ScaledJacobian"].min(), morph.GetMinScaledJacobian())
+                self.assertEqual(moved.CellData["ScaledJacobian"].min(),
+                                 morph.GetMinScaledJacobian())
 
     def test_adjoint_from_numpy(self):
         grid, boundary = read(), boundary_of(read())
@@ -107,16 +113,20 @@ class InstalledPython(unittest.TestCase):
         self.assertEqual((morph.GetMorphStatus(), morph.GetInvertedCells()), ("Failed", -1))
 
     def test_it_is_refused_beside_paraview(self):
-        code = "import sys, types; sys.modules['paraview'] = types.ModuleType('paraview'); import meshmorphing"
-        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        code = ("import sys, types; sys.modules['paraview'] = types.ModuleType('paraview'); "
+                "import meshmorphing")
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                                timeout=60)
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("paraview.simple", result.stderr)
 
     def test_another_vtk_is_refused(self):
         code = ("from vtkmodules import vtkCommonCore; "
-                "vtkCommonCore.vtkVersion = type('Other', (), {'GetVTKVersion': staticmethod(lambda: '8.2.0')}); "
+                "vtkCommonCore.vtkVersion = "
+                "type('Other', (), {'GetVTKVersion': staticmethod(lambda: '8.2.0')}); "
                 "import meshmorphing")
-        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                                timeout=60)
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("found VTK 8.2.0", result.stderr)
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The Debian package: installs with its dependencies there, is listed and loaded by ParaView, serves the examples, and leaves
-# nothing behind when removed. All of it in a private view of /usr, /etc and /var: the machine stays as it is.
+# Tests the Debian package: it installs with its dependencies there, is listed and loaded by
+# ParaView, serves the examples, and leaves nothing behind when removed. All of it in a private view
+# of /usr, /etc and /var: the machine stays as it is.
 # Usage: package.sh <package.deb>      (as root)
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,17 +20,22 @@ scratch=/mnt
 mount -t tmpfs tmpfs "$scratch"
 for folder in usr etc var; do
   mkdir -p "$scratch/$folder/upper" "$scratch/$folder/work"
-  mount -t overlay overlay -o "lowerdir=/$folder,upperdir=$scratch/$folder/upper,workdir=$scratch/$folder/work" "/$folder"
+  layers="lowerdir=/$folder,upperdir=$scratch/$folder/upper,workdir=$scratch/$folder/work"
+  mount -t overlay overlay -o "$layers" "/$folder"
 done
-files() { find /usr /etc -not -name '*.pyc' -not -name __pycache__ -not -path '/usr/share/mime/*' | sort; }
+files() {
+  find /usr /etc -not -name '*.pyc' -not -name __pycache__ -not -path '/usr/share/mime/*' | sort
+}
 
 files > "$scratch/before"
 dpkg -i "$1"
 env -u PV_PLUGIN_PATH pvpython "$here/installed_plugin.py"
 morph-mesh --version
-cmake -G Ninja -S "$here/../../Examples" -B "$scratch/examples" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
+cmake -G Ninja -S "$here/../../Examples" -B "$scratch/examples" > "$scratch/log" ||
+  { cat "$scratch/log"; exit 1; }
 cmake --build "$scratch/examples"
-"$scratch/examples/twist-grid" "$here/../../Data/Models/small/bore_hex_small.vtu" 5 "$scratch/out.vtk"
+model=$here/../../Data/Models/small/bore_hex_small.vtu
+"$scratch/examples/twist-grid" "$model" 5 "$scratch/out.vtk"
 "$scratch/examples/stretch-cube"
 dpkg -L meshmorphing | sed 's/^/    /'
 dpkg -r meshmorphing

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Morph Adjoint through the plugin: the worked example converges, and its gradient is that of finite differences.
+"""Morph Adjoint through the plugin: the worked example converges, and its gradient is that of
+finite differences.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython adjoint.py
 """
@@ -22,11 +23,13 @@ simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 class Adjoint(unittest.TestCase):
     def test_example_fits_the_bore(self):
         model = SOURCE / "Data" / "Models" / "small" / "bore_hex_small.vtu"
-        result = subprocess.run([shutil.which("pvpython"), str(SOURCE / "Examples" / "fit_bore.py"), PLUGIN, str(model)],
+        program = [shutil.which("pvpython"), str(SOURCE / "Examples" / "fit_bore.py")]
+        result = subprocess.run([*program, PLUGIN, str(model)],
                                 capture_output=True, text=True, timeout=250)
         self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
         self.assertLess(float(re.search(r"relative error (\S+)", result.stdout).group(1)), 1e-7)
-        found = re.findall(r"objective (\S+), largest distance to the target boundary (\S+)", result.stdout)
+        found = re.findall(r"objective (\S+), largest distance to the target boundary (\S+)",
+                           result.stdout)
         objectives, errors = numpy.array(found, dtype=float).T
         self.assertEqual(len(objectives), 21)
         self.assertTrue((numpy.diff(objectives) < 0).all(), objectives)
@@ -36,10 +39,12 @@ class Adjoint(unittest.TestCase):
     def test_method_behind_the_gradient_is_taken(self):
         part = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])])
         boundary = ExtractMorphBoundary(Input=part)
-        moved = simple.Calculator(Input=boundary, Function="coords + 0.1*coordsX*jHat", CoordinateResults=1)
+        moved = simple.Calculator(Input=boundary, Function="coords + 0.1*coordsX*jHat",
+                                  CoordinateResults=1)
         morph = MorphWeightedResidual(Input=part, Boundary=moved)
         # The objective x^2/2 + 3 y summed over the nodes.
-        objective = simple.Calculator(Input=morph, Function="coordsX*iHat + 3*jHat", ResultArrayName="dJdx")
+        objective = simple.Calculator(Input=morph, Function="coordsX*iHat + 3*jHat",
+                                      ResultArrayName="dJdx")
         adjoint = MorphAdjoint(Input=part, Boundary=moved, Gradient=objective, GradientArray="dJdx")
         adjoint.UpdatePipeline()
         result = WrapDataObject(servermanager.Fetch(adjoint))

@@ -74,8 +74,8 @@ class BoundaryChecks:
         return surfaces
 
     def assert_projected_onto(self, surfaces, target, t):
-        """All surface nodes are on their true surface within 1e-3 of the model's size, and no face is
-        folded."""
+        """All surface nodes are on their true surface within 1e-3 of the model's size, and no face
+        is folded."""
         surfaces.filter.Target = target
         surfaces.move_to(t)
         dimension = self.mesh.geometry_dimension

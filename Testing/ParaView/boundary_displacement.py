@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boundary Displacement as a user works with it: selections of each kind, the list of patches, the box, and a morph after it.
+"""Boundary Displacement as a user works with it: selections of each kind, the list of patches, the
+box, and a morph after it.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython boundary_displacement.py
 """
@@ -105,7 +106,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
             morph.UpdatePipeline()
             c, s = np.cos(np.radians(5 * step)), np.sin(np.radians(5 * step))
             top = self.rest[:, 2] == CELLS
-            expected = self.rest[top] @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [0, 0.1 * step, 0.2 * step]
+            turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+            expected = self.rest[top] @ turn.T + [0, 0.1 * step, 0.2 * step]
             np.testing.assert_allclose(points(morph)[top], expected, atol=1e-5)
             if step == 1:
                 before = number(move, "PrepareCount")
@@ -132,7 +134,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
         view.ViewSize = [400, 400]
         simple.Show(self.mesh, view).SetRepresentationType("Surface")
         middle = CELLS / 2
-        view.CameraPosition, view.CameraFocalPoint = [middle, middle, 10 * CELLS], [middle, middle, middle]
+        view.CameraPosition = [middle, middle, 10 * CELLS]
+        view.CameraFocalPoint = [middle, middle, middle]
         view.CameraViewUp = [0, 1, 0]
         view.CameraParallelProjection = 1
         view.CameraParallelScale = CELLS
@@ -168,7 +171,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assert_moves(lambda x: x[:, 2] >= CELLS - 1)
 
     def test_an_array_a_held_patch_and_two_parts(self):
-        shift = simple.Calculator(Input=self.mesh, Function="0.25*coordsX*kHat", ResultArrayName="Shift")
+        shift = simple.Calculator(Input=self.mesh, Function="0.25*coordsX*kHat",
+                                  ResultArrayName="Shift")
         shift.UpdatePipeline()
         first = BoundaryDisplacement(Input=shift, Moving="Patches", Motion="Array")
         self.assertIn("Shift", first.GetProperty("DisplacementArray").GetAvailable())
@@ -183,8 +187,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
         np.testing.assert_allclose(moved[is_top, 2], CELLS + 0.25 * rest[is_top, 0], atol=1e-6)
         np.testing.assert_array_equal(moved[~is_top], rest[~is_top])
 
-        second = BoundaryDisplacement(Input=first, Moving="Patches", Motion="Along Normals", Distance=0.5,
-                                      Surroundings="Stay")
+        second = BoundaryDisplacement(Input=first, Moving="Patches", Motion="Along Normals",
+                                      Distance=0.5, Surroundings="Stay")
         bottom = next(name for name in others if self.bounds_of(first, name)[5] == 0)
         second.Patches = [bottom]
         both = points(second)
@@ -211,7 +215,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
         move.ScaleFactor = 0.5
         moved, rest = points(move), array(move, "RestPosition")[:, :3]
         t = np.minimum((CELLS - rest[:, 2]) / 2.5, 1)
-        np.testing.assert_allclose(moved[:, 2] - rest[:, 2], 0.5 * (1 - t) ** 4 * (4 * t + 1), atol=1e-6)
+        faded = 0.5 * (1 - t) ** 4 * (4 * t + 1)
+        np.testing.assert_allclose(moved[:, 2] - rest[:, 2], faded, atol=1e-6)
         np.testing.assert_allclose(array(move, "BoundaryDisplacement"), moved - rest, atol=1e-6)
 
     def test_coloured_by_role(self):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin on both sides of a connection: pvserver morphs, this client sets properties and reads the panel's numbers."""
+"""The plugin on both sides of a connection: pvserver morphs, this client sets properties and reads
+the panel's numbers."""
 
 import os
 import socket
@@ -19,13 +20,15 @@ def free_port():
 class ClientServer(unittest.TestCase):
     def setUp(self):
         port = free_port()
-        self.server = subprocess.Popen(["pvserver", f"--server-port={port}"], stdout=subprocess.DEVNULL)
+        self.server = subprocess.Popen(["pvserver", f"--server-port={port}"],
+                                       stdout=subprocess.DEVNULL)
         self.addCleanup(self.server.wait, 30)
         self.addCleanup(self.server.terminate)
         deadline = time.monotonic() + 60
         while True:
             with socket.socket() as probe:
-                # The server ends with its first client, so this must not be one: ask the kernel, not the server.
+                # The server ends with its first client, so the probe must not be one: it asks the
+                # kernel whether the port is taken.
                 try:
                     probe.bind(("localhost", port))
                 except OSError:

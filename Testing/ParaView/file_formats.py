@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same morph on a mesh from files of several formats, and its result saved to several: nodes, ids, arrays and sets survive.
+"""The same morph on a mesh from files of several formats, and its result saved to several: nodes,
+ids, arrays and sets survive.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython file_formats.py
 """
@@ -53,14 +54,16 @@ def one_grid(reader):
             setattr(reader, name, reader.GetProperty(name).GetAvailable())
     reader.UpdatePipeline()
     if reader.GetDataInformation().IsCompositeDataSet():
-        # Merge Blocks makes one node of those with the same id; nodes that the file has once for each block need Clean to Grid.
+        # Merge Blocks merges nodes of one id. Nodes that the file holds once for each block need
+        # Clean to Grid.
         return simple.CleantoGrid(Input=simple.MergeBlocks(Input=reader))
     return reader
 
 
 def bent(grid):
     grid.UpdatePipeline()
-    boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), CoordinateResults=1, Function=BENT)
+    boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), CoordinateResults=1,
+                                 Function=BENT)
     return MorphFEMWARP(Input=grid, Boundary=boundary)
 
 
@@ -78,24 +81,30 @@ class FileFormats(unittest.TestCase):
         cells = ids.GetDataInformation().GetNumberOfCells()
         # Two blocks, each with nodes of its own between them.
         cls.blocks = simple.GroupDatasets(Input=[
-            simple.Threshold(Input=ids, Scalars=["CELLS", "Element"], LowerThreshold=first, UpperThreshold=last)
+            simple.Threshold(Input=ids, Scalars=["CELLS", "Element"], LowerThreshold=first,
+                             UpperThreshold=last)
             for first, last in ((0, cells // 2 - 1), (cells // 2, cells))])
 
     def path(self, name):
         return str(Path(self.folder.name, name))
 
     def assertIsMoved(self, data, cells=None):
-        """A morph of the mesh, or its surface, from a file: its nodes in any order, told apart by the array Node."""
+        """Checks a morph of the mesh, or its surface, from a file.
+
+        Its nodes come in any order, told apart by the array Node."""
         self.assertEqual(data.GetNumberOfPoints(), len(self.moved))
-        self.assertEqual(data.GetNumberOfCells(), cells or self.part.GetDataInformation().GetNumberOfCells())
+        self.assertEqual(data.GetNumberOfCells(),
+                         cells or self.part.GetDataInformation().GetNumberOfCells())
         node = values(data.GetPointData(), "Node").astype(int)
         self.assertEqual(sorted(node), list(range(len(node))))
         np.testing.assert_allclose(points(data), self.moved[node], rtol=0, atol=1e-5)
-        np.testing.assert_allclose(values(data.GetPointData(), "FinalDisplacement"), self.vectors[node], rtol=0, atol=1e-6)
+        np.testing.assert_allclose(values(data.GetPointData(), "FinalDisplacement"),
+                                   self.vectors[node], rtol=0, atol=1e-6)
 
     def test_read(self):
-        for name, source, options in (("part.vtu", self.part, ASCII), ("part.vtk", self.part, {}), ("part.e", self.part, {}),
-                                      ("blocks.e", self.blocks, {}), ("blocks.ex2", self.blocks, {}),
+        for name, source, options in (("part.vtu", self.part, ASCII), ("part.vtk", self.part, {}),
+                                      ("part.e", self.part, {}), ("blocks.e", self.blocks, {}),
+                                      ("blocks.ex2", self.blocks, {}),
                                       ("part.cgns", self.part, {})):
             with self.subTest(file=name):
                 simple.SaveData(self.path(name), proxy=source, **options)
@@ -105,13 +114,15 @@ class FileFormats(unittest.TestCase):
                 element = values(data.GetCellData(), "Element").astype(int)
                 self.assertEqual(sorted(element), list(range(len(element))))
                 self.assertEqual(morph.UnmatchedPoints, 0)
-                self.assertAlmostEqual(morph.MinScaledJacobian, self.morph.MinScaledJacobian, delta=1e-5)
+                self.assertAlmostEqual(morph.MinScaledJacobian, self.morph.MinScaledJacobian,
+                                       delta=1e-5)
 
     def test_gmsh(self):
-        """Whose files hold edges and faces beside the volume cells, and the number of the geometry that each is of."""
+        """Gmsh's files hold edges and faces beside the volume cells, and for each the number of
+        its geometry."""
         Path(self.path("cube.geo")).write_text(CUBE, encoding="utf-8")
-        subprocess.run([shutil.which("gmsh"), "-3", self.path("cube.geo"), "-format", "vtk", "-o", self.path("cube.vtk")], check=True,
-                       capture_output=True, timeout=60)
+        subprocess.run([shutil.which("gmsh"), "-3", self.path("cube.geo"), "-format", "vtk",
+                        "-o", self.path("cube.vtk")], check=True, capture_output=True, timeout=60)
         grid = simple.OpenDataFile(self.path("cube.vtk"))
         before = fetched(grid)
         data = fetched(bent(grid))
@@ -123,14 +134,16 @@ class FileFormats(unittest.TestCase):
             self.assertEqual(np.isnan(quality[i]), data.GetCellType(i) != 10)
         for i in range(before.GetCellData().GetNumberOfArrays()):
             name = before.GetCellData().GetArrayName(i)
-            np.testing.assert_array_equal(values(data.GetCellData(), name), values(before.GetCellData(), name))
+            np.testing.assert_array_equal(values(data.GetCellData(), name),
+                                          values(before.GetCellData(), name))
         rest = points(before)
         outside = ((rest == 0) | (rest == 2)).any(axis=1)
         expected = rest + np.outer(0.9 * rest[:, 0] * np.sin(rest[:, 2] / 1.5), [0, 1, 0])
         np.testing.assert_allclose(points(data)[outside], expected[outside], atol=1e-6)
 
     def test_save(self):
-        for name, options in (("moved.vtu", ASCII), ("moved.vtk", {}), ("moved.e", {}), ("moved.cgns", {})):
+        for name, options in (("moved.vtu", ASCII), ("moved.vtk", {}), ("moved.e", {}),
+                              ("moved.cgns", {})):
             with self.subTest(file=name):
                 simple.SaveData(self.path(name), proxy=self.morph, **options)
                 data = fetched(one_grid(simple.OpenDataFile(self.path(name))))

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The models' surfaces once more, as equations: what the tests compare the models with. Nothing
-here uses the models' own maps.
+"""The surfaces of the models as equations, with which the tests compare the models.
 
-Each function named as a model takes a shape and points (n, 3) and gives (#surfaces, n): signed distances to the unbounded cylinders, cones, tori and planes, positive
-outside the solid, in the order of the model's Surface. Each `*_volume` takes a shape."""
+Nothing here uses the models' own maps. Each function named as a model takes a shape and points
+(n, 3) and gives (#surfaces, n): signed distances to the unbounded cylinders, cones, tori and
+planes, positive outside the solid, in the order of the model's Surface. Each `*_volume` takes a
+shape."""
 
 import math
 

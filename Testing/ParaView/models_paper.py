@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The eight meshes at the paper's size, and those of the variants, their counts printed next to those of its Table 1. Slow:
-Gmsh makes millions of cells. Needs pvpython and Gmsh, not the plugin."""
+"""The eight meshes at the paper's size, and those of the variants. Their counts are printed next to
+those of its Table 1. Slow: Gmsh makes millions of cells. Needs pvpython and Gmsh, not the
+plugin."""
 
 import sys
 import unittest

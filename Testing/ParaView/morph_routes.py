@@ -95,7 +95,8 @@ class Routes(unittest.TestCase):
         bent = Calculator(Input=boundary, CoordinateResults=1,
                           Function="coords + 0.02*RestPosition_Z*RestPosition_Z*iHat")
         expected = (self.rest * [1, 2, 1]) @ rotation(30).T
-        outer = ((self.rest == self.rest.min(axis=0)) | (self.rest == self.rest.max(axis=0))).any(axis=1)
+        low, high = self.rest.min(axis=0), self.rest.max(axis=0)
+        outer = ((self.rest == low) | (self.rest == high)).any(axis=1)
         for method in (MorphFEMWARP, MorphLBWARP, MorphSimplexLinear, MorphSimplexNaturalNeighbor,
                        MorphWeightedResidual):
             with self.subTest(method=method.__name__):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of every proxy of the plugin: documented, set to another value than its default, and found again in
-the VTK object, which prints its parameters. Server-manager XML is not compiled: nothing else reads all of it.
+"""Every property of every proxy of the plugin: documented, set to another value than its default,
+and found again in the VTK object, which prints its parameters. Server-manager XML is not compiled,
+and nothing else reads all of it.
 
-Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between> pvpython properties.py
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between>
+         pvpython properties.py
 """
 import math
 import os
@@ -39,7 +41,8 @@ def another_value(xml, filter_proxy):
     """A legal value that is not the property's default."""
     default = xml.get("default_values")
     if xml.tag == "StringVectorProperty":
-        return [v for v in filter_proxy.GetProperty(xml.get("name")).GetAvailable() if v != default][0]
+        available = filter_proxy.GetProperty(xml.get("name")).GetAvailable()
+        return [v for v in available if v != default][0]
     if xml.find("EnumerationDomain") is not None:
         return next(int(e.get("value")) for e in xml.find("EnumerationDomain")
                     if e.get("value") != default)
@@ -123,7 +126,8 @@ class Properties(unittest.TestCase):
                         self.assertEqual(list(getattr(filter_proxy, p.get("name"))), [value])
                     else:
                         first = value[0] if isinstance(value, list) else value
-                        self.assertEqual(filter_proxy.SMProxy.GetProperty(p.get("name")).GetElement(0), first)
+                        element = filter_proxy.SMProxy.GetProperty(p.get("name")).GetElement(0)
+                        self.assertEqual(element, first)
                     tested += 1
         self.assertGreaterEqual(tested, 11)
 
@@ -135,7 +139,8 @@ class Properties(unittest.TestCase):
             for p in properties(xml):
                 # Of the times, which ParaView's pipeline holds, the filter prints nothing.
                 times = p.find("TimeStepsInformationHelper") is not None
-                if p.get("information_only") == "1" and p.tag != "StringVectorProperty" and not times:
+                if (p.get("information_only") == "1" and p.tag != "StringVectorProperty"
+                        and not times):
                     with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                         shown = getattr(filter_proxy, p.get("name"))
                         self.assertTrue(same(shown, printed(filter_proxy, p.get("name"))), shown)

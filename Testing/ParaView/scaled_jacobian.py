@@ -17,8 +17,8 @@ LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 
 def hexes(shear, inverted):
-    """Two separate pairs of unit cubes in one grid: one sheared along x by `shear`, one whose second cube has its last
-    corner pushed through the bottom if `inverted`."""
+    """Two separate pairs of unit cubes in one grid: one sheared along x by `shear`, one whose
+    second cube has its last corner pushed through the bottom if `inverted`."""
     points, grid = vtkPoints(), vtkUnstructuredGrid()
     points.SetDataTypeToDouble()
     lattice = {}
@@ -81,7 +81,8 @@ class ScaledJacobianTest(unittest.TestCase):
         quality = ScaledJacobian(Input=source(hexes(1.0, True)))
         self.assertEqual(quality.Certify, 0)
         quality.UpdatePipeline()
-        self.assertIsNone(servermanager.Fetch(quality).GetCellData().GetArray("JacobianCertificate"))
+        data = servermanager.Fetch(quality).GetCellData()
+        self.assertIsNone(data.GetArray("JacobianCertificate"))
         quality.Certify = 1
         quality.UpdatePipeline()
         quality.UpdatePropertyInformation()

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every filter of the plugin, saved in a state (.pvsm and .py) with options that are not the defaults: the loaded pipeline has the
-same properties and makes the same data, to the last bit.
+"""Every filter of the plugin, saved in a state (.pvsm and .py) with options that are not the
+defaults. The loaded pipeline has the same properties and makes the same data, to the last bit.
 
-Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between> pvpython states.py
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between>
+         pvpython states.py
 """
 import os
 import runpy
@@ -17,11 +18,12 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
-# What is measured differs from run to run, and so does the ranking, which measured seconds take part in.
+# Seconds and memory differ from run to run, and so does the ranking, which depends on seconds.
 MEASURED = "Seconds", "PeakMegabytes"
 RANKING = "CompareMorphMethods", 2
-OPTIONS = {"NumberOfThreads": 1, "FeatureAngle": 40, "HoldUnnamedBoundary": 0, "Percentile": 5, "ScaleFactor": 0.5, "Certify": 1,
-           "SurfaceMethod": 1, "OutputPointsPrecision": 1, "DisplacementArray": "Shift"}
+OPTIONS = {"NumberOfThreads": 1, "FeatureAngle": 40, "HoldUnnamedBoundary": 0, "Percentile": 5,
+           "ScaleFactor": 0.5, "Certify": 1, "SurfaceMethod": 1, "OutputPointsPrecision": 1,
+           "DisplacementArray": "Shift"}
 
 
 def proxies():
@@ -33,8 +35,11 @@ def proxies():
 
 
 def build():
-    """A pipeline with every filter on a small cube; their names in the pipeline browser are those of the proxies."""
-    grid = simple.Tetrahedralize(Input=simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 3] * 3)]))
+    """Makes a pipeline with every filter on a small cube.
+
+    Their names in the pipeline browser are those of the proxies."""
+    cube = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 3] * 3)])
+    grid = simple.Tetrahedralize(Input=cube)
     moved = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), ResultArrayName="Shift",
                               Function="4*sin(coordsX*coordsZ)*jHat")
     moved.UpdatePipeline()
@@ -42,7 +47,8 @@ def build():
         names = [p.get("name") for p in xml.iter("InputProperty")]
         inputs = {"Input": grid, "Boundary": moved}
         create = globals()[xml.get("label").replace(" ", "")]
-        proxy = create(registrationName=xml.get("name"), **{name: inputs[name] for name in names if name in inputs})
+        proxy = create(registrationName=xml.get("name"),
+                       **{name: inputs[name] for name in names if name in inputs})
         for name in proxy.ListProperties():
             if name in OPTIONS:
                 setattr(proxy, name, OPTIONS[name])
@@ -92,7 +98,8 @@ class States(unittest.TestCase):
         self.assertGreaterEqual(len(told), 13)
         changed = {option for values in told.values() for option in values} & set(OPTIONS)
         self.assertEqual(changed, set(OPTIONS))
-        empty = {place for place, found in made.items() if not found or max(map(len, found.values())) == 0}
+        empty = {place for place, found in made.items()
+                 if not found or max(map(len, found.values())) == 0}
         # The motion folds cells, which are the second outputs; these two methods have none.
         self.assertLessEqual(empty, {("MorphInversionFree", 1), ("MorphSmoothing", 1)})
         with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps in ParaView's time, Compare Morph Methods, and a quick study that is interrupted and gone on with.
+"""Steps in ParaView's time, Compare Morph Methods, and a quick study that is interrupted and
+resumed.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython steps_and_study.py
 """
@@ -108,7 +109,8 @@ class Study(unittest.TestCase):
                 self.assertGreaterEqual(len(mine), 5)
                 own = [int(row["inverted"]) > int(row["boundary"]) + int(row["folded"])
                        for row in mine]
-                # Past S_F a series ends with its first inverted cell, or with the geometry, at t = 1.5.
+                # Past S_F a series ends with its first inverted cell, or with the geometry, at
+                # t = 1.5.
                 self.assertFalse(any(own[5:-1]))
                 self.assertTrue(any(own) or float(mine[-1]["t"]) == 1.5, one)
             self.assertFalse([row for row in rows
@@ -154,7 +156,8 @@ class StudyBoundary(unittest.TestCase):
         positions = surfaces.moved[mesh.nodes][None]
         surfaces.remove()
         self.assertTrue(owners)
-        # Two measures of a fold: against the true surface's corners, and against a normal that the surface's motion carries along.
+        # Two measures of a fold: by the true surface's corners, and by a normal that the surface's
+        # motion carries along.
         lost = lost_cells(mesh, positions)
         self.assertEqual(set(lost[0]), set(np.concatenate(owners)))
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A morph of several steps played by ParaView's animation, saved as pictures and as a series of files, and plotted over time.
+"""A morph of several steps played by ParaView's animation, saved as pictures and as a series of
+files, and plotted over time.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython time_steps.py
 """
@@ -18,7 +19,9 @@ STEPS = 4
 
 
 def table(proxy):
-    """A filter's table, which ParaView's plots over time have in a block: a numpy array for each column of numbers."""
+    """The table of a filter, as a numpy array for each column of numbers.
+
+    ParaView's plots over time have their table in a block."""
     proxy.UpdatePipeline()
     data = servermanager.Fetch(proxy, idx=proxy.Port)
     data = data.GetBlock(0) if data.IsA("vtkMultiBlockDataSet") else data
@@ -34,13 +37,16 @@ class TimeSteps(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.grid = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 6] * 3)])
-        cls.boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=cls.grid), CoordinateResults=1,
+        surface = ExtractMorphBoundary(Input=cls.grid)
+        cls.boundary = simple.Calculator(Input=surface, CoordinateResults=1,
                                          Function="coords + 3*sin(coordsX)*kHat")
-        cls.morph = MorphFEMWARP(Input=cls.grid, Boundary=cls.boundary, NumberOfSteps=STEPS, Validity="None")
+        cls.morph = MorphFEMWARP(Input=cls.grid, Boundary=cls.boundary, NumberOfSteps=STEPS,
+                                 Validity="None")
         cls.steps = []
         for step in range(STEPS + 1):
             cls.morph.UpdatePipeline(step)
-            cls.steps.append((points(cls.morph), cls.morph.MinScaledJacobian, cls.morph.InvertedCells))
+            minimum, inverted = cls.morph.MinScaledJacobian, cls.morph.InvertedCells
+            cls.steps.append((points(cls.morph), minimum, inverted))
 
     def test_play(self):
         """The panel's numbers and the bad cells follow the time."""
@@ -56,7 +62,8 @@ class TimeSteps(unittest.TestCase):
         for time in (0, 1, 2, 3, 4, 0, 3):
             scene.AnimationTime = time
             _, minimum, inverted = self.steps[time]
-            self.assertEqual((self.morph.MinScaledJacobian, self.morph.InvertedCells), (minimum, inverted))
+            self.assertEqual((self.morph.MinScaledJacobian, self.morph.InvertedCells),
+                             (minimum, inverted))
             self.assertEqual(bad.GetDataInformation().GetNumberOfCells(), inverted)
         with tempfile.TemporaryDirectory() as folder:
             simple.SaveAnimation(str(Path(folder, "morph.png")), view, ImageResolution=[200, 150])
@@ -75,30 +82,34 @@ class TimeSteps(unittest.TestCase):
                 read.UpdatePipeline(time)
                 np.testing.assert_array_equal(points(read), expected)
                 data = servermanager.Fetch(read)
-                self.assertEqual(data.GetFieldData().GetArray("MinScaledJacobian").GetValue(0), minimum)
+                array = data.GetFieldData().GetArray("MinScaledJacobian")
+                self.assertEqual(array.GetValue(0), minimum)
 
     def test_plots_over_time(self):
         minima = [minimum for _, minimum, _ in self.steps]
         whole = table(simple.PlotGlobalVariablesOverTime(Input=self.morph))
         np.testing.assert_array_equal(whole["Time"], range(STEPS + 1))
         np.testing.assert_array_equal(whole["MinScaledJacobian"], minima)
-        np.testing.assert_array_equal(whole["InvertedCells"], [inverted for *_, inverted in self.steps])
+        np.testing.assert_array_equal(whole["InvertedCells"],
+                                      [inverted for *_, inverted in self.steps])
         cells = table(simple.PlotDataOverTime(Input=self.morph, FieldAssociation="Cells"))
         np.testing.assert_array_equal(cells["min(ScaledJacobian)"], minima)
 
     def test_chart_of_methods(self):
-        compare = CompareMorphMethods(Input=self.grid, Boundary=self.boundary, NumberOfSteps=STEPS, Relative=0, Smoothing=0,
-                                      InversionFree=0)
+        compare = CompareMorphMethods(Input=self.grid, Boundary=self.boundary, NumberOfSteps=STEPS,
+                                      Relative=0, Smoothing=0, InversionFree=0)
         chart = simple.OutputPort(compare, "Minimum Scaled Jacobian")
         minima = table(chart)
         np.testing.assert_array_equal(minima["Time"], range(STEPS + 1))
-        np.testing.assert_array_equal(minima["FEMWARP, Absolute"], [minimum for _, minimum, _ in self.steps])
+        np.testing.assert_array_equal(minima["FEMWARP, Absolute"],
+                                      [minimum for _, minimum, _ in self.steps])
         view = simple.CreateView("XYChartView")
         self.addCleanup(simple.Delete, view)
         display = simple.Show(chart, view)
         self.assertEqual(display.XArrayName, "Time")
         # The chart shows every method, in the order of their names.
-        self.assertEqual(list(display.SeriesVisibility), sorted(name for name in minima if name != "Time"))
+        self.assertEqual(list(display.SeriesVisibility),
+                         sorted(name for name in minima if name != "Time"))
 
 
 if __name__ == "__main__":

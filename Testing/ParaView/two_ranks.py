@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""pvbatch on two MPI ranks: a mesh on both is refused with one error and without a deadlock; a mesh on one of them is morphed.
+"""pvbatch on two MPI ranks: a mesh on both is refused with one error and without a deadlock; a mesh
+on one of them is morphed.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython two_ranks.py
-The same file is the job that the ranks run: mpiexec -n 2 pvbatch two_ranks.py (distributed | one_rank | later_error) FILE
+The same file is the job that the ranks run:
+mpiexec -n 2 pvbatch two_ranks.py (distributed | one_rank | later_error) FILE
 """
 import os
 import shutil

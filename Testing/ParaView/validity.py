@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Validity and Morph Inversion Free through the plugin: defaults, what a user is told, what the output is then, and state files.
+"""Validity and Morph Inversion Free through the plugin: defaults, what a user is told, what the
+output is then, and state files.
 
-Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between> pvpython validity.py
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML files, : between>
+         pvpython validity.py
 """
 import math
 import os
@@ -30,7 +32,8 @@ CELLS = 6
 # Steep waves along the cube: they turn FEMWARP's cells over.
 WAVES = "coords + 2*sin(1.0471975511965976*RestPosition_X)*kHat"
 # One corner goes through the cell behind it, all of whose neighbors there are prescribed.
-CORNER_PUSHED_IN = "coords + if(RestPosition_X + RestPosition_Y + RestPosition_Z < 0.5, 1.5, 0)*(iHat + jHat + kHat)"
+CORNER_PUSHED_IN = ("coords + if(RestPosition_X + RestPosition_Y + RestPosition_Z < 0.5, 1.5, 0)"
+                    "*(iHat + jHat + kHat)")
 # The top goes below the bottom, and nothing else is prescribed.
 TOP_PUSHED_DOWN = f"coords - if(RestPosition_Z > {CELLS - 0.5}, 7, 0)*kHat"
 
@@ -136,7 +139,8 @@ class Validity(unittest.TestCase):
             self.assertAlmostEqual(float(value), expected, delta=1e-5)
             self.assertAlmostEqual(measured[int(cell)], expected, delta=1e-5)  # float points
             corners = vtk_to_numpy(grid.GetCell(int(cell)).GetPoints().GetData())
-            np.testing.assert_allclose([float(x) for x in center.split(",")], corners.mean(axis=0), atol=1e-4)
+            np.testing.assert_allclose([float(x) for x in center.split(",")],
+                                       corners.mean(axis=0), atol=1e-4)
         self.assertEqual(status(morph), "Inverted")
         self.assertEqual(morph.LargestValidStep, 0)
 
@@ -178,7 +182,8 @@ class Validity(unittest.TestCase):
     def test_inversion_free_is_never_worse_than_simplex_linear(self):
         mesh = Models.get("bore").read_small("hex")
         rest, boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(1))
-        free, linear = (method(Input=rest, Boundary=boundary) for method in (MorphInversionFree, MorphSimplexLinear))
+        free, linear = (method(Input=rest, Boundary=boundary)
+                        for method in (MorphInversionFree, MorphSimplexLinear))
         updated(free)
         updated(linear)
         self.assertGreater(linear.MinScaledJacobian, 0.5)
@@ -195,11 +200,13 @@ class Validity(unittest.TestCase):
                 plates = simple.Threshold(
                     Input=simple.Calculator(Input=boundary, ResultArrayName="Side",
                                             Function=f"abs(RestPosition_Z - {CELLS / 2})"),
-                    Scalars=["POINTS", "Side"], LowerThreshold=CELLS / 2 - 0.5, UpperThreshold=CELLS)
+                    Scalars=["POINTS", "Side"], LowerThreshold=CELLS / 2 - 0.5,
+                    UpperThreshold=CELLS)
                 morph = globals()[method](Input=self.grid, Boundary=plates, HoldUnnamedBoundary=0,
                                           Validity="Sub Step", MaximumSubSteps=8)
                 text = updated(morph)
-                self.assertEqual(text.count("No valid mesh was found for the whole motion"), 1, text)
+                self.assertEqual(text.count("No valid mesh was found for the whole motion"), 1,
+                                 text)
                 self.assertEqual(text.count("ERR"), 1, text)
                 self.assertEqual(status(morph), "Partial")
                 self.assertValid(morph)
@@ -252,7 +259,8 @@ class Validity(unittest.TestCase):
                     script.write_text(LOADER, encoding="utf-8")
                     made = str(Path(folder, "points.npy"))
                     result = subprocess.run(
-                        ["pvpython", "--force-offscreen-rendering", str(script), PLUGIN, state, made, repr(values)],
+                        ["pvpython", "--force-offscreen-rendering", str(script), PLUGIN, state,
+                         made, repr(values)],
                         capture_output=True, text=True, timeout=120)
                     self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
                     self.assertTrue(np.array_equal(np.load(made), expected))

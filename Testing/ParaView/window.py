@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's window itself: load the plugin, morph a mesh by menus and dialogs, read the numbers in the panel, undo, redo, save a
-trace and states; and pvpython gets the same numbers to the last bit, by itself and from what was saved.
+"""ParaView's window itself: load the plugin, morph a mesh by menus and dialogs, read the numbers in
+the panel, undo, redo, save a trace and states. pvpython gets the same numbers to the last bit, by
+itself and from what was saved.
 
-Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24" pvpython window.py
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
+         pvpython window.py
 """
 import os
 import runpy
@@ -20,7 +22,8 @@ simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
 BENT = "coords+0.9*coordsX*sin(coordsZ/1.5)*jHat"
 FOLDED = "coords+2*sin(coordsX*2)*sin(coordsZ)*jHat"
-NUMBERS = "ScaleFactor", "MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId", "LargestValidStep"
+NUMBERS = ("ScaleFactor", "MinScaledJacobian", "MeanScaledJacobian", "InvertedCells",
+           "WorstCellId", "LargestValidStep")
 
 
 def numbers():
@@ -34,7 +37,8 @@ def built(function, scale):
     """The numbers of the mesh that the window is to show."""
     simple.ResetSession()
     part = simple.OpenDataFile(str(MESH))
-    moved = simple.Calculator(Input=ExtractMorphBoundary(Input=part), CoordinateResults=1, Function=function)
+    moved = simple.Calculator(Input=ExtractMorphBoundary(Input=part), CoordinateResults=1,
+                              Function=function)
     MorphFEMWARP(registrationName="MorphFEMWARP1", Input=part, Boundary=moved, ScaleFactor=scale)
     return numbers()
 
@@ -109,7 +113,8 @@ class Window(unittest.TestCase):
     def expect(self, events, texts):
         """In the panel, with all digits."""
         for name, text in zip(NUMBERS, texts):
-            events.expect(f"{PANEL}{name}/DoubleLineEdit0", text[:-2] if text.endswith(".0") else text)
+            events.expect(f"{PANEL}{name}/DoubleLineEdit0",
+                          text[:-2] if text.endswith(".0") else text)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clicks in ParaView's window, written as the test scripts that ParaView plays (paraview --test-script)."""
+"""Clicks in ParaView's window, written as the test scripts that ParaView plays
+(paraview --test-script)."""
 import os
 import subprocess
 from xml.sax.saxutils import quoteattr
 
 MAIN = "pqClientMainWindow/"
 PROPERTIES = MAIN + "propertiesDock/propertiesPanel/"
-PANEL = PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
+PANEL = (PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/"
+         "PropertiesFrame/ProxyPanel/")
 BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
@@ -17,10 +19,12 @@ class Events:
         self.lines = []
 
     def do(self, widget, command, argument=""):
-        self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} arguments={quoteattr(argument)}/>")
+        self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} "
+                          f"arguments={quoteattr(argument)}/>")
 
     def expect(self, widget, argument, what="text"):
-        self.lines.append(f"<pqcheck object={quoteattr(widget)} property={quoteattr(what)} arguments={quoteattr(argument)}/>")
+        self.lines.append(f"<pqcheck object={quoteattr(widget)} property={quoteattr(what)} "
+                          f"arguments={quoteattr(argument)}/>")
 
     def menu(self, menu, action):
         """menu: "menuTools", or with a submenu "menuFilters/Alphabetical"."""
@@ -61,17 +65,23 @@ class Events:
         self.do(PANEL + name, command, value)
 
     def play(self, folder, seconds=500):
-        """Plays all that in ParaView, with `folder` for its settings, and returns its exit code and messages."""
+        """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
+        messages."""
         settings = folder / ".config/ParaView/ParaView5.11.0.ini"
         settings.parent.mkdir(parents=True)
         settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
-                            "[MainWindow]\nSize=@Size(800 700)\nPosition=@Point(0 0)\n", encoding="utf-8")
+                            "[MainWindow]\nSize=@Size(800 700)\nPosition=@Point(0 0)\n",
+                            encoding="utf-8")
         script = folder / "events.xml"
-        script.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines, "</pqevents>"]), encoding="utf-8")
+        script.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines,
+                                     "</pqevents>"]), encoding="utf-8")
         folder.chmod(0o700)
-        # Without DASHBOARD_TEST_FROM_CTEST ParaView asks whether to save the session when it leaves.
-        environment = {**os.environ, "HOME": str(folder), "XDG_RUNTIME_DIR": str(folder), "DASHBOARD_TEST_FROM_CTEST": "1"}
+        # Without DASHBOARD_TEST_FROM_CTEST ParaView asks whether to save the session when it
+        # leaves.
+        environment = {**os.environ, "HOME": str(folder), "XDG_RUNTIME_DIR": str(folder),
+                       "DASHBOARD_TEST_FROM_CTEST": "1"}
         environment.pop("PV_PLUGIN_PATH", None)
-        played = subprocess.run(["paraview", f"--test-script={script}", "--exit"], env=environment, cwd=folder, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds)
+        played = subprocess.run(["paraview", f"--test-script={script}", "--exit"],
+                                env=environment, cwd=folder, text=True, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, timeout=seconds)
         return played.returncode, played.stdout

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user may connect by mistake: each time one message that says what to do, the undeformed mesh or an empty
-result, and then a right input works.
+"""What a user may connect by mistake: each time one message that says what to do, the undeformed
+mesh or an empty result, and then a right input works.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython wrong_inputs.py
 """
@@ -9,8 +9,8 @@ import re
 import unittest
 
 from paraview import servermanager, simple
-from paraview.simple import (AppendDatasets, Clip, Cone, ExtractSurface, GroupDatasets, LoadPlugin, Plane, Sphere, Transform,
-                             Wavelet)
+from paraview.simple import (AppendDatasets, Clip, Cone, ExtractSurface, GroupDatasets, LoadPlugin,
+                             Plane, Sphere, Transform, Wavelet)
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
@@ -65,14 +65,15 @@ class WrongInputs(unittest.TestCase):
         self.assertEqual(morph.GetDataInformation().GetNumberOfCells(), 4 ** 3)
 
     def test_no_boundary(self):
-        parts = "Boundary: nothing is connected", "Extract Morph Boundary", "Boundary Displacement", "Change Input"
+        parts = ("Boundary: nothing is connected", "Extract Morph Boundary",
+                 "Boundary Displacement", "Change Input")
         self.assertRefused(parts, Input=self.grid)
         self.assertMessage(CompareMorphMethods(Input=self.grid), *parts)
         self.assertMessage(MorphBoundary(Input=self.grid), *parts)
 
     def test_boundary_of_another_mesh(self):
-        self.assertRefused(["outside the grid's 0 to 124", "Make the boundary from this grid"], Input=self.grid,
-                           Boundary=ExtractMorphBoundary(Input=hexes(5)))
+        self.assertRefused(["outside the grid's 0 to 124", "Make the boundary from this grid"],
+                           Input=self.grid, Boundary=ExtractMorphBoundary(Input=hexes(5)))
         self.assertRefused(["stale", "Extract Morph Boundary"], Input=self.grid,
                            Boundary=ExtractMorphBoundary(Input=hexes(3)))
 
@@ -82,11 +83,15 @@ class WrongInputs(unittest.TestCase):
             self.assertRefused(parts, Input=self.grid, Boundary=surface)
 
     def test_inputs_of_other_types(self):
-        self.assertRefused(["The input is a vtkPolyData", "Append Datasets"], Input=Cone(), Boundary=self.boundary)
-        self.assertRefused(["The input is a vtkImageData", "Append Datasets"], Input=Wavelet(), Boundary=self.boundary)
-        self.assertRefused(["The boundary is a vtkImageData", "polygonal data"], Input=self.grid, Boundary=Wavelet())
+        self.assertRefused(["The input is a vtkPolyData", "Append Datasets"], Input=Cone(),
+                           Boundary=self.boundary)
+        self.assertRefused(["The input is a vtkImageData", "Append Datasets"], Input=Wavelet(),
+                           Boundary=self.boundary)
+        self.assertRefused(["The boundary is a vtkImageData", "polygonal data"], Input=self.grid,
+                           Boundary=Wavelet())
         self.assertRefused(["The input is composite data", "Merge Blocks"],
-                           Input=GroupDatasets(Input=[self.grid, self.grid]), Boundary=self.boundary)
+                           Input=GroupDatasets(Input=[self.grid, self.grid]),
+                           Boundary=self.boundary)
 
     def test_meshes_without_volume_cells(self):
         parts = "None of the input's 1 cells is a volume cell", "quad"
@@ -96,17 +101,19 @@ class WrongInputs(unittest.TestCase):
     def test_inputs_the_wrong_way_round(self):
         parts = "Input and Boundary are swapped", "volume mesh as Input"
         self.assertRefused(parts, Input=self.boundary, Boundary=self.grid)
-        self.assertRefused(parts, Input=AppendDatasets(Input=[self.boundary]), Boundary=Transform(Input=self.grid))
+        self.assertRefused(parts, Input=AppendDatasets(Input=[self.boundary]),
+                           Boundary=Transform(Input=self.grid))
 
     def test_missing_arrays(self):
         for name in ("DisplacementArray", "BoundaryIdArray"):
-            self.assertRefused([f"{name} names 'Wind'", "MorphPointId"], Input=self.grid, Boundary=self.boundary,
-                               **{name: "Wind"})
+            self.assertRefused([f"{name} names 'Wind'", "MorphPointId"], Input=self.grid,
+                               Boundary=self.boundary, **{name: "Wind"})
         self.assertRefused(["'RTData' has 1 components"], Input=self.grid, Boundary=self.boundary,
                            DisplacementArray="RTData")
 
     def test_nothing_is_said_of_arrays_before_there_is_a_boundary(self):
-        """ParaView 5.11 asks the offered arrays for their place in the input, and reports where it finds none."""
+        """ParaView 5.11 asks the offered arrays for their place in the input, and reports where it
+        finds none."""
         def panel(proxy):
             for name in ("DisplacementArray", "BoundaryIdArray"):
                 domain = proxy.SMProxy.GetProperty(name).FindDomain("vtkSMArrayListDomain")

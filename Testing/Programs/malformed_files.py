@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Breaks small files in all formats that morph-mesh reads, and runs it on them: it must not crash nor hang, and must
-either fail with one message and leave no file, or write a valid mesh.
+"""Breaks small files in all formats that morph-mesh reads, and runs it on them: it must not crash
+nor hang, and must either fail with one message and leave no file, or write a valid mesh.
 
-Run: MORPH_MESH=<its path> SAMPLE_FILES=<path of MeshMorphingSampleFiles> python3 malformed_files.py [--cases N]
-[--seed S] [--first I] [-j N]. A case depends on the seed and its index alone; one that fails is kept in --keep.
+Run: MORPH_MESH=<its path> SAMPLE_FILES=<path of MeshMorphingSampleFiles>
+         python3 malformed_files.py [--cases N] [--seed S] [--first I] [-j N]
+A case depends on the seed and its index alone; one that fails is kept in --keep.
 """
 import argparse
 import collections
@@ -30,7 +31,8 @@ MEGABYTES = 4096  # of address space that a run may grow by: a small file must n
 
 
 def write_text_samples(folder):
-    """The formats that VTK reads but does not write, AVS UCD and Gambit, and a grid of one piece."""
+    """Writes the formats that VTK reads but does not write, AVS UCD and Gambit, and a grid of one
+    piece."""
     (folder / "grid_parallel.pvtu").write_text("""<?xml version="1.0"?>
 <VTKFile type="PUnstructuredGrid" version="0.1" byte_order="LittleEndian">
   <PUnstructuredGrid GhostLevel="0">
@@ -48,7 +50,8 @@ def write_text_samples(folder):
     lines += [f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)]
     lines += [f"{i + 1} 0 hex " + " ".join(map(str, cell)) for i, cell in enumerate(cells)]
     (folder / "grid.inp").write_text("\n".join(lines) + "\n")
-    lines = ["        CONTROL INFO 1.3.0", "** GAMBIT NEUTRAL FILE", "cube", "PROGRAM: Gambit VERSION: 1.3.0",
+    lines = ["        CONTROL INFO 1.3.0", "** GAMBIT NEUTRAL FILE", "cube",
+             "PROGRAM: Gambit VERSION: 1.3.0",
              "January 2000", "     NUMNP     NELEM     NGRPS    NBSETS     NDFCD     NDFVL",
              f"{len(nodes):10}{len(cells):10}{0:10}{0:10}{3:10}{3:10}", "ENDOFSECTION",
              "   NODAL COORDINATES 1.3.0"]
@@ -74,7 +77,8 @@ def finite_mesh(path):
     if not cells:
         return "it has no cells"
     offsets = struct.unpack_from(f">{int(cells[1])}q", data, cells.end())
-    start = data.index(b"CONNECTIVITY vtktypeint64\n", cells.end()) + len(b"CONNECTIVITY vtktypeint64\n")
+    head = b"CONNECTIVITY vtktypeint64\n"
+    start = data.index(head, cells.end()) + len(head)
     ids = struct.unpack_from(f">{int(cells[2])}q", data, start)
     if list(offsets) != sorted(offsets) or offsets[0] != 0 or offsets[-1] != len(ids):
         return "its offsets are wrong"
@@ -88,10 +92,11 @@ class Cases:
         write_text_samples(folder)
         self.grid = str(folder / "grid_zlib.vtu")
         self.boundaries = {}
-        for grid in [folder / name for name in ("grid_zlib.vtu", "grid.exo", "grid.inp", "grid.neu")]:
+        names = "grid_zlib.vtu", "grid.exo", "grid.inp", "grid.neu"
+        for grid in [folder / name for name in names]:
             path = folder / f"boundary_of_{grid.name}.vtp"
-            result = subprocess.run([PROGRAM, "--extract-boundary", str(grid), str(path)], capture_output=True,
-                                    text=True)
+            result = subprocess.run([PROGRAM, "--extract-boundary", str(grid), str(path)],
+                                    capture_output=True, text=True)
             if result.returncode != 0:
                 raise SystemExit(f"{grid}: {result.stderr}")
             self.boundaries[grid.name] = str(path)
@@ -124,13 +129,15 @@ class Cases:
             folder = Path(name)
             sample, file, ways = self.make(index, folder)
             output = folder / "out.vtk"
-            command = ["prlimit", f"--as={MEGABYTES << 20}", f"--cpu={SECONDS}", PROGRAM, "--quiet", "--threads", "1"]
+            command = ["prlimit", f"--as={MEGABYTES << 20}", f"--cpu={SECONDS}", PROGRAM,
+                       "--quiet", "--threads", "1", *self.arguments(sample, file, output)]
             try:
-                result = subprocess.run(command + self.arguments(sample, file, output), capture_output=True,
-                                        timeout=WALL_SECONDS, stdin=subprocess.DEVNULL)
+                result = subprocess.run(command, capture_output=True, timeout=WALL_SECONDS,
+                                        stdin=subprocess.DEVNULL)
             except subprocess.TimeoutExpired:
                 return sample.name, ways, None, f"no end after {WALL_SECONDS} s"
-            return sample.name, ways, result.returncode, self.fault(sample, file, ways, result, output)
+            fault = self.fault(sample, file, ways, result, output)
+            return sample.name, ways, result.returncode, fault
 
     def fault(self, sample, file, ways, result, output):
         text = result.stderr.decode(errors="replace")
@@ -139,7 +146,8 @@ class Cases:
             return f"a temporary file is left: {left}"
         if result.returncode == 0:
             xml = file.suffix in (".vtu", ".vtp")
-            if xml and ways == "truncated" and file.read_bytes().rstrip() != sample.read_bytes().rstrip():
+            cut = file.read_bytes().rstrip() != sample.read_bytes().rstrip()
+            if xml and ways == "truncated" and cut:
                 return "a truncated XML file is taken for a whole one"
             return finite_mesh(output) if output.exists() else "status 0 without a file"
         if result.returncode != 1:
@@ -147,7 +155,8 @@ class Cases:
         if output.exists():
             return "an error, yet a file is written"
         lines = text.splitlines()
-        errors = [line for line in lines if line.startswith("morph-mesh: ") and "warning: " not in line]
+        errors = [line for line in lines
+                  if line.startswith("morph-mesh: ") and "warning: " not in line]
         if len(errors) != 1 or not lines[-1].startswith("morph-mesh: "):
             return f"not one message: {text.strip()[:600]!r}"
         return ""
@@ -172,14 +181,16 @@ def main():
             for index, (sample, ways, status, fault) in zip(indices, pool.map(cases.run, indices)):
                 statuses[status] += 1
                 if (index + 1) % 1000 == 0:
-                    print(f"{index + 1}: {failed} failed, {time.monotonic() - start:.0f} s", flush=True)
+                    seconds = time.monotonic() - start
+                    print(f"{index + 1}: {failed} failed, {seconds:.0f} s", flush=True)
                 if fault:
                     failed += 1
                     print(f"case {index} ({sample}, {ways}): {fault}", flush=True)
                     if options.keep:
                         options.keep.mkdir(parents=True, exist_ok=True)
                         cases.make(index, options.keep)
-    print(f"seed {options.seed}, cases {indices.start} to {indices.stop - 1}, {time.monotonic() - start:.0f} s: "
+    print(f"seed {options.seed}, cases {indices.start} to {indices.stop - 1}, "
+          f"{time.monotonic() - start:.0f} s: "
           f"{failed} failed; exit statuses {dict(statuses)}")
     return 1 if failed else 0
 

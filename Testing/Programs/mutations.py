@@ -1,25 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ways to break a file. Each takes a random generator and the file's bytes, and returns other bytes."""
+"""Ways to break a file. Each takes a random generator and the file's bytes, and returns other
+bytes."""
 import re
 
-NUMBERS = (b"0", b"-1", b"1", b"7", b"255", b"2147483647", b"2147483648", b"4294967296", b"1000000000000000",
-           b"9223372036854775807", b"18446744073709551616", b"-9223372036854775808", b"nan", b"inf", b"-inf",
+NUMBERS = (b"0", b"-1", b"1", b"7", b"255", b"2147483647", b"2147483648", b"4294967296",
+           b"1000000000000000", b"9223372036854775807", b"18446744073709551616",
+           b"-9223372036854775808", b"nan", b"inf", b"-inf",
            b"1e39", b"1e60", b"1e400", b"1e-320", b"x", b"")
-INTEGERS = (0, 1, 0x7F, 0x80, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 10**9, 10**15, 2**63 - 1, 2**64 - 1)
+INTEGERS = (0, 1, 0x7F, 0x80, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 10**9, 10**15,
+            2**63 - 1, 2**64 - 1)
 # Each word is exchanged for another of its group.
-WORDS = ((b"Int8", b"UInt8", b"Int16", b"Int32", b"UInt32", b"Int64", b"UInt64", b"Float32", b"Float64", b"String",
-          b"Bit", b"IdType"),
+WORDS = ((b"Int8", b"UInt8", b"Int16", b"Int32", b"UInt32", b"Int64", b"UInt64", b"Float32",
+          b"Float64", b"String", b"Bit", b"IdType"),
          (b"ascii", b"binary", b"appended"), (b"LittleEndian", b"BigEndian"),
-         (b"vtkZLibDataCompressor", b"vtkLZ4DataCompressor", b"vtkLZMADataCompressor", b"vtkNoDataCompressor"),
+         (b"vtkZLibDataCompressor", b"vtkLZ4DataCompressor", b"vtkLZMADataCompressor",
+          b"vtkNoDataCompressor"),
          (b"UnstructuredGrid", b"PolyData", b"ImageData", b"PUnstructuredGrid"),
          (b"connectivity", b"offsets", b"types", b"faces", b"faceoffsets"),
-         (b"Points", b"Cells", b"PointData", b"CellData", b"Polys", b"Verts", b"DataArray", b"Piece", b"FieldData"),
-         (b"POINTS", b"CELLS", b"CELL_TYPES", b"POLYGONS", b"OFFSETS", b"CONNECTIVITY", b"POINT_DATA", b"CELL_DATA",
-          b"FIELD", b"METADATA", b"SCALARS", b"LINES"),
-         (b"ASCII", b"BINARY"), (b"double", b"float", b"int", b"long", b"char", b"vtktypeint64", b"bit", b"string"),
+         (b"Points", b"Cells", b"PointData", b"CellData", b"Polys", b"Verts", b"DataArray",
+          b"Piece", b"FieldData"),
+         (b"POINTS", b"CELLS", b"CELL_TYPES", b"POLYGONS", b"OFFSETS", b"CONNECTIVITY",
+          b"POINT_DATA", b"CELL_DATA", b"FIELD", b"METADATA", b"SCALARS", b"LINES"),
+         (b"ASCII", b"BINARY"),
+         (b"double", b"float", b"int", b"long", b"char", b"vtktypeint64", b"bit", b"string"),
          (b"UNSTRUCTURED_GRID", b"POLYDATA", b"STRUCTURED_POINTS"), (b"5.1", b"4.2", b"2.0"),
          (b"facet", b"vertex", b"endloop", b"endsolid", b"solid"),
-         (b"element", b"property", b"vertex", b"face", b"end_header"), (b"hex", b"tet", b"pyr", b"quad", b"line"))
+         (b"element", b"property", b"vertex", b"face", b"end_header"),
+         (b"hex", b"tet", b"pyr", b"quad", b"line"))
 
 
 def truncated(random, data):
@@ -75,7 +82,8 @@ def lines_swapped(random, data):
 
 
 def word_replaced(random, data):
-    found = [(match, group) for group in WORDS for word in group for match in re.finditer(re.escape(word), data)]
+    found = [(match, group) for group in WORDS for word in group
+             for match in re.finditer(re.escape(word), data)]
     if not found:
         return bits_flipped(random, data)
     match, group = random.choice(found)
@@ -88,19 +96,22 @@ def tag_broken(random, data):
     if not found:
         return part_removed(random, data)
     one = random.choice(found)
-    return data[:one.start()] + random.choice((b"", b"<", b"</Piece>", b">", b'"')) + data[one.end():]
+    broken = random.choice((b"", b"<", b"</Piece>", b">", b'"'))
+    return data[:one.start()] + broken + data[one.end():]
 
 
 def noise(random, data):
-    return random.choice((b"", b"\0" * 1000, bytes(random.randrange(256) for _ in range(random.randrange(3000))),
-                          b"<?xml version='1.0'?>\n<VTKFile/>\n", b"# vtk DataFile Version 5.1\n\nASCII\n",
-                          b"solid\nfacet\n", b"ply\nformat ascii 1.0\nend_header\n", b"<a>" * 100000,
+    return random.choice((b"", b"\0" * 1000,
+                          bytes(random.randrange(256) for _ in range(random.randrange(3000))),
+                          b"<?xml version='1.0'?>\n<VTKFile/>\n",
+                          b"# vtk DataFile Version 5.1\n\nASCII\n", b"solid\nfacet\n",
+                          b"ply\nformat ascii 1.0\nend_header\n", b"<a>" * 100000,
                           data[:random.randrange(len(data))] + b"\xff" * 500))
 
 
-MUTATIONS = (truncated, truncated, bits_flipped, bits_flipped, bits_flipped, number_replaced, number_replaced,
-             integer_replaced, part_removed, part_doubled, line_removed, lines_swapped, word_replaced, word_replaced,
-             tag_broken, noise)
+MUTATIONS = (truncated, truncated, bits_flipped, bits_flipped, bits_flipped, number_replaced,
+             number_replaced, integer_replaced, part_removed, part_doubled, line_removed,
+             lines_swapped, word_replaced, word_replaced, tag_broken, noise)
 
 
 def broken(random, data):

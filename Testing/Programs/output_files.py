@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What morph-mesh writes: a whole file, or none and the old one stays - after a kill at any moment, on a full disk, and
-where a file must not be changed; links, mode and owner stay.
+"""What morph-mesh writes: a whole file, or none and the old one stays. Tested after a kill at any
+moment, on a full disk, and where a file must not be changed. Links, mode and owner stay.
 
-Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models> python3 output_files.py
-MORPH_TEST_SEED sets another seed of the moments at which the program is killed; MORPH_TEST_KILLS their number.
+Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models>
+         python3 output_files.py
+MORPH_TEST_SEED sets another seed of the moments at which the program is killed; MORPH_TEST_KILLS
+their number.
 """
 import os
 import random
@@ -31,7 +33,8 @@ class OutputFiles(unittest.TestCase):
         cls.common = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.common.cleanup)
         cls.boundary = Path(cls.common.name) / "boundary.vtp"
-        subprocess.run([PROGRAM, "--extract-boundary", GRID, cls.boundary], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "--extract-boundary", GRID, cls.boundary], check=True,
+                       stdout=subprocess.DEVNULL)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -46,7 +49,8 @@ class OutputFiles(unittest.TestCase):
 
     def whole(self, path):
         """Another run reads it."""
-        return self.run_program([PROGRAM, "--extract-boundary", str(path), str(path) + ".check.vtp"]).returncode == 0
+        command = [PROGRAM, "--extract-boundary", str(path), str(path) + ".check.vtp"]
+        return self.run_program(command).returncode == 0
 
     def fails(self, result, message):
         self.assertEqual(result.returncode, 1, result.stderr)
@@ -67,11 +71,13 @@ class OutputFiles(unittest.TestCase):
         for name, command in self.commands():
             self.run_program(command, check=True)
             size = (self.folder / name).stat().st_size
-            for limit in (0, 1, size // 2, size * 19 // 20):  # the file holds seconds, so that its size varies
+            # The file holds seconds, so that its size varies.
+            for limit in (0, 1, size // 2, size * 19 // 20):
                 with self.subTest(name=name, limit=limit):
                     (self.folder / name).write_bytes(b"old")
-                    result = self.run_program(command, preexec_fn=lambda limit=limit: resource.setrlimit(
-                        resource.RLIMIT_FSIZE, (limit, limit)))
+                    limits = resource.RLIMIT_FSIZE, (limit, limit)
+                    result = self.run_program(
+                        command, preexec_fn=lambda limits=limits: resource.setrlimit(*limits))
                     self.fails(result, "File too large")
                     self.assertEqual((self.folder / name).read_bytes(), b"old")
                     self.only(name)
@@ -81,7 +87,8 @@ class OutputFiles(unittest.TestCase):
         for name, command in self.commands():
             for size in ("4k", "16k", "40k"):  # of what is free besides the old file
                 with self.subTest(name=name, size=size):
-                    disk = self.run_program(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(self.folder)])
+                    disk = self.run_program(["mount", "-t", "tmpfs", "-o", f"size={size}", "none",
+                                             str(self.folder)])
                     if disk.returncode != 0:
                         self.skipTest("no right to mount a small disk")
                     try:
@@ -99,7 +106,8 @@ class OutputFiles(unittest.TestCase):
         before = output.stat()
         if moment is None:  # as soon as the folder shows that it writes
             names = set(os.listdir(self.folder))
-            while program.poll() is None and set(os.listdir(self.folder)) == names and output.stat() == before:
+            while (program.poll() is None and set(os.listdir(self.folder)) == names
+                   and output.stat() == before):
                 pass
             time.sleep(self.random.expovariate(2000))
         else:
@@ -120,7 +128,8 @@ class OutputFiles(unittest.TestCase):
             ended = 0
             for i in range(KILLS // len(OUTPUTS)):
                 output.write_bytes(old)
-                ended += self.kill(None if i % 2 else self.random.uniform(0, 1.2 * duration), command, output)
+                delay = None if i % 2 else self.random.uniform(0, 1.2 * duration)
+                ended += self.kill(delay, command, output)
                 with self.subTest(name=name, kill=i):
                     self.assertTrue(output.read_bytes() == old or self.whole(output))
             self.assertLess(ended, KILLS // len(OUTPUTS))
@@ -176,7 +185,8 @@ class OutputFiles(unittest.TestCase):
         self.fails(self.run_program(self.command(self.folder / "folder.vtu")), "no regular file")
         os.symlink("/dev/null", self.folder / "device.vtk")
         self.fails(self.run_program(self.command(self.folder / "device.vtk")), "no regular file")
-        self.fails(self.run_program(self.command(self.folder / "none" / "out.vtu")), "No such file or directory")
+        self.fails(self.run_program(self.command(self.folder / "none" / "out.vtu")),
+                   "No such file or directory")
 
     def test_what_is_read_only_stays(self):
         output = self.folder / "out.vtu"
