@@ -36,7 +36,7 @@ Eigen::RowVector3d meanOfRows(const Points& points)
   return sumOfRows(points) / static_cast<double>(std::max<Index>(points.rows(), 1));
 }
 
-/// Of second moments, and their rank.
+/// Returns the pseudo-inverse of second moments, and their rank.
 std::pair<Eigen::Matrix3d, int> pseudoInverse(const Eigen::Matrix3d& moments)
 {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
@@ -69,8 +69,8 @@ AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Po
 
 AffineLeastSquares::AffineLeastSquares(const Points& rest)
 {
-  // Sums of differences: those of coordinates far from the origin would lose the digits that tell
-  // the points apart.
+  // Sum differences: sums of coordinates far from the origin would lose the digits that tell the
+  // points apart.
   Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
   if (rest.rows() > 0)
   {
@@ -111,7 +111,7 @@ void AffineLeastSquares::fitTranspose(
   {
     ofGradient.noalias() += (x.row(i) - this->centre_).transpose() * gradient.row(i);
   }
-  // The arms sum to zero, so that the mean within P needs no term of its own.
+  // The arms sum to zero, so the mean within P adds no term.
   const Eigen::Matrix3d ofP = this->inverse_ * ofGradient;
   for (Index i = 0; i < displacement.rows(); ++i)
   {

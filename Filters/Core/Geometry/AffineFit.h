@@ -7,16 +7,18 @@
 
 namespace morph
 {
-/// The affine displacement field u(x) = u_c + (x - c) G nearest to given displacements in the sense
-/// of least squares, of minimum norm where the points lie in a plane, on a line or in one point.
-/// Zero for zero displacements, and linear in them. Cost: one pass.
+/// The affine displacement field u(x) = u_c + (x - c) G that fits given displacements by least
+/// squares. G has minimum norm where the points lie in a plane, on a line or in one point. The fit
+/// is linear in the displacements. Cost: one pass.
 class AffineFit
 {
 public:
-  /// `rest`: all nodes; `ids`: those with a displacement; `displacement`: #ids x 3.
+  /// `rest`: undeformed nodes, #nodes x 3; `ids`: nodes with a displacement; `displacement`: #ids x
+  /// 3.
   AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement);
-  /// From sums over the points x with displacements d: c their mean position, m their mean
-  /// displacement, `spread` the sum of (x - c)^T (x - c) and `stretch` that of (x - c)^T (d - m).
+  /// Builds the fit from sums over points x with displacements d. `centre`, c: their mean position;
+  /// `mean`, m: their mean displacement; `spread`: sum of (x - c)^T (x - c); `stretch`: sum of (x -
+  /// c)^T (d - m).
   AffineFit(const Eigen::RowVector3d& centre, const Eigen::RowVector3d& mean,
     const Eigen::Matrix3d& spread, const Eigen::Matrix3d& stretch);
 
@@ -26,7 +28,7 @@ public:
     return this->mean_ + (x - this->centre_) * this->gradient_;
   }
 
-  /// G, 3 x 3: positions, as rows, are multiplied by I + G.
+  /// Returns G, 3 x 3: a position, as a row vector, is multiplied by I + G.
   const Eigen::Matrix3d& gradient() const { return this->gradient_; }
 
 private:
@@ -37,34 +39,32 @@ private:
   Eigen::Matrix3d gradient_;
 };
 
-/// What is the same for all displacements of one set of points: the fit as a fixed matrix, and its
-/// adjoint.
+/// The affine fit for many displacements of one point set, as a fixed matrix, and its adjoint.
 class AffineLeastSquares
 {
 public:
   AffineLeastSquares() = default;
-  /// `rest`: #points x 3, copied; without points every fit is zero. Directions in which the points
-  /// extend less than 1e-5 of their largest extent (root mean square) count as flat: the fit's
-  /// gradient vanishes along them.
+  /// `rest`: undeformed points, #points x 3, copied. Without points every fit is zero. A direction
+  /// is flat where the points' root mean square extent is below 1e-5 of the largest. The fit's
+  /// gradient vanishes along flat directions.
   explicit AffineLeastSquares(const Points& rest);
 
-  /// Whether points with this second moment along an axis, and `largest` along another, count as
-  /// extended there: a ratio of 1e-5 in extent.
+  /// Whether the second moment `moment` exceeds 1e-10 of `largest`, a ratio of 1e-5 in extent.
   static bool isExtended(double moment, double largest) { return moment > 1e-10 * largest; }
 
-  /// 3 for points in space, 2 in a plane, 1 on a line, 0 in one place.
+  /// The dimension the points span: 3 in space, 2 in a plane, 1 on a line, 0 in one point.
   int rank() const { return this->rank_; }
 
   /// `displacement`: #points x 3.
   AffineFit fit(const Points& displacement) const;
 
-  /// The adjoint of displacement -> sum over rows i of gradient_i . fit(displacement)(x_i), for the
-  /// places `x` (#x x 3) and gradients `gradient` (#x x 3): adds to `displacement` (#points x 3).
-  /// Cost: one pass over each.
+  /// The adjoint of fit(): differentiates the sum of gradient_i . fit(displacement)(x_i) over rows
+  /// i. `x`, `gradient`: #x x 3. Adds the derivative to `displacement`, #points x 3. Cost: one pass
+  /// over each.
   void fitTranspose(const Points& x, const Points& gradient, Points& displacement) const;
 
 private:
-  Points arms_; ///< rest - centre
+  Points arms_; ///< undeformed points relative to centre_
   Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero();
   /// pseudo-inverse of the arms' second moments
   Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero();

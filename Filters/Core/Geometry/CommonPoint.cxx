@@ -15,16 +15,16 @@ namespace
 {
 constexpr int Projections = 200;
 constexpr double Margin =
-  1e-9; // of the half-spaces' size, by which a point in double has to lie inside
+  1e-9; // minimum depth of a point found in double, relative to the half-spaces' size
 
-/// A plane with its unit normal: inside is normal . v > offset.
+/// A plane with unit normal: its inner side is normal . v > offset.
 struct Plane
 {
   Eigen::RowVector3d normal;
   double offset;
 };
 
-/// Projects a point onto the half-space it violates most, again and again.
+/// Projects a point repeatedly onto the half-space that it violates most.
 bool findByProjection(const std::vector<HalfSpace>& halfSpaces)
 {
   Eigen::RowVector3d v = Eigen::RowVector3d::Zero(), low = halfSpaces[0][0], high = low;
@@ -67,7 +67,7 @@ bool findByProjection(const std::vector<HalfSpace>& halfSpaces)
     {
       return true;
     }
-    // A little farther than the plane.
+    // Steps slightly beyond the plane.
     v += (-depth + 0.01 * size) * worst->normal;
   }
   return false;
@@ -86,7 +86,7 @@ ExactVector minus(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b)
   return result;
 }
 
-/// Maximises the room s <= 1 that all half-spaces leave, n . v - s >= n . p.
+/// Maximises the slack s <= 1 in n . v - s >= n . p over all half-spaces.
 bool findByLinearProgram(const std::vector<HalfSpace>& halfSpaces)
 {
   CGAL::Quadratic_program<Exact> program(CGAL::LARGER, false, Exact(0), false, Exact(0));

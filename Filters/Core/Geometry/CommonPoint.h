@@ -8,12 +8,11 @@
 
 namespace morph
 {
-/// Three points p, q, r: the open half-space of the points v with (p - v) . ((q - v) x (r - v)) >
-/// 0.
+/// Points p, q, r: the open half-space of all v with (p - v) . ((q - v) x (r - v)) > 0.
 using HalfSpace = std::array<Eigen::RowVector3d, 3>;
 
-/// Whether a point lies in all of these half-spaces. False only where that is proved: by a linear
-/// program over exact numbers (CGAL), which is asked where a few projections in double have not
-/// found such a point. True where a coordinate is not finite.
+/// Whether the half-spaces have a common point. First, a few projections in double search for one.
+/// If they fail, a linear program in exact arithmetic (CGAL) decides, so false is proved. Returns
+/// true where a coordinate is not finite.
 bool haveCommonPoint(const std::vector<HalfSpace>& halfSpaces);
 }

@@ -10,10 +10,10 @@ namespace morph
 {
 namespace
 {
-constexpr double Tolerance = 1e-7; // its square is still well above the rounding of dot products
+constexpr double Tolerance = 1e-7; // its square is well above the rounding of dot products
 constexpr int MostPasses = 1000;
 
-/// Up to four vectors whose hull holds, inside it, the point of that hull nearest to the origin.
+/// A corral: up to four vectors whose hull has its point nearest to the origin in its interior.
 class Corral
 {
 public:
@@ -31,8 +31,8 @@ public:
     return this->vectors_.leftCols(this->size_) * this->weights_.head(this->size_);
   }
 
-  /// Adds a vector that lies nearer to the origin's side than the nearest point, then drops those
-  /// not needed.
+  /// Adds a vector on the origin's side of the nearest point, then drops vectors that are not
+  /// needed.
   void add(const Eigen::Vector3d& d)
   {
     this->vectors_.col(this->size_) = d;
@@ -40,7 +40,7 @@ public:
     for (;;)
     {
       const Eigen::Vector4d target = this->affineWeights();
-      // How far one can go from the present weights to the target before a weight turns negative.
+      // The largest step from the present weights to the target that keeps all weights positive.
       double step = 1;
       int leaving = -1;
       for (int i = 0; i < this->size_; ++i)
@@ -67,8 +67,7 @@ public:
   }
 
 private:
-  /// Weights of sum one of the point nearest to the origin in the plane, line or space through the
-  /// vectors.
+  /// Weights, of sum one, of the point nearest to the origin in the affine hull of the vectors.
   Eigen::Vector4d affineWeights() const
   {
     Eigen::Matrix4d A = Eigen::Matrix4d::Identity();
@@ -112,7 +111,7 @@ bool insideConvexHull(const Eigen::RowVector3d& x, const ConstPoints& points)
     const double length = v.norm();
     if (length <= Tolerance || corral.full())
     {
-      // four vectors with the nearest point inside their hull: that point is the origin
+      // The nearest point is inside the hull of four vectors, so it is the origin.
       return true;
     }
     Index lowest = 0;
@@ -129,7 +128,7 @@ bool insideConvexHull(const Eigen::RowVector3d& x, const ConstPoints& points)
     }
     if (least > Tolerance * length)
     {
-      return false; // all on one side of the plane through x normal to v
+      return false; // all points are on one side of the plane through x normal to v
     }
     corral.add(directions.row(lowest));
   }

@@ -5,10 +5,9 @@
 
 namespace morph
 {
-/// Whether `x` lies in the convex hull of `points` (#points x 3) or on it: whether no plane through
-/// x has all of them strictly on one side. In terms of the unit vectors from x to the points: their
-/// hull's point nearest to the origin is at most 1e-7 from it. That depends on directions alone, so
-/// it is the same after rotations and scaling, but for rounding. Wolfe's algorithm (Math.
-/// Programming 11 (1976) 128-149): usually fewer than ten passes over the points.
+/// Whether `x` lies in or on the convex hull of `points` (#points x 3). The test uses unit vectors
+/// from x to the points: it is true where the origin is within 1e-7 of their hull. So it is
+/// invariant to rotation and scaling, up to rounding. Source: Wolfe's algorithm (Math. Programming
+/// 11 (1976) 128-149). Cost: usually fewer than ten passes over the points.
 bool insideConvexHull(const Eigen::RowVector3d& x, const ConstPoints& points);
 }

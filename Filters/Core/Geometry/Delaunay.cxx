@@ -27,7 +27,7 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double FlatVolume =
-  1e-4; // 6 V over the cube of the longest edge: below, centres take exact arithmetic
+  1e-4; // 6 V / (longest edge)^3 below which a centre takes exact arithmetic
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
@@ -42,7 +42,7 @@ Point toPoint(const double* x)
   return Point(x[0], x[1], x[2]);
 }
 
-/// Differences from it are exact: x - y is where y / 2 <= x <= 2 y (Sterbenz).
+/// Differences from this origin are exact: x - y is exact where y / 2 <= x <= 2 y (Sterbenz).
 Eigen::RowVector3d exactOrigin(const Points& sites)
 {
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
@@ -61,8 +61,8 @@ Eigen::RowVector3d exactOrigin(const Points& sites)
   return origin;
 }
 
-/// Each site's number in its vertex's `info`. As CGAL inserts a range of points, but for chances to
-/// cancel.
+/// Builds the triangulation with each site's number in its vertex's `info`. Inserts the sites as
+/// CGAL inserts a range, but can be cancelled.
 Triangulation triangulated(const Points& sites, Monitor& monitor)
 {
   std::vector<Point> points;
@@ -91,8 +91,8 @@ Triangulation triangulated(const Points& sites, Monitor& monitor)
   return triangulation;
 }
 
-/// Numbers the cells inside the hull in their `info`, the others by Outside; returns how many are
-/// inside.
+/// Numbers the cells inside the hull in their `info`, and marks the others Outside. Returns the
+/// number inside.
 int numberCells(const Triangulation& triangulation)
 {
   int count = 0;
@@ -103,9 +103,9 @@ int numberCells(const Triangulation& triangulation)
   return count;
 }
 
-/// The origin lies surely, whatever the rounding, on the negative side of the triangle a, b, c.
-/// (Shewchuk, Discrete Comput. Geom. 18 (1997) 305-363: the error is below 7.8e-16 times the sum of
-/// the absolute products.)
+/// Whether the origin is certainly, despite rounding, on the negative side of the triangle a, b, c.
+/// The error is below 7.8e-16 times the sum of the absolute products (Shewchuk, Discrete Comput.
+/// Geom. 18 (1997) 305-363).
 bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c)
 {
   const double x[3] = { b[1] * c[2], b[2] * c[0], b[0] * c[1] };
@@ -116,13 +116,13 @@ bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Ei
     determinant += a[j] * (x[j] - y[j]);
     absolute += std::abs(a[j]) * (std::abs(x[j]) + std::abs(y[j]));
   }
-  // Seen from the origin the corners of a face turn the other way round: a positive determinant is
-  // the negative side.
+  // Seen from the origin, a face's corners have the opposite order: a positive determinant is the
+  // negative side.
   return determinant > 1e-15 * absolute;
 }
 
-/// In rational arithmetic: a flat tetrahedron's centre is the quotient of two differences that
-/// cancel almost wholly.
+/// Computes a circumcentre in rational arithmetic: for a flat tetrahedron it is a quotient of two
+/// differences that nearly cancel.
 Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
 {
   using Exact = CGAL::Exact_predicates_exact_constructions_kernel::Exact_kernel;
@@ -136,7 +136,7 @@ Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 
   return { CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z()) };
 }
 
-/// The corners of the face opposite to corner k, so that they and corner k are positively oriented.
+/// The face opposite corner k, ordered so that the face and corner k are positively oriented.
 constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
 }
 
@@ -177,7 +177,7 @@ void Delaunay::build(const Points& absolute, Monitor& monitor)
 
 int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
 {
-  int before = Outside; // the tetrahedron the walk came from: x is not back there
+  int before = Outside; // the previous tetrahedron: x is not on its side
   int here = start;
   while (true)
   {
@@ -208,7 +208,7 @@ int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
 
 int Delaunay::startNear(const Eigen::RowVector3d& x) const
 {
-  // The sample that balances its own cost with that of the walk.
+  // This sample size balances its own cost with that of the walk.
   const Index n = this->sites_.rows();
   const Index step =
     std::max<Index>(1, n / (4 * static_cast<Index>(std::cbrt(static_cast<double>(n))) + 1));

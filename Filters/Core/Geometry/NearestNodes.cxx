@@ -14,11 +14,11 @@ namespace
 {
 using Place = std::array<double, 3>;
 
-// Places in a block, in a block's blocks and so on: eighths, as the curve fills cubes.
+// Number of places per block at each level: a factor of eight, as the curve fills cubes.
 constexpr std::array<Index, 3> BlockLength = { 512, 64, 8 };
 constexpr Index LeafSize = 16;
 
-/// Rounding, generously: of a squared distance that several differences led to.
+/// Enlarges a squared distance to cover the rounding of the differences that led to it.
 double widened(double squaredDistance)
 {
   return squaredDistance * (1 + 1e-12) + std::numeric_limits<double>::min();
@@ -30,7 +30,7 @@ double squaredDistance(const double* a, const double* b)
   return x * x + y * y + z * z;
 }
 
-/// What nanoflann asks of a set of points.
+/// The point-set interface that nanoflann requires.
 struct Cloud
 {
   Points points;
@@ -53,8 +53,8 @@ struct Cloud
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
   3, std::uint32_t>;
 
-/// Receives points from the tree and keeps the k smallest squared distances, unsorted: linear in
-/// what comes in, where nanoflann's own sorted list is quadratic in k.
+/// A nanoflann result set that keeps the k smallest squared distances, unsorted. Its cost is linear
+/// in the points received; nanoflann's own sorted list is quadratic in k.
 class SmallestDistances
 {
 public:
@@ -77,7 +77,7 @@ public:
     return true;
   }
 
-  /// The k-th smallest; there must have been that many.
+  /// The k-th smallest distance; at least k must have been added.
   double largest()
   {
     this->shorten();
@@ -98,7 +98,7 @@ private:
   std::vector<double> distances_;
 };
 
-/// Receives every point within a radius.
+/// A nanoflann result set that receives every point within a radius.
 class WithinRadius
 {
 public:
@@ -125,14 +125,14 @@ private:
 template <typename Value>
 void makeRoom(std::vector<Value>& values, Index n)
 {
-  if (static_cast<Index>(values.size()) < n) // shrinking would mean to clear them over and over
+  if (static_cast<Index>(values.size()) < n) // never shrunk: growing again would clear it each time
   {
     values.resize(n);
   }
 }
 
-/// Nodes that may be neighbors of some place of a block, ascending: the first `count` of vectors
-/// that only grow.
+/// Nodes that may be neighbors of some place of a block, ascending. They are the first `count`
+/// entries of vectors that never shrink.
 struct Candidates
 {
   Index count = 0;
@@ -149,7 +149,7 @@ struct Candidates
   }
 };
 
-/// `distances`: the first `count` are set.
+/// Sets the first `count` entries of `distances`.
 void squaredDistances(const Candidates& candidates, const double* x, std::vector<double>& distances)
 {
   const Index n = candidates.count;
@@ -164,8 +164,8 @@ void squaredDistances(const Candidates& candidates, const double* x, std::vector
   }
 }
 
-/// The k-th smallest of n values, which are reordered. Counting them by size first leaves few to
-/// compare: comparisons of values in no order are mispredicted half the time.
+/// Returns the k-th smallest of n values and reorders them. Counting by size first leaves few
+/// comparisons, of which half would be mispredicted.
 double kthSmallest(double* values, Index n, Index k)
 {
   constexpr int Bins = 64;
@@ -197,9 +197,8 @@ double kthSmallest(double* values, Index n, Index k)
   return values[k - 1];
 }
 
-/// A ball round the box of consecutive places; its middle's k-th neighbor is at most `reach` away.
-/// Round the box, not only the places: the middles of the blocks inside must be in the ball as
-/// well.
+/// A ball around the bounding box of consecutive places. The k-th neighbor of its centre is at most
+/// `reach` away. It contains the box because it must also contain the centres of inner blocks.
 struct Block
 {
   Place middle;
@@ -230,7 +229,7 @@ Block blockAround(const Points& x, const Index* rows, Index n)
   return block;
 }
 
-/// Squared radius round the middle that holds every neighbor of every place of the block.
+/// Squared radius of a ball around the centre that holds every neighbor of the block's places.
 double squaredRadius(const Block& block)
 {
   const double radius = block.reach + 2 * block.radius;
@@ -274,7 +273,7 @@ struct NearestNodes::Implementation
   Tree tree;
 };
 
-/// One run over consecutive places, and its memory.
+/// A search over consecutive places, with its buffers.
 class NearestNodes::Run
 {
 public:
@@ -300,7 +299,7 @@ public:
   }
 
 private:
-  /// Places begin .. end - 1 of `outer`, whose candidates are in candidates_[level - 1].
+  /// Processes places begin to end - 1 of `outer`, whose candidates are candidates_[level - 1].
   void divide(Index begin, Index end, std::size_t level, const Block& outer)
   {
     if (level == BlockLength.size())
@@ -327,8 +326,8 @@ private:
     }
   }
 
-  /// Not less than the distance from x to its k-th neighbor: any k nodes are within their largest
-  /// distance, and those of the last place are likely to be near.
+  /// Returns an upper bound of the distance from x to its k-th neighbor. The largest distance to
+  /// any k nodes is a bound; the last place's neighbors are likely to be near.
   double reach(const double* x, const Block& outer)
   {
     const double fromOuter = outer.reach + std::sqrt(squaredDistance(x, outer.middle.data()));
@@ -347,8 +346,8 @@ private:
     return std::min(fromOuter, std::sqrt(largest));
   }
 
-  /// The k-th smallest of the first `count` distances_, all squared, given that it is at most the
-  /// square of `reach`.
+  /// Returns the k-th smallest of the first `count` distances_ (squared), which is at most `reach`
+  /// squared.
   double kthDistance(Index count, double reach)
   {
     makeRoom(this->nearDistances_, count);
@@ -364,7 +363,7 @@ private:
     return kthSmallest(near, m, this->k_);
   }
 
-  /// distances_ are those of `outer` from the middle of the block.
+  /// Selects the block's candidates; distances_ holds those of `outer` from the block's centre.
   void narrow(const Block& block, const Candidates& outer, Candidates& inner)
   {
     const double most = squaredRadius(block);
@@ -374,7 +373,7 @@ private:
     double *u = inner.coordinates[0].data(), *v = inner.coordinates[1].data(),
            *w = inner.coordinates[2].data();
     std::int32_t* nodes = inner.nodes.data();
-    // Every store goes to the next free place: a branch would be mispredicted half the time.
+    // Every store goes to the next free slot: half the branches would be mispredicted.
     Index m = 0;
     for (Index i = 0; i < outer.count; ++i)
     {
@@ -387,8 +386,8 @@ private:
     inner.count = m;
   }
 
-  /// Finds neighbors_ of x among the innermost candidates. `reach`: their largest distance, or
-  /// more.
+  /// Finds neighbors_ of x among the innermost candidates. `reach`: an upper bound of their
+  /// distances.
   void nearest(const double* x, double reach)
   {
     const Candidates& from = this->candidates_.back();
@@ -408,7 +407,7 @@ private:
 
     std::copy(nearDistances, nearDistances + m, d);
     const double largest = kthSmallest(d, m, this->k_);
-    // Of those as far as the k-th, the ones with the lowest numbers.
+    // Among nodes as far as the k-th, take the lowest numbers.
     Index ties = this->k_ - std::count_if(nearDistances, nearDistances + m,
                               [=](double e) { return e < largest; });
     this->neighbors_.reserve(this->k_ + 1);
@@ -437,7 +436,7 @@ private:
   Index k_;
   const Visit& visit_;
 
-  std::array<Candidates, BlockLength.size()> candidates_; ///< of the block at hand, level by level
+  std::array<Candidates, BlockLength.size()> candidates_; ///< of the current block, by level
   Candidates neighbors_;                                  ///< of the last place
   std::vector<double> neighborDistances_;                 ///< squared
   std::vector<double> distances_, nearDistances_;

@@ -10,14 +10,14 @@
 
 namespace morph
 {
-/// The k nearest of a set of nodes for many places at once. Exact: the k smallest by (squared
-/// distance, node number), as (x - a)^2 + (y - b)^2 + (z - c)^2 is rounded, so a result depends on
-/// neither threads nor on what else is asked for.
+/// Exact k nearest nodes for many places at once. Nodes are ordered by (squared distance, node
+/// number), where the distance is (x - a)^2 + (y - b)^2 + (z - c)^2 as rounded. So a result depends
+/// neither on threads nor on the other places.
 ///
-/// Places that follow each other along a space-filling curve share most of their neighbors. For a
-/// block of them with centre m and radius r the triangle inequality gives d_k(x) <= d_k(m) + |x -
-/// m|, hence one k-d tree search with radius d_k(m) + 2 r finds every neighbor of every place of
-/// the block; the rest is comparing distances in a short list.
+/// Places in sequence along a space-filling curve share most of their neighbors. For a block with
+/// centre m and radius r, the triangle inequality gives d_k(x) <= d_k(m) + |x - m|. So one k-d tree
+/// search with radius d_k(m) + 2 r finds all neighbors of the block's places. Each place then only
+/// compares distances in that short list.
 class NearestNodes
 {
 public:
@@ -34,10 +34,10 @@ public:
   };
   using Visit = std::function<void(Index row, const Neighbors& neighbors)>;
 
-  /// Calls visit(row, neighbors) for the places `x`.row(row), row = order[first] .. order[last -
-  /// 1], from the calling thread alone; several threads may search at once. `order` should keep
-  /// near places together (spatialOrder): any order is right, a random one slow. `k` >= 1; where
-  /// there are fewer nodes all of them are neighbors.
+  /// Calls visit(row, neighbors) for the places `x`.row(row), row = order[first] to order[last -
+  /// 1]. All calls come from the calling thread; several threads may search at once. `order` should
+  /// keep near places together (spatialOrder): another order is slower, with the same results. `k`
+  /// >= 1; if there are fewer nodes, all are neighbors.
   void search(const Points& x, const std::vector<Index>& order, Index first, Index last, Index k,
     const Visit& visit) const;
 

@@ -49,7 +49,7 @@ std::vector<Index> spatialOrder(const Points& points, const std::vector<Index>& 
     }
     keys.emplace_back(key, id);
   }
-  // Places that share a step go by their coordinates: by anything else the numbering would show.
+  // Nodes in one step are ordered by coordinates: any other order would depend on the numbering.
   std::stable_sort(keys.begin(), keys.end(),
     [&points](const auto& a, const auto& b)
     {

@@ -7,8 +7,8 @@
 
 namespace morph
 {
-/// `ids` along a space-filling curve (Morton's, 2^21 steps a side): nodes near in the list are near
-/// in space, whatever the mesh generator's numbering was. Equal places keep the order of `ids`.
-/// Cost: a sort.
+/// Sorts `ids` along a space-filling curve (Morton's, with 2^21 steps a side). Nodes near in the
+/// list are near in space, whatever their numbering. Nodes at one position keep their order in
+/// `ids`. Cost: a sort.
 std::vector<Index> spatialOrder(const Points& points, const std::vector<Index>& ids);
 }

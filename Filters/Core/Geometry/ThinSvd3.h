@@ -5,9 +5,9 @@
 
 namespace morph
 {
-/// Singular values and right singular vectors of a set of vectors, largest first. From an
-/// orthogonal factorisation, which keeps the digits that the sum of their squares would lose:
-/// extents down to 1e-15 of the largest are meant.
+/// Singular values and right singular vectors of a k x 3 matrix, largest first. An orthogonal
+/// factorisation keeps the digits that a sum of squares would lose. So it resolves extents down to
+/// 1e-15 of the largest.
 struct ThinSvd3
 {
   /// `vectors`: k x 3, finite.
@@ -15,6 +15,6 @@ struct ThinSvd3
 
   Eigen::Vector3d extent; ///< singular values
   Eigen::Matrix3d axes;   ///< columns: unit vectors
-  int dimension;          ///< extents that exceed 1e-11 of the largest
+  int dimension;          ///< number of extents above 1e-11 of the largest
 };
 }

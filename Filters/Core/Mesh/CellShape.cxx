@@ -11,7 +11,7 @@ constexpr FaceShape TetFaces[] = { { 3, { 0, 1, 3 } }, { 3, { 1, 2, 3 } }, { 3, 
   { 3, { 0, 2, 1 } } };
 constexpr FaceShape HexFaces[] = { { 4, { 0, 4, 7, 3 } }, { 4, { 1, 2, 6, 5 } },
   { 4, { 0, 1, 5, 4 } }, { 4, { 3, 7, 6, 2 } }, { 4, { 0, 3, 2, 1 } }, { 4, { 4, 5, 6, 7 } } };
-// Outward when the normal of (0, 1, 2) points towards (3, 4, 5), Verdict's positive wedge.
+// Outward where the normal of (0, 1, 2) points towards (3, 4, 5), as Verdict's positive wedge.
 constexpr FaceShape WedgeFaces[] = { { 3, { 0, 2, 1 } }, { 3, { 3, 4, 5 } }, { 4, { 0, 1, 4, 3 } },
   { 4, { 1, 2, 5, 4 } }, { 4, { 2, 0, 3, 5 } } };
 constexpr FaceShape PyramidFaces[] = { { 4, { 0, 3, 2, 1 } }, { 3, { 0, 1, 4 } },
@@ -27,7 +27,7 @@ constexpr double HexExtra[][3] = { { .5, 0, 0 }, { 1, .5, 0 }, { .5, 1, 0 }, { 0
   { .5, 0, 1 }, { 1, .5, 1 }, { .5, 1, 1 }, { 0, .5, 1 }, { 0, 0, .5 }, { 1, 0, .5 }, { 1, 1, .5 },
   { 0, 1, .5 }, { 0, .5, .5 }, { 1, .5, .5 }, { .5, 0, .5 }, { .5, 1, .5 }, { .5, .5, 0 },
   { .5, .5, 1 }, { .5, .5, .5 } };
-// VTK's biquadratic-quadratic hexahedron has the four side faces only, in the same order.
+// VTK's biquadratic-quadratic hexahedron has only the four side faces, in the same order.
 constexpr double WedgeExtra[][3] = { { .5, 0, 0 }, { .5, .5, 0 }, { 0, .5, 0 }, { .5, 0, 1 },
   { .5, .5, 1 }, { 0, .5, 1 }, { 0, 0, .5 }, { 1, 0, .5 }, { 0, 1, .5 }, { .5, 0, .5 },
   { .5, .5, .5 }, { 0, .5, .5 } };

@@ -5,7 +5,7 @@
 
 namespace morph
 {
-/// VTK's cell type numbers of the cells this library knows.
+/// VTK's cell type numbers for the cells that this library knows.
 enum CellType : std::uint8_t
 {
   EmptyCell = 0,
@@ -39,10 +39,10 @@ enum CellType : std::uint8_t
   BiquadraticTriangle = 34
 };
 
-/// The linear shape under a cell: what its corners span.
+/// The linear shape that a cell's corners span.
 enum class Shape : std::uint8_t
 {
-  Other, ///< dimension 0 to 2 without a measure here: passes through
+  Other, ///< of dimension 0 to 2, without a quality measure: kept as it is
   Tri,
   Quadrilateral,
   Tet,
@@ -51,15 +51,15 @@ enum class Shape : std::uint8_t
   Pyramid
 };
 
-/// A face of a volume cell, by the cell's corner numbers, outward by the right-hand rule when the
-/// cell is in VTK's order and not inverted.
+/// A face of a volume cell, by the cell's corner numbers. Its normal points outward by the
+/// right-hand rule for a valid cell in VTK's order.
 struct FaceShape
 {
   int size; ///< 3 or 4
   int corner[4];
 };
 
-/// The facts about one cell type. Corners come first in the node list of every type here.
+/// The properties of one cell type. Corners come first in the node list of every type here.
 struct CellShape
 {
   const char* name; ///< as in VTK: "hexahedron"
@@ -69,19 +69,19 @@ struct CellShape
   int numberOfCorners;
   int numberOfFaces; ///< of volume cells; 0 otherwise
   const FaceShape* faces;
-  /// Where corner i of the shape (VTK's hexahedron order) stands in the cell's node list: the
-  /// identity for all but voxels, whose third and fourth corners are exchanged.
+  /// Position of the shape's corner i (VTK's hexahedron order) in the cell's node list. It is the
+  /// identity except for voxels, whose third and fourth corners are exchanged.
   const int* cornerNode;
-  /// Nominal parametric coordinates of the nodes after the corners (mid-side, face, body),
+  /// Nominal parametric coordinates of the nodes after the corners (mid-side, face, body).
   /// (numberOfNodes - numberOfCorners) x 3; null where there are none or dimension < 3.
   const double (*extraNodes)[3];
 };
 
-/// Null for a type this library does not know (polyhedron, Lagrange, ...).
+/// Returns null for a type that this library does not know (polyhedron, Lagrange, ...).
 const CellShape* cellShape(std::uint8_t type);
 
-/// The linear shape functions N_a and their parametric gradients at `xi` (VTK's parametric
-/// coordinates, [0,1]).
-/// N: numberOfCorners values; dN: numberOfCorners x 3, or null. Volume shapes only.
+/// Evaluates the linear shape functions N_a and their parametric gradients at `xi`. Volume shapes
+/// only. `xi`: VTK's parametric coordinates, in [0, 1]. `N`: numberOfCorners values. `dN`:
+/// numberOfCorners x 3, or null.
 void shapeFunctions(Shape shape, const double xi[3], double* N, double (*dN)[3]);
 }

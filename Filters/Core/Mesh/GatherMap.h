@@ -10,14 +10,14 @@
 
 namespace morph
 {
-/// The inverse of a list of ids: for each of `nodes` nodes its place in `ids`, or -1.
+/// Returns the inverse of a list of ids: for each of `nodes` nodes its index in `ids`, or -1.
 std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index nodes);
 
-/// Where nodes are used: for each of `rows` rows the places p in [0, places) with rowOf(p) equal to
-/// it, ascending; places whose row is negative belong to none. Calls `rowOf` twice a place.
+/// Returns for each of `rows` rows the places p in [0, places) with rowOf(p) equal to the row.
+/// Places are ascending; a negative rowOf(p) leaves p out. Calls `rowOf` twice a place.
 Adjacency gatherMap(Index places, Index rows, const std::function<Index(Index place)>& rowOf);
 
-/// `result`: becomes #rows x 3, for each row the sum of `parts` (#places x 3) over its places, in
-/// their order: no thread shows.
+/// Sums `parts` (#places x 3) over each row's places into `result`, which becomes #rows x 3. The
+/// fixed order of each sum makes the result independent of threads.
 void gatherSum(const Adjacency& places, const Points& parts, Points& result, Monitor& monitor);
 }

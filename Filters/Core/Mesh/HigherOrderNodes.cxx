@@ -11,7 +11,7 @@ namespace morph
 {
 namespace
 {
-/// The least change of the weights N of the corners X after which they reproduce `target`; none
+/// Makes the smallest change of the weights N of the corners X that reproduces `target`. Makes none
 /// where the corners lie in a plane.
 void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target,
   Eigen::Ref<Eigen::VectorXd> N)
@@ -27,9 +27,8 @@ void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::
   }
 }
 
-/// Shape function values of the linear cell at `target`. Where the cell cannot be inverted there,
-/// those at `nominal`, changed so that they reproduce the target all the same: affine motions stay
-/// exact.
+/// Computes the linear cell's shape functions at `target`. Where the cell cannot be inverted, it
+/// takes those at `nominal`, changed to reproduce the target, so that affine motions stay exact.
 void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen::Vector3d& target,
   const double nominal[3], double* N)
 {
@@ -51,7 +50,7 @@ void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen:
     }
     const Eigen::Matrix3d J = X.transpose() * Corners(dN[0], n, 3);
     xi += J.inverse() * missing;
-    if (!((xi.array() - 0.5).abs() < 1.5).all()) // also when the inverse failed
+    if (!((xi.array() - 0.5).abs() < 1.5).all()) // true also where the inverse failed
     {
       break;
     }
@@ -89,7 +88,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
     {
       continue;
     }
-    // Relative to the first corner: far from the origin the cell would drown in rounding.
+    // Relative to the first corner: far from the origin, rounding would exceed the cell's size.
     const Eigen::RowVector3d origin = rest.points.row(rest.cell(c)[0]);
     double corners[8][3];
     for (int a = 0; a < shape->numberOfCorners; ++a)

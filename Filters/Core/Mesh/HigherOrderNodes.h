@@ -8,23 +8,24 @@
 
 namespace morph
 {
-/// The mid-side, face and body nodes of quadratic cells that nobody prescribes. They keep their
-/// place in the parametric cell: the linear cell through the corners is inverted at the node's rest
-/// position, and its shape functions there carry the corners' displacements over, so an affine
-/// motion carries curved edges along exactly. A node shared by several cells takes their mean.
-/// Where the cell cannot be inverted (the node far outside, no volume) the weights are those at the
-/// nominal place, with the least change after which affine motions stay exact (none in a cell of no
-/// volume).
+/// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed. Each node
+/// keeps its parametric position in the linear cell through the corners. The cell's shape functions
+/// there interpolate the corners' displacements, so affine motions move curved edges exactly. A
+/// node shared by several cells takes their mean.
+///
+/// If the parametric position cannot be found (a node far outside, a flat cell), the weights are
+/// those at the nominal position. The smallest change that reproduces affine motions exactly is
+/// added; a cell without volume gets none.
 class HigherOrderNodes
 {
 public:
-  /// Cost: a few Newton steps per higher-order node and cell.
+  /// Computes the weights from the undeformed mesh. Cost: a few Newton steps a node and cell.
   void prepare(const Mesh& rest, const NodePartition& partition);
   bool empty() const { return this->ids_.empty(); }
-  /// `displacement`: #nodes x 3; fills the higher-order nodes' rows from the corners' rows.
+  /// Fills the higher-order nodes' rows of `displacement` (#nodes x 3) from the corners' rows.
   void apply(Points& displacement) const;
-  /// Adds the higher-order nodes' rows to the corners' rows, by the same weights, and sets them to
-  /// zero.
+  /// The adjoint of apply(): adds the higher-order nodes' rows to the corners' rows by the same
+  /// weights, and sets them to zero.
   void applyTranspose(Points& gradient) const;
 
 private:

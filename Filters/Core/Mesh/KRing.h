@@ -7,15 +7,15 @@
 
 namespace morph
 {
-/// The k-ring neighborhood of a set of cells, for work on a part of a mesh.
+/// The k-ring neighborhood of a set of cells.
 struct KRing
 {
-  std::vector<Index> nodes; ///< free corners of the seeds and of the rings, ascending
+  std::vector<Index> nodes; ///< free corners of the seeds and of the first k rings, ascending
   std::vector<Index> cells; ///< all cells with such a corner, ascending
 };
 
-/// `seeds`: cell ids, with `rings` rings of cells round them. `around`: nodeToCells(); `free`: node
-/// ids, ascending. Cost: passes over the nodes and the patch.
+/// `seeds`: cell ids; `rings`: k; `around`: nodeToCells(mesh); `free`: node ids, ascending. Cost:
+/// passes over the nodes and the neighborhood.
 KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& seeds, int rings);
 }

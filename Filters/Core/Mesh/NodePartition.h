@@ -8,22 +8,22 @@
 
 namespace morph
 {
-/// Who moves how. Every node is in one of four groups: prescribed, free, higher-order, or none of
-/// them (a node that no volume cell uses): those stay.
+/// The nodes by how they move: prescribed, free, higher-order, or fixed. Fixed nodes are those that
+/// no volume cell uses; they are in none of the lists.
 struct NodePartition
 {
-  std::vector<Index> prescribed; ///< sorted, unique: the caller gives their new positions
-  std::vector<Index> free;       ///< sorted: corners of volume cells that the method solves for
-  /// sorted: mid-side, face and body nodes of quadratic cells, not prescribed
+  std::vector<Index> prescribed; ///< sorted, unique: the caller gives their positions
+  std::vector<Index> free;       ///< sorted: corners of volume cells, the method's unknowns
+  /// sorted: mid-side, face and body nodes of quadratic cells that are not prescribed
   std::vector<Index> higherOrderNodes;
 };
 
-/// Sorts and checks `prescribed` (Error naming ids that do not exist or come twice) and derives the
-/// rest.
+/// Sorts `prescribed` and derives the other groups. Throws Error naming ids that do not exist or
+/// occur twice.
 NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed);
 
-/// For methods that work through the mesh's connectivity: throws Error of kind Singular naming the
-/// first body none of whose corner nodes is prescribed.
+/// Throws Error of kind Singular unless each body has a prescribed corner node; the message names
+/// the first that has none. For methods that work through the mesh's connectivity.
 void requirePrescribedBodies(
   const Mesh& mesh, const ConnectedComponents& parts, const NodePartition& partition);
 }

@@ -9,7 +9,7 @@ namespace morph
 namespace
 {
 constexpr WeightedTet TetTets[] = { { { 0, 1, 2, 3 }, 1. } };
-// One tetrahedron at each corner and the two inner ones of the splits into five.
+// One tetrahedron at each corner, and the two inner ones of the splits into five.
 constexpr WeightedTet HexTets[] = { { { 0, 1, 3, 4 }, .5 }, { { 1, 2, 0, 5 }, .5 },
   { { 2, 3, 1, 6 }, .5 }, { { 3, 0, 2, 7 }, .5 }, { { 4, 7, 5, 0 }, .5 }, { { 5, 4, 6, 1 }, .5 },
   { { 6, 5, 7, 2 }, .5 }, { { 7, 6, 4, 3 }, .5 }, { { 0, 2, 7, 5 }, .5 }, { { 1, 3, 4, 6 }, .5 } };

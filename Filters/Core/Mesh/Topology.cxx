@@ -23,8 +23,8 @@ const CellShape* volumeShape(const Mesh& mesh, Index cell)
 
 constexpr Index NoNode = std::numeric_limits<Index>::max();
 
-/// The different corner nodes of a face in the face's order; a collapsed hexahedron repeats some.
-/// Returns how many.
+/// Collects the distinct corner nodes of a face in its order, and returns their number. Collapsed
+/// hexahedra repeat some.
 int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, Index nodes[4])
 {
   const FaceShape& f = shape.faces[face];
@@ -40,8 +40,8 @@ int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, In
   return size;
 }
 
-/// What two cells that share a face agree on: its corner nodes, ascending, then NoNode. Collapsed
-/// to an edge or a point, a face is none: its first entry is NoNode.
+/// The key that two cells sharing a face agree on: its corner nodes, ascending, padded with NoNode.
+/// The key of a face collapsed to an edge or a point starts with NoNode.
 std::array<Index, 4> faceKey(const Mesh& mesh, Index cell, const CellShape& shape, int face)
 {
   std::array<Index, 4> key = { NoNode, NoNode, NoNode, NoNode };
@@ -89,7 +89,7 @@ Adjacency nodeToCells(const Mesh& mesh)
 
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
 {
-  // Bucket the faces by their lowest corner; equal faces meet in one bucket.
+  // Buckets the faces by their lowest corner: equal faces are in one bucket.
   const Index nodes = mesh.numberOfNodes();
   const Index cells = mesh.numberOfCells();
   std::vector<Index> offsets(nodes + 1, 0);
@@ -120,7 +120,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   }
   monitor.check();
 
-  // Within a bucket, a face whose key comes once is on the boundary; the others are marked -1.
+  // In a bucket, a face whose key is unique is on the boundary; the others are marked -1.
   monitor.parallelFor(nodes, 4096,
     [&](Index first, Index last)
     {
@@ -161,7 +161,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   BoundaryFaces result;
   std::vector<std::uint8_t> onBoundary(
     nodes, 0);                               // 1: as a corner, 2: in the middle of an edge or face
-  std::vector<std::array<Index, 5>> middles; // such nodes and their corners
+  std::vector<std::array<Index, 5>> middles; // mid-side and face nodes with their corners
   result.offsets.reserve(faces.size() + 1);
   result.cells.reserve(faces.size());
   result.offsets.push_back(0);
@@ -182,7 +182,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
     {
       isOn[f.corner[k]] = true;
     }
-    // A mid-side or face node lies on the face where only the face's corners have a share in it.
+    // A mid-side or face node lies on the face if only the face's corners contribute to it.
     for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k)
     {
       double N[8];
@@ -259,7 +259,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
       Index low = root(mesh.cell(c)[0]);
       for (int k = 1; k < shape->numberOfCorners; ++k)
       {
-        if (parent[mesh.cell(c)[k]] == low) // nearly always, in a numbering with any order
+        if (parent[mesh.cell(c)[k]] == low) // nearly always true in an ordered numbering
         {
           continue;
         }
@@ -269,7 +269,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
       }
     }
   }
-  // Numbered in the order of their first cell.
+  // Numbers bodies in the order of their first cell.
   std::vector<Index> number(nodes, -1);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {

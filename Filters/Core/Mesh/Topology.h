@@ -10,29 +10,30 @@
 
 namespace morph
 {
-/// The faces of volume cells that belong to one cell alone, by their corners.
+/// The boundary faces: faces that belong to a single volume cell, by their corners.
 struct BoundaryFaces
 {
   std::vector<Index> offsets; ///< #faces + 1, into `connectivity`
   /// node ids, outward by the right-hand rule for cells in VTK's order
   std::vector<Index> connectivity;
   std::vector<Index> cells;        ///< #faces, the volume cell that owns the face
-  std::vector<std::uint8_t> sides; ///< #faces, its number among the cell's faces (CellShape::faces)
-  std::vector<Index> nodes; ///< sorted: every node on those faces, mid-side and face nodes included
-  /// #nodes: the corners of the edge or face whose middle the node is; none for a corner
+  std::vector<std::uint8_t> sides; ///< #faces, its number in CellShape::faces
+  std::vector<Index> nodes; ///< sorted: all nodes of these faces, including mid-side and face nodes
+  /// #nodes: corners of the edge or face whose middle the node is; empty for a corner
   Adjacency between;
 };
 
-/// For each node the volume cells it is a corner of, ascending, each once. Cost: two passes over
-/// the connectivity.
+/// Returns for each node the volume cells with this corner, ascending and unique. Cost: two passes
+/// over the connectivity.
 Adjacency nodeToCells(const Mesh& mesh);
 
-/// Faces used once. A face is told by the set of its corners: a collapsed quadrilateral is a
-/// triangle, and a face collapsed to an edge is none. Cost: one pass plus a sort of the faces by
-/// their lowest corner; works for unused points, several bodies, mixed cells and quadratic cells.
+/// Returns the faces that one cell alone uses. Faces are equal if their sets of corners are: a
+/// collapsed quadrilateral is a triangle. A face collapsed to an edge is left out. Allows unused
+/// points, several bodies, mixed and quadratic cells. Cost: a pass, and a sort of the faces by
+/// their lowest corner.
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor);
 
-/// Bodies: volume cells that hang together through shared corners.
+/// The bodies of a mesh: volume cells connected by shared corners.
 struct ConnectedComponents
 {
   Index count = 0;
@@ -42,9 +43,9 @@ struct ConnectedComponents
 };
 ConnectedComponents connectedComponents(const Mesh& mesh);
 
-/// +1 or -1 for each cell: the order its node list was written in, one sign per body and shape,
-/// from the summed signed volume; a single tet, hex or pyramid in a body is taken as VTK orders it
-/// (+1). A body mirrored as a whole, or wedges in VTK's older order, are then measured as valid,
-/// while a cell that is inverted among valid neighbors stays inverted. Cells below dimension 3: +1.
+/// Returns +1 or -1 for each cell: the orientation of its node list, one sign per body and shape.
+/// The sign is that of the summed signed volume. A single tet, hex or pyramid in a body has VTK's
+/// order (+1). So a wholly mirrored body, or wedges in VTK's older order, count as valid. A cell
+/// that is inverted among valid neighbors stays inverted. Cells below dimension 3 have +1.
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
 }

@@ -11,8 +11,9 @@ namespace morph
 {
 std::vector<Index> unknownOrdering(const Mesh& mesh, const std::vector<Index>& free)
 {
-  constexpr Index Small = 10000;       // fits a cache in any order
-  constexpr double FarShare = 1. / 16; // of all ids, as the mean span of a cell
+  constexpr Index Small = 10000; // fits a cache in any order
+  // mean span of a cell, as a share of all ids, that counts as far
+  constexpr double FarShare = 1. / 16;
   if (static_cast<Index>(free.size()) <= Small)
   {
     return free;

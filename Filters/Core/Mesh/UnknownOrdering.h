@@ -7,12 +7,12 @@
 
 namespace morph
 {
-/// The free nodes in the order of the matrix rows: by id where that keeps neighbors near in memory
-/// (structured meshes, swept ones), along a space-filling curve where it does not (Delaunay
-/// generators number at random: 2.5 times slower on 130,000 nodes). `free`: sorted. Cost: one pass
-/// over the cells, and a sort of the nodes in the second case.
+/// Orders the free nodes as matrix rows. Keeps the order of ids where neighbors are near in memory
+/// (structured and swept meshes). Otherwise sorts along a space-filling curve: Delaunay generators
+/// number at random, 2.5 times slower on 130,000 nodes. `free`: sorted. Cost: one pass over the
+/// cells, plus the sort.
 std::vector<Index> unknownOrdering(const Mesh& mesh, const std::vector<Index>& free);
 
-/// Where the node of a row stands in `free`, for rows = unknownOrdering(mesh, free).
+/// Returns the index in `free` of a row's node, for rows = unknownOrdering(mesh, free).
 Index indexInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row);
 }

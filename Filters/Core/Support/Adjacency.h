@@ -7,8 +7,7 @@
 
 namespace morph
 {
-/// A compressed list of lists: the entries of list i are values[offsets[i]] .. values[offsets[i +
-/// 1] - 1].
+/// A compressed list of lists: list i is values[offsets[i]] to values[offsets[i + 1] - 1].
 struct Adjacency
 {
   std::vector<Index> offsets;

@@ -8,15 +8,15 @@
 
 namespace morph
 {
-/// The one exception type of the core. The message says what is wrong, where (node or cell ids) and
-/// what to do about it.
+/// The one exception type of the core. Its message names the fault, the node or cell ids, and a
+/// remedy.
 class Error : public std::runtime_error
 {
 public:
   enum class Kind
   {
     InvalidInput,  ///< the caller's data cannot be used
-    Singular,      ///< the data leave the system without a unique solution
+    Singular,      ///< the data do not determine a unique solution
     NoConvergence, ///< the iteration stopped above the tolerance
     Cancelled      ///< Monitor::cancelled() returned true
   };
@@ -37,8 +37,7 @@ private:
   Kind kind_;
 };
 
-/// The matrix rows that have no positive diagonal: who assembled the matrix knows which nodes they
-/// are.
+/// A matrix has rows without a positive diagonal. The caller that assembled it knows their nodes.
 class SingularRows : public Error
 {
 public:
@@ -49,6 +48,6 @@ private:
   std::vector<std::int64_t> rows_;
 };
 
-/// "3, 7, 9" or "3, 7, 9, ... (120 in all)": the first few ids for a message.
+/// Formats the first `most` ids for a message: "3, 7, 9" or "3, 7, 9, ... (120 in all)".
 std::string listIds(const std::vector<std::int64_t>& ids, std::size_t most = 10);
 }

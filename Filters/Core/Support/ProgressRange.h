@@ -7,8 +7,8 @@
 
 namespace morph
 {
-/// A part of a longer computation: its progress from 0 to 1 is the whole's from `first` to `last`.
-/// It never runs backwards: what is less than was told before is not told.
+/// Maps the progress of a part, 0 to 1, to the range `first` to `last` of the whole. Reported
+/// progress never decreases.
 class ProgressRange : public Monitor
 {
 public:

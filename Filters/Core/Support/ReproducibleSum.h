@@ -8,8 +8,8 @@
 
 namespace morph
 {
-/// `zero` + the sum of body(i) over i in [0, n), perhaps by several threads. Sums are taken over
-/// blocks of fixed length and then block by block, so the threads do not show in the last bit.
+/// Returns `zero` + the sum of body(i) over i in [0, n); may use several threads. It first sums
+/// blocks of fixed length, then their sums, so threads cannot change the last bit.
 template <typename Value, typename Body>
 Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& body)
 {

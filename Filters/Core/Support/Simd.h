@@ -5,9 +5,8 @@
 
 namespace morph
 {
-/// Four numbers side by side, for the same operations on four things at once: whole vector
-/// registers with AVX, two of them without. Every operation is that of the single numbers, so
-/// results do not depend on the processor's registers.
+/// Vectors of four numbers: one AVX register, or two SSE registers. Each operation acts on the four
+/// numbers separately, so results do not depend on the processor.
 using SimdDouble4 = double __attribute__((vector_size(32)));
 using SimdFloat4 = float __attribute__((vector_size(16)));
 constexpr std::ptrdiff_t SimdWidth = 4;

@@ -28,10 +28,9 @@ __attribute__((target("avx2"))) void loopWithAvx2(Index first, Index last, Argum
 #endif
 }
 
-/// Body::run(i, arguments...) for i in [first, last), compiled for the widest registers this
-/// processor has. Body::run is a static function that is inlined always, and so is all it calls;
-/// without fused multiplication and addition it does the same operations everywhere, so results are
-/// the same to the last bit.
+/// Calls Body::run(i, arguments...) for i in [first, last), compiled for this processor's widest
+/// registers. Body::run is a static function; it and all that it calls must be always inlined.
+/// Without fused multiply-add every version does the same operations, so results agree bit for bit.
 template <typename Body, typename... Arguments>
 void dispatchedFor(Index first, Index last, Arguments&... arguments)
 {

@@ -7,8 +7,7 @@
 
 namespace morph
 {
-/// Functions on lanes are inlined always: they then use the registers that their caller is compiled
-/// for.
+/// These functions are always inlined, so they use the registers that their caller is compiled for.
 #define MORPH_SIMD_INLINE inline __attribute__((always_inline))
 
 MORPH_SIMD_INLINE SimdDouble4 load(const double (&x)[SimdWidth])
@@ -31,7 +30,7 @@ MORPH_SIMD_INLINE bool any(bool condition)
   return condition;
 }
 
-/// `mask`: of a comparison.
+/// `mask`: the result of a comparison.
 template <typename Mask>
 MORPH_SIMD_INLINE bool any(const Mask& mask)
 {
@@ -43,14 +42,14 @@ MORPH_SIMD_INLINE double inverseCubeRoot(double x)
   return 1 / std::cbrt(x);
 }
 
-/// x^(-1/3) of normal numbers above 0, to some units in the last place: a third of the exponent,
-/// then Newton's method.
+/// Computes x^(-1/3) of normal positive numbers, to a few units in the last place. The first guess
+/// divides the exponent by three; Newton's method refines it.
 MORPH_SIMD_INLINE SimdDouble4 inverseCubeRoot(const SimdDouble4& x)
 {
   using Integers = long long __attribute__((vector_size(32)));
-  constexpr double Magic = 0x1p52; // to it and from it integers below 2^52 are the mantissa
+  constexpr double Magic = 0x1p52; // adding it puts integers below 2^52 into the mantissa
   constexpr double Exponent =
-    1430257664. - 50000; // 4/3 of 1's upper word; less makes both errors of the guess alike
+    1430257664. - 50000; // 4/3 of 1's upper word, reduced to balance the guess's errors
   constexpr int Iterations = 5;
   const SimdDouble4 magic = { Magic, Magic, Magic, Magic };
   const Integers upper = (reinterpret_cast<Integers>(x) >> 32) | reinterpret_cast<Integers>(magic);

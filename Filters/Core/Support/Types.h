@@ -7,7 +7,7 @@
 
 namespace morph
 {
-using Index = std::int64_t; ///< node and cell ids; the same width as vtkIdType
+using Index = std::int64_t; ///< node and cell ids; as wide as vtkIdType
 
 /// n x 3 coordinates or vectors, one row per node: the memory layout of a double vtkPoints array.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
