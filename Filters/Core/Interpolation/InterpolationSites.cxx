@@ -17,7 +17,7 @@ namespace
 {
 constexpr double RelativeTolerance = 1e-12; // of the diagonal
 
-/// Groups of nodes that are one site: a forest in which every node leads to the first of its group.
+/// Groups of nodes that are one site: a forest whose roots are the first nodes of the groups.
 class Groups
 {
 public:
@@ -48,8 +48,8 @@ private:
   std::vector<Index> parent_;
 };
 
-/// Points by the cell of a regular grid they lie in, hashed: which cells are taken does not matter
-/// for the cost.
+/// A hash table of points by their cell in a regular grid. Its cost does not depend on which cells
+/// are occupied.
 class HashedGrid
 {
 public:
@@ -73,7 +73,7 @@ public:
     head = i;
   }
 
-  /// visit(i) for every point within `reach` of x in each coordinate, and perhaps for others.
+  /// Calls visit(i) for every point within `reach` of x in each coordinate, and perhaps for others.
   template <typename Visit>
   void near(const Eigen::RowVector3d& x, double reach, const Visit& visit) const
   {
@@ -101,7 +101,7 @@ private:
     Cell cell;
     for (int j = 0; j < 3; ++j)
     {
-      // Half a cell off: lattices then do not lie on the walls between cells.
+      // Half a cell off: lattice points then do not lie on the walls between cells.
       cell[j] = static_cast<std::int64_t>(std::floor((x[j] - this->low_[j]) / this->cell_ + .5));
     }
     return cell;
@@ -155,7 +155,7 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
   const double extent = diagonal(places);
   this->tolerance_ = RelativeTolerance * extent;
 
-  // Positions in canonical order, from here on.
+  // From here on, numbers are positions in canonical order.
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index(0));
   std::sort(order.begin(), order.end(),
@@ -172,8 +172,8 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
       return ids[a] < ids[b];
     });
 
-  // Cells far wider than the tolerance, so that looking round a node takes one cell, and far
-  // smaller than any mesh's edges.
+  // Cells far wider than the tolerance, so that a search visits one cell, and far smaller than mesh
+  // edges.
   const double cell = extent > 0 ? 1024 * this->tolerance_ : 1;
   HashedGrid grid(places.colwise().minCoeff(), cell, n);
   Groups groups(n);
@@ -188,7 +188,7 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
       }
     };
     grid.near(x, this->tolerance_, joinIfNear);
-    // One of several at a place finds the others: all of them in the grid would make a pile
+    // Of several nodes at one position, only one enters the grid: otherwise the cost would be
     // quadratic.
     if (i == 0 || (places.row(order[i - 1]).array() != x.array()).any())
     {

@@ -8,40 +8,40 @@
 
 namespace morph
 {
-/// The distinct places of the prescribed nodes, which is what the meshless methods interpolate
-/// between. Nodes within 1e-12 of the diagonal of the prescribed nodes' bounding box of each other,
-/// directly or through others, are one site.
+/// The distinct positions of the prescribed nodes, between which the meshless methods interpolate.
+/// Nodes are one site if a chain of distances of at most 1e-12 connects them. The unit is the
+/// diagonal of the prescribed nodes' bounding box.
 ///
-/// Sites are numbered by x, then y, then z of their coordinates, so neither the numbers nor the
-/// coordinates depend on how the nodes are numbered; no two sites have equal coordinates, so the
-/// order has no ties. A site lies at its node of smallest x, then y, then z.
+/// Sites are numbered by their coordinates x, y, z in lexicographic order, which has no ties. So
+/// numbers and coordinates do not depend on the nodes' numbering. A site has the coordinates of its
+/// first node in that order.
 class InterpolationSites
 {
 public:
   InterpolationSites() = default;
-  /// `points`: all nodes; `ids`: the prescribed ones, at least one. Throws Error where there is
-  /// none, or where the squares of the extents overflow or underflow. Cost: a sort of the ids;
-  /// independent of where the nodes lie.
+  /// `points`: all nodes, #nodes x 3; `ids`: the prescribed ones, at least one. Throws Error if
+  /// there is none, or if the squares of the extents overflow or underflow. Cost: a sort of the
+  /// ids, for any positions.
   InterpolationSites(const Points& points, const std::vector<Index>& ids);
 
   Index size() const { return this->coordinates_.rows(); }
-  /// #sites x 3.
+  /// Returns #sites x 3.
   const Points& coordinates() const { return this->coordinates_; }
-  /// For each site its places in `ids`, by coordinates as the sites are, nodes at equal coordinates
+  /// Returns for each site the indices of its nodes in `ids`, ordered by coordinates, equal ones
   /// ascending.
   const Adjacency& prescribed() const { return this->prescribed_; }
-  /// For each place in `ids` its site.
+  /// Returns for each index in `ids` its site.
   const std::vector<Index>& siteOf() const { return this->siteOf_; }
-  /// Length below which two places are one.
+  /// The length below which two positions are one site.
   double tolerance() const { return this->tolerance_; }
 
-  /// `prescribed`: #ids x 3 values, for instance displacements. Returns #sites x 3, the mean over
-  /// each site's nodes; bit for bit the node's own value where it is alone.
+  /// Averages values (`prescribed`: #ids x 3, for instance displacements) over each site's nodes.
+  /// Returns #sites x 3; a single node keeps its own value bit for bit.
   Points average(const Points& prescribed) const;
   /// The adjoint of average(): adds the transposed mean of `sites` (#sites x 3) to `prescribed`
   /// (#ids x 3).
   void scatterTranspose(const Points& sites, Points& prescribed) const;
-  /// Bytes kept.
+  /// Returns the bytes in use.
   std::size_t memory() const;
 
 private:

@@ -18,17 +18,17 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 256;
-constexpr Index Batch = 64 * Grain; // places between two looks at the monitor
+constexpr Index Batch = 64 * Grain; // places between two calls of the monitor
 
-/// Places with the same number of neighbors, along a space-filling curve.
+/// Places with the same number of neighbors, in the order of a space-filling curve.
 struct Group
 {
   Index neighbors;
   std::vector<Index> rows;
 };
 
-/// Searches the neighbors of a group by several threads and calls visit(row, neighbors) from them.
-/// `from`, `to`: progress.
+/// Searches a group's neighbors in several threads, which call visit(row, neighbors). `from`, `to`:
+/// progress.
 void searchGroup(const NearestNodes& nearest, const Points& places, const Group& group, double from,
   double to, Monitor& monitor, const NearestNodes::Visit& visit)
 {
@@ -43,7 +43,7 @@ void searchGroup(const NearestNodes& nearest, const Points& places, const Group&
   }
 }
 
-/// Whether the neighbors of a place surround it, or one of them alone decides.
+/// Whether the neighbors of a place surround it, or a single one decides.
 bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& x,
   const NearestNodes::Neighbors& neighbors)
 {
@@ -61,8 +61,8 @@ bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& 
   return insideConvexHull(x, around);
 }
 
-/// Moves the places that their neighbors do not surround on to groups of twice as many neighbors,
-/// and so on.
+/// Moves places that their neighbors do not surround to groups of twice as many neighbors,
+/// repeatedly.
 std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationSites& sites,
   const Points& places, Group all, Monitor& monitor)
 {
@@ -120,7 +120,7 @@ void writeRow(
   }
 }
 
-/// Distances must have squares.
+/// Throws Error if squares of distances overflow.
 void requireModerate(const Points& places)
 {
   const double largest = places.size() > 0 ? places.cwiseAbs().maxCoeff() : 0;

@@ -7,23 +7,23 @@
 
 namespace morph
 {
-/// Which sites have a weight at a place.
+/// The sites that have a weight at a place.
 struct Neighborhood
 {
   /// the nearest, by (distance, site number); at least 1, and all where there are fewer
   Index count = 80;
-  /// double `count` at each place until it lies in its neighbors' convex hull, or has all sites
+  /// doubles `count` at a place until its neighbors' hull contains it or all sites are included
   bool grows = false;
 };
 
-/// Weights |x - b_k|^-2 / sum_j |x - b_j|^-2 of the sites b_k nearest to each of the places x
-/// (`places`: #places x 3), as a matrix #places x #sites; columns ascending. A place within the
-/// tolerance of a site has weight 1 there (the nearest one). Equation (6) of Staten et al. (IMR
-/// 2011). Neither threads nor the order of the places show.
+/// Computes the inverse distance weights |x - b_k|^-2 / sum_j |x - b_j|^-2 of the sites b_k nearest
+/// to x. The result has a row for each of the `places` (#places x 3) and ascending columns. A place
+/// within the tolerance of a site has weight 1 at the nearest site. The weights do not depend on
+/// threads or on the order of the places. Progress runs from 0.1 to 1.
 ///
-/// Cost: O(log #sites + count) a place, see NearestNodes; where neighborhoods grow, a second search
-/// over all of them and a hull test (insideConvexHull) for each size tried. Throws Error where the
-/// memory does not suffice, and for coordinates of 1e150 and beyond. Progress runs from 0.1 to 1.
+/// Throws Error if memory does not suffice, and for coordinates of 1e150 and beyond. Cost: O(log
+/// #sites + count) a place (NearestNodes). Growing neighborhoods take a second search over them and
+/// a hull test (insideConvexHull) for each size. Source: equation (6) of Staten et al. (IMR 2011).
 WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
   const Neighborhood& neighborhood, Monitor& monitor);
 }

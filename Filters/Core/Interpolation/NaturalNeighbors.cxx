@@ -15,12 +15,11 @@ constexpr double PowerTolerance = 1e-14; // of the terms that cancel in a power 
 constexpr double HullTolerance = 1e-10;  // of the distance to a corner of the face
 constexpr double WorstResidual = 1e-8;   // of the distance to the neighbors
 constexpr double LeastWeight = -1e-8;
-constexpr double NoWeight = 1e-15; // sites that touch the cell at most in an edge
+constexpr double NoWeight = 1e-15; // sites that touch the cell in an edge or a vertex
 
 using Vector = Eigen::RowVector3d;
 
-/// The corners of the face opposite to corner k, seen from outside a positively oriented
-/// tetrahedron.
+/// The corners of the face opposite corner k, seen from outside a positively oriented tetrahedron.
 constexpr int OuterFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 }
 
@@ -52,7 +51,7 @@ NaturalNeighbors::Workspace::Workspace(const NaturalNeighbors& neighbors)
 {
 }
 
-/// Where the edge waits for its other half, or a free place.
+/// Returns the slot where the edge waits for its other half, or a free slot.
 NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int from, int to)
 {
   const std::int64_t key = static_cast<std::int64_t>(std::min(from, to)) << 32 | std::max(from, to);
@@ -72,8 +71,8 @@ NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int
   return edge;
 }
 
-/// Negative within the sphere, and 0 on it and within rounding of it: a site on the sphere takes
-/// and gives nothing.
+/// Returns a negative value inside the sphere, and 0 on it within rounding: a site on the sphere
+/// has no effect.
 double NaturalNeighbors::power(const Cell& cell, const Vector& x, double squaredNorm) const
 {
   const double product = cell.centre[0] * x[0] + cell.centre[1] * x[1] + cell.centre[2] * x[2];
@@ -107,8 +106,8 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
   }
 }
 
-/// Numbers the zone's sites, adds its inner faces' shares and lists its border; false where x is
-/// not inside the hull.
+/// Numbers the zone's sites, adds its inner faces' shares and lists its border. Returns false where
+/// x is not inside the hull.
 bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work) const
 {
   work.local_.clear();
@@ -139,12 +138,12 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
       const bool inner = next != Delaunay::Outside && work.zoneMark_[next] == work.query_;
       if (inner && (next < t || !volumes))
       {
-        continue; // once a face
+        continue; // each face once
       }
       const int a = number[OuterFaces[k][0]], b = number[OuterFaces[k][1]],
                 c = number[OuterFaces[k][2]];
       const Vector &A = work.place_[a], &B = work.place_[b], &C = work.place_[c];
-      Vector end; // of the dual edge, as far as it lies in the new cell
+      Vector end; // end of the dual edge's part in the new cell
       if (next == Delaunay::Outside)
       {
         const Vector normal = (B - A).cross(C - A);
@@ -180,8 +179,8 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
   return true;
 }
 
-/// The faces between the new cell and the old ones: one edge of each for every edge of the zone's
-/// border.
+/// Adds the faces between the new cell and the old ones. Each has an edge for every edge of the
+/// zone's border.
 void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
 {
   std::size_t room = std::max<std::size_t>(64, work.edges_.size());
@@ -218,8 +217,7 @@ void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
   }
 }
 
-/// Normalises the shares, drops those of nothing, checks and corrects what remains, and sorts it by
-/// site.
+/// Normalises the shares, drops zeros, checks and corrects the rest, and sorts by site.
 bool NaturalNeighbors::finish(Workspace& work)
 {
   double total = 0;
@@ -255,7 +253,7 @@ bool NaturalNeighbors::finish(Workspace& work)
     return false;
   }
 
-  // The least change, relative to each weight, after which they sum to 1 and reproduce x.
+  // The smallest relative change of the weights that makes them sum to 1 and reproduce x.
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   for (int i : work.order_)
   {

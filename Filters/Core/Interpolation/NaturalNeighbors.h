@@ -9,19 +9,19 @@
 
 namespace morph
 {
-/// The natural-neighbor coordinates of a point among the sites of a tessellation.
+/// Natural neighbor coordinates of a point among the sites of a tessellation.
 ///
 /// Sibson (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the point's Voronoi
-/// cell would take from that of the site. Laplace (Belikov et al., Comput. Math. Math. Phys. 37
-/// (1997) 9-15; Sukumar et al., IJNME 50 (2001) 1-27): the area of the face between both cells,
-/// over their distance. Both over their sum. They depend on the Voronoi diagram, which is unique,
-/// so not on how a tessellation of cospherical sites was chosen.
+/// cell would take from the site's. Laplace (Belikov et al., Comput. Math. Math. Phys. 37 (1997)
+/// 9-15; Sukumar et al., IJNME 50 (2001) 1-27): the area of the face between both cells over their
+/// distance. Both are divided by their sum. The Voronoi diagram is unique, so they do not depend on
+/// the tessellation of cospherical sites.
 ///
-/// The sites are those of the tetrahedra whose circumscribed spheres contain the point (its
-/// conflict zone). New Voronoi vertices lie on the Voronoi edges that cross the zone's border,
-/// where the point's power distance to the spheres at both ends says: no sphere is ever fitted
-/// through the point. Volumes and areas are sums over the zone's faces; what a face adds is linear
-/// in its dual edge, so the cost is linear in the zone.
+/// The neighbors are the sites of the tetrahedra whose circumscribed spheres contain the point (its
+/// conflict zone). New Voronoi vertices lie on the Voronoi edges that cross the zone's border. The
+/// point's power distances to the spheres at both ends determine where, so no sphere is fitted
+/// through the point. Volumes and areas are sums over the zone's faces. A face's contribution is
+/// linear in its dual edge, so the cost is linear in the zone.
 class NaturalNeighbors
 {
 public:
@@ -35,7 +35,7 @@ public:
   /// Keeps a reference to `delaunay`, and 64 bytes a tetrahedron.
   NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor);
 
-  /// What one thread needs, and its result: sites ascending, and their weights.
+  /// Buffers of one thread, and its result: sites, ascending, and their weights.
   class Workspace
   {
   public:
@@ -46,12 +46,12 @@ public:
   private:
     friend class NaturalNeighbors;
     using Vector = Eigen::RowVector3d;
-    struct Face ///< of the zone's border, as seen from outside
+    struct Face ///< of the zone's border, seen from outside
     {
       int corners[3]; ///< local numbers
       Vector vertex;  ///< the new Voronoi vertex on its dual edge, relative to the point
     };
-    struct HalfEdge ///< of a border face, waiting for its other half
+    struct HalfEdge ///< of a border face, until its other half is found
     {
       std::int64_t key = -1;
       int query = 0, face = -1;
@@ -59,7 +59,7 @@ public:
     HalfEdge& halfEdge(int from, int to);
 
     int query_ = 0;
-    std::vector<int> zoneMark_;   ///< #tetrahedra: +query in conflict, -query not
+    std::vector<int> zoneMark_;   ///< #tetrahedra: +query if in conflict, -query if not
     std::vector<double> power_;   ///< #tetrahedra: the power distance where marked
     std::vector<int> siteMark_;   ///< #sites: query where numbered
     std::vector<int> siteNumber_; ///< #sites: local number
@@ -72,17 +72,18 @@ public:
     std::vector<int> order_;
   };
 
-  /// The coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace; false,
-  /// leaving it undefined, where they do not exist or rounding spoils them: on or outside the hull,
-  /// or not reproducing x to 1e-8 of the distance to its neighbors. What is left of that error is
-  /// spread over the weights: they reproduce linear fields to rounding.
+  /// Computes the coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace.
+  /// Returns false, with an undefined result, where they do not exist or rounding spoils them. This
+  /// happens on or outside the hull, or if the error in x exceeds 1e-8 of the distance to its
+  /// neighbors. A smaller error is distributed over the weights, so they reproduce linear fields to
+  /// rounding.
   bool compute(
     const Eigen::RowVector3d& x, int inside, Coordinates coordinates, Workspace& workspace) const;
 
   std::size_t memory() const { return sizeof(Cell) * this->cells_.size(); }
 
 private:
-  /// A tetrahedron in one cache line; the power distance of x to its sphere is |x|^2 - 2 centre.x +
+  /// A tetrahedron in one cache line. The power distance of x to its sphere is |x|^2 - 2 centre.x +
   /// constant.
   struct alignas(64) Cell
   {
@@ -97,7 +98,7 @@ private:
   static bool finish(Workspace& workspace);
 
   Eigen::RowVector3d outer_ = Eigen::RowVector3d::Zero(); ///< Delaunay::origin()
-  /// Of all coordinates in here, relative to that: the middle of the sites.
+  /// The origin of all coordinates here, relative to outer_: the middle of the sites.
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   Points sites_;
   std::vector<Cell> cells_;

@@ -15,14 +15,14 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 256;
-constexpr double FlatVolume = 1e-13; // 6 V over the cube of the longest edge
+constexpr double FlatVolume = 1e-13; // 6 V / (longest edge)^3
 constexpr double InsideTolerance = PointLocation::InsideTolerance;
 constexpr double LinearPrecision = 1e-10; // of the sites' size
 constexpr std::size_t MostCandidates = 200;
 
 using Row = Eigen::RowVector3d;
 
-/// One tetrahedron as a coordinate system.
+/// A tetrahedron as a barycentric coordinate system.
 class Frame
 {
 public:
@@ -81,8 +81,8 @@ double residual(const Delaunay& delaunay, const Place& at, const Row& x)
   return (sum - x).norm();
 }
 
-/// The best of the tetrahedra around `start` that are not flat: through flat ones and over two more
-/// rings.
+/// Returns the best tetrahedron around `start` that is not flat, searching through flat ones and
+/// two more rings.
 Place bestAround(const Delaunay& delaunay, const Row& x, int start)
 {
   Place best;
@@ -114,7 +114,7 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
   return best;
 }
 
-/// As bestAround(), where the tetrahedron `found`, whose frame is at hand, does not do by itself.
+/// Tries the tetrahedron `found` with its `frame` first, then bestAround().
 Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
 {
   if (!frame.flat())
@@ -132,7 +132,7 @@ Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& fram
 PointLocation locatePoints(
   const Delaunay& delaunay, const Points& points, const std::vector<Index>& ids, Monitor& monitor)
 {
-  // spatialOrder gives node ids; the rows are wanted.
+  // Maps node ids, which spatialOrder() gives, to rows.
   std::vector<Index> rowOf(points.rows(), -1);
   for (std::size_t i = 0; i < ids.size(); ++i)
   {

@@ -9,18 +9,16 @@
 
 namespace morph
 {
-/// The tetrahedra of a tessellation that contain given nodes, and the nodes' barycentric
-/// coordinates there.
+/// Locates nodes in a tessellation: their tetrahedra and barycentric coordinates.
 ///
-/// Ties: a node on a face, an edge or a corner that several tetrahedra share goes to the one its
-/// walk reaches first; all of them interpolate alike there. Walks run along a space-filling curve
-/// over the nodes, in blocks of fixed length, so the choice depends on the places of nodes and
-/// sites alone. Tetrahedra flat to 1e-13 contain nothing: their neighbors do.
+/// Ties: a node on a shared face, edge or corner belongs to the tetrahedron that its walk reaches
+/// first. All candidates interpolate equally there. Walks follow a space-filling curve over the
+/// nodes in blocks of fixed length. So the choice depends only on the positions of nodes and sites.
+/// Tetrahedra flat to 1e-13 contain nothing; their neighbors contain their nodes.
 ///
-/// A node on the hull, or beyond it by rounding (coordinates above -1e-9), takes the nearest
-/// tetrahedron, the one in which its least coordinate is largest. The coordinates stay as they are
-/// rather than being cut off at 0, so that linear fields are reproduced exactly; beyond -1e-9 that
-/// is extrapolation, and counted.
+/// A node on the hull, or beyond it by rounding (coordinates above -1e-9), takes the tetrahedron in
+/// which its minimum coordinate is largest. Coordinates are not clipped at 0, so linear fields are
+/// reproduced exactly. Beyond -1e-9 this is extrapolation, and counted.
 struct PointLocation
 {
   static constexpr double InsideTolerance = 1e-9; ///< of a barycentric coordinate
@@ -31,8 +29,9 @@ struct PointLocation
   std::vector<Index> extrapolated; ///< ids of nodes outside the hull, ascending
 };
 
-/// `points`: all nodes; `ids`: those to find. Throws Error naming nodes that no tetrahedron near
-/// them can carry to 1e-10 of the sites' size. Cost: a microsecond a node, in parallel, and a sort.
+/// `points`: all nodes, #nodes x 3; `ids`: the nodes to find. Throws Error naming nodes that no
+/// nearby tetrahedron reproduces to 1e-10 of the sites' size. Cost: a microsecond a node, in
+/// parallel, and a sort.
 PointLocation locatePoints(
   const Delaunay& delaunay, const Points& points, const std::vector<Index>& ids, Monitor& monitor);
 }

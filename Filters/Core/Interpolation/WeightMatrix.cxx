@@ -16,15 +16,15 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr Index MostBlocks = 32;
-constexpr Index MostEntries = Index(1) << 36; // 800 GB: do not even ask for it
+constexpr Index MostEntries = Index(1) << 36; // 800 GB: not even requested
 
 using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-/// Four numbers a site are whole vector registers, three are none.
+/// Four numbers a site fill vector registers; three do not.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-/// Three numbers of the weighted sum of `n` sites. Two sums, so that an addition need not wait for
-/// the one before.
+/// Computes the weighted sum of `n` sites, three numbers each. Two partial sums avoid waiting for
+/// the preceding addition.
 inline __attribute__((always_inline)) void weightedSum(
   const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
 {
@@ -107,7 +107,8 @@ void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor)
 
 void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const
 {
-  // As many blocks as keep their sums smaller than the matrix; by sizes alone, never by threads.
+  // As many blocks as keep their sums smaller than the matrix. The number depends on sizes only,
+  // never on threads.
   const Index blocks = std::min(
     MostBlocks, std::max<Index>(1, this->entries() / (8 * std::max<Index>(1, this->columns()))));
   const Index length = (this->rows() + blocks - 1) / blocks;

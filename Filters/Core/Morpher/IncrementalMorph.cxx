@@ -18,15 +18,14 @@ BoundaryPath straightPath(const Points& rest, const NodePartition& partition, co
   }
   return [start, target](double time) -> Points
   {
-    // The end exactly, and so every node that does not move.
+    // Reaches the end exactly, and so keeps nodes that do not move.
     return time == 1 ? target : Points(start + time * (target - start));
   };
 }
 
 namespace
 {
-/// The last time, as far as halving down to `least` finds it, at which the boundary forbids
-/// nothing.
+/// Returns the last time at which the boundary forbids nothing, by bisection down to `least`.
 double lastAllowed(const SubStepLimits& limits)
 {
   double allowed = 0;
@@ -57,7 +56,7 @@ SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   double goal = 1, step = std::min(1., limits.first);
   if (limits.forbidden && !limits.forbidden(1).empty())
   {
-    // All of a shorter way may well do at once.
+    // The shorter way may succeed in one step.
     goal = step = lastAllowed(limits);
     result.isForbidden = true;
   }

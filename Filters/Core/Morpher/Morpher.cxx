@@ -31,7 +31,7 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   return some;
 }
 
-/// Those of `ids` whose row of `some` is not finite.
+/// Returns the `ids` whose row of `some` is not finite.
 std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
 {
   std::vector<Index> where;
@@ -45,7 +45,7 @@ std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
   return where;
 }
 
-/// The nodes that the partition does not name.
+/// Returns the nodes that are in no list of the partition.
 std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
   std::vector<bool> named(nodes);
@@ -79,7 +79,7 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
     throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
                                        "goes. Prescribe the boundary's nodes.");
   }
-  this->prepared_ = false; // until everything below belongs together
+  this->prepared_ = false; // until all members below are consistent
   this->rest_ = rest.points;
   this->partition_ = partition;
   this->outside_ = outside(partition, rest.points.rows());
@@ -161,7 +161,7 @@ EvaluateReport Morpher::evaluate(
                 ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
 
-  // A new array only where the caller's does not fit: making its pages takes longer than filling
+  // Allocates only if the caller's array does not fit: mapping new pages takes longer than filling
   // them.
   const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
                         prescribed.data() < moved.data() + moved.size();
@@ -200,7 +200,8 @@ EvaluateReport Morpher::evaluate(
       this->place(n, all.row(n), result);
     }
   }
-  // Rest plus displacement may differ from the given position in the last bit.
+  // The undeformed position plus the displacement may differ from the given position in the last
+  // bit.
   for (Index i = 0; i < prescribed.rows(); ++i)
   {
     result.row(ids[i]) = prescribed.row(i);
@@ -223,7 +224,7 @@ EvaluateReport LinearMorpher::applyTranspose(
   {
     throw Error("The gradient has entries that are not finite (NaN or infinite).");
   }
-  // Prescribed nodes go through no weights: what higher-order nodes hand to them is theirs as well.
+  // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
   this->higherOrderNodes_.applyTranspose(all);
   Points result = rowsOf(all, this->partition().prescribed);
   EvaluateReport report;

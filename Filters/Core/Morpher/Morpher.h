@@ -11,55 +11,54 @@
 
 namespace morph
 {
-/// A number that the method found worth telling, for instance how many nodes took a fall-back.
+/// A named count that a method reports, for instance nodes that took a fall-back.
 struct Statistic
 {
   std::string name;
   Index value = 0;
 };
 
-/// What the last evaluate or applyTranspose took.
+/// The cost of the last evaluate or applyTranspose.
 struct EvaluateReport
 {
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
-  double relativeResidual = 0; ///< largest over the three coordinates, 0 for direct formulas
-  double bytesMoved = 0;       ///< estimate of the memory traffic, for benchmarks
-  /// always the same names for a method; none where no node is free
+  double relativeResidual = 0; ///< maximum over the three coordinates, 0 for direct formulas
+  double bytesMoved = 0;       ///< estimated memory traffic, for benchmarks
+  /// the same names always for a method; empty where no node is free
   std::vector<Statistic> statistics;
 };
 
-/// A morphing method, one subclass per method. prepare() does all that depends on the undeformed
-/// mesh and on which nodes are prescribed; evaluate() moves the mesh for one set of prescribed
-/// positions and may be called any number of times, in any order: a result depends on the
-/// undeformed mesh, the partition, the options and the prescribed positions alone, never on the
-/// thread count or on earlier calls.
+/// A morphing method. prepare() does all work that depends on the undeformed mesh and the choice of
+/// prescribed nodes. evaluate() moves the mesh for one set of prescribed positions, any number of
+/// times, in any order. A result depends only on the undeformed mesh, the partition, the options
+/// and the prescribed positions. It never depends on the thread count or on earlier calls.
 ///
-/// Several threads may call evaluate(), and applyTranspose(), of one prepared object at once, each
-/// with its own Monitor and its own result: they get the same bits as one after another. prepare()
-/// and the setters need the object for themselves.
+/// Several threads may call evaluate() and applyTranspose() of one prepared object at once, each
+/// with its own Monitor and result. They get the same bits as serial calls. prepare() and the
+/// setters need exclusive access.
 class Morpher
 {
 public:
   virtual ~Morpher();
 
-  /// Keeps a copy of the rest points and of the partition (24 bytes per node and 8 per id) and lets
-  /// the method make its weights, matrices or tessellation. Throws Error for a mesh or partition it
-  /// cannot work with: no prescribed node, a body without one, cells it does not know, more
-  /// than 32 bits can number. Without a
-  /// free node every place is known: the method prepares nothing then, and evaluate() only moves
-  /// the prescribed nodes and their followers.
+  /// Copies the undeformed points and the partition (24 bytes a node and 8 an id), and builds the
+  /// method's weights, matrices or tessellation. Throws Error for a mesh or partition that the
+  /// method cannot use: no prescribed node, a body without one, unknown cells, counts beyond 32
+  /// bits. Without a free node the method prepares nothing. evaluate() then only moves the
+  /// prescribed and higher-order nodes.
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
 
-  /// `prescribed`: #prescribed x 3 new positions, in the order of NodePartition::prescribed.
-  /// `moved`: becomes #nodes x 3; prescribed nodes exactly as given, nodes outside the partition at
-  /// rest. Where nothing moves the rest positions come back bit for bit (smoothing towards ideal
-  /// shapes apart). Throws Error, leaving `moved` untouched, for a wrong number of rows, positions
-  /// that are not finite, given or found, or where no prepare() has succeeded last.
+  /// Moves the mesh. `prescribed`: #prescribed x 3 new positions, in the order of
+  /// NodePartition::prescribed. `moved`: becomes #nodes x 3. Prescribed nodes are exactly as given;
+  /// nodes outside the partition stay. Without motion the undeformed positions are returned bit for
+  /// bit, except by smoothing towards ideal shapes. Throws Error, leaving `moved` untouched, for a
+  /// wrong number of rows, for positions, given or computed, that are not finite, or unless the
+  /// last prepare() succeeded.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
-  /// For methods that aim for the shapes the cells have in some mesh, where that is not the
-  /// undeformed mesh: `reference`, #nodes x 3, their nodes there. Before prepare(); no rows: the
-  /// undeformed mesh. Ignored by methods that only follow the motion.
+  /// Sets the mesh whose cell shapes the method aims for, if not the undeformed mesh. `reference`:
+  /// #nodes x 3; no rows mean the undeformed mesh. Call it before prepare(). Methods that only
+  /// follow the motion ignore it.
   virtual void setReference(Points reference);
 
   const NodePartition& partition() const { return this->partition_; }
@@ -67,7 +66,7 @@ public:
 
 protected:
   virtual void doPrepare(const Mesh& rest, Monitor& monitor) = 0;
-  /// `prescribed`: #prescribed x 3 displacements, finite. `free`: #free x 3, to be filled with
+  /// `prescribed`: #prescribed x 3 displacements, finite. `free`: #free x 3, receives
   /// displacements.
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
@@ -78,7 +77,7 @@ protected:
   void requirePrepared() const;
 
 private:
-  /// #prescribed x 3; throws Error where it is not finite.
+  /// Returns #prescribed x 3; throws Error where it is not finite.
   Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;
   template <typename Displacement>
   void place(Index node, const Displacement& displacement, Points& result) const;
@@ -89,19 +88,18 @@ private:
   std::vector<Index> outside_;
 };
 
-/// A method whose free displacements are a fixed matrix times the prescribed ones: x_free = M
-/// x_prescribed.
+/// A method with a fixed matrix from prescribed to free displacements: u_free = M u_prescribed.
 class LinearMorpher : public Morpher
 {
 public:
-  /// The adjoint. `gradient`: #nodes x 3, d(objective)/d(position) of every node of the moved mesh.
-  /// `prescribed`: becomes #prescribed x 3, d(objective)/d(prescribed position), the prescribed
-  /// nodes' own gradient included: g_B + M^T g_I. Errors and cost: as evaluate().
+  /// The adjoint: converts a gradient over the moved mesh to one over the prescribed positions.
+  /// `gradient`: #nodes x 3, d(objective)/d(position). `prescribed`: becomes #prescribed x 3,
+  /// d(objective)/d(prescribed position) = g_B + M^T g_I. Errors and cost: as evaluate().
   EvaluateReport applyTranspose(
     const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const;
 
 protected:
-  /// `free`: #free x 3; adds M^T free to `prescribed` (#prescribed x 3).
+  /// Adds M^T free to `prescribed` (#prescribed x 3); `free`: #free x 3.
   virtual EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const = 0;
 };

@@ -21,7 +21,7 @@ double factorial(int n)
   return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-/// Appends all ways to share out each simplex's degree among its slots from `slot` on.
+/// Appends all ways to distribute each simplex's degree among its slots from `slot` on.
 void enumerate(const BernsteinDomain& domain, int slot, Degrees left, Exponents& exponents,
   std::vector<Exponents>& result)
 {

@@ -8,8 +8,8 @@
 
 namespace morph
 {
-/// The parametric domain of a volume cell as a product of simplices: a box is edge x edge x edge, a
-/// wedge is triangle x edge, a tetrahedron is itself. Each corner of a simplex is a slot with a
+/// The parametric domain of a volume cell as a product of simplices. A box is edge x edge x edge, a
+/// wedge is triangle x edge, and a tetrahedron is itself. Each corner of a simplex is a slot with a
 /// barycentric coordinate.
 struct BernsteinDomain
 {
@@ -18,9 +18,9 @@ struct BernsteinDomain
   int slots;
   int simplices;
   int simplex[MostSlots]; ///< of each slot, ascending
-  /// A parametric point is the sum, over the slots, of barycentric coordinate times place.
+  /// A parametric point is the sum of barycentric coordinate times place over the slots.
   double place[MostSlots][3];
-  /// The slots from which and to which each parametric coordinate grows.
+  /// Each parametric coordinate grows from slot `from` to slot `to`.
   int from[3], to[3];
 };
 
@@ -30,7 +30,7 @@ extern const BernsteinDomain BoxDomain, WedgeDomain, TetDomain;
 using Exponents = std::array<std::int8_t, BernsteinDomain::MostSlots>;
 using Degrees = std::array<int, 3>; ///< of each simplex; 0 where there is none
 
-/// The terms of a polynomial of given degrees in Bernstein form: products of powers of barycentric
+/// The terms of a Bernstein polynomial of given degrees: products of powers of barycentric
 /// coordinates.
 class BernsteinTerms
 {
@@ -40,9 +40,9 @@ public:
 
   int size() const { return static_cast<int>(this->exponents_.size()); }
   const Exponents& operator[](int term) const { return this->exponents_[term]; }
-  /// The number of a term that is there.
+  /// Returns the number of a term, which must exist.
   int find(const Exponents& exponents) const { return this->number_.at(exponents); }
-  /// The product of the simplices' multinomial coefficients.
+  /// Returns the product of the simplices' multinomial coefficients.
   double multinomial(int term) const;
 
 private:
@@ -51,9 +51,8 @@ private:
   std::map<Exponents, int> number_;
 };
 
-/// How coefficients are halved along the edges of a domain, by de Casteljau's algorithm: an edge of
-/// a simplex is cut in its middle, and the terms that differ in the edge's two slots alone make one
-/// row.
+/// De Casteljau's algorithm: halves Bernstein coefficients along the edges of a domain. An edge of
+/// a simplex is cut in its middle. Terms that differ only in the edge's two slots form one row.
 class BernsteinHalving
 {
 public:
@@ -72,11 +71,12 @@ public:
   /// `terms`: at most MostTerms, of degree at most MostDegree.
   BernsteinHalving(const BernsteinDomain& domain, const BernsteinTerms& terms);
 
-  /// The whole domain; its coefficients are left for the caller to fill in.
+  /// Returns the whole domain; the caller fills in its coefficients.
   Part whole() const;
-  /// The minimum of the coefficients, below which the polynomial does not fall.
+  /// Returns the minimum of the coefficients, a lower bound of the polynomial.
   double minimum(const Part& part) const;
-  /// The minimum of the coefficients at corners of the part, which are values there, and its place.
+  /// Returns the minimum of the corner coefficients, which are values of the polynomial, and its
+  /// place.
   double minimumCorner(const Part& part, double (&at)[3]) const;
   /// Cuts the part where its coefficients are farthest from linear. `low` may be `part` itself.
   void halve(const Part& part, Part& low, Part& high) const;

@@ -19,14 +19,14 @@ constexpr int Stride[3] = { 9, 3, 1 };
 constexpr int MostHalvings = 36;
 constexpr int MostBoxes = 2048;
 
-/// A part of the cell: the determinant's coefficients on it, c(i, j, k) at 9 i + 3 j + k.
+/// A part of the cell with the determinant's coefficients, c(i, j, k) at 9 i + 3 j + k.
 struct Box
 {
   std::array<double, 27> c;
   int halvings = 0;
 
   double least() const { return *std::min_element(this->c.begin(), this->c.end()); }
-  /// The determinants at the box's corners are coefficients.
+  /// Returns the minimum determinant at the box's corners, which are coefficients.
   double leastCorner() const
   {
     double least = this->c[0];
@@ -39,7 +39,7 @@ struct Box
   }
 };
 
-/// The coordinate along which the coefficients are farthest from linear, where halving helps most.
+/// Returns the coordinate with the coefficients farthest from linear, where halving helps most.
 int mostCurved(const Box& box)
 {
   int best = 0;
@@ -87,7 +87,7 @@ void halve(const Box& box, Box& low, Box& high)
   low.halvings = high.halvings = box.halvings + 1;
 }
 
-/// The coefficients on the whole cell, and a bound of their error.
+/// Computes the coefficients on the whole cell, and returns a bound of their error.
 double determinant(const Vector* x, Box& box)
 {
   constexpr int Corner[2][2][2] = { { { 0, 4 }, { 3, 7 } }, { { 1, 5 }, { 2, 6 } } };
@@ -107,7 +107,7 @@ double determinant(const Vector* x, Box& box)
     }
   }
   box.c.fill(0);
-  // Where two linear factors meet, the middle coefficient is the mean of the two mixed products.
+  // A product of two linear factors has the mean of the two mixed products as middle coefficient.
   constexpr double Weight[3] = { 1, .5, 1 };
   for (int bits = 0; bits < 16; ++bits)
   {
@@ -128,11 +128,11 @@ double determinant(const Vector* x, Box& box)
 
 double coefficientError(double longestR, double longestS, double longestT)
 {
-  // With u = epsilon / 2 and P the product of the longest components, a determinant and all its six
+  // Let u = epsilon / 2, and P the product of the longest components. A determinant and all its six
   // products are at most 6 P. A determinant takes 8 roundings, the mean of eight 8 more: at most 16
-  // u * 6 P = 96 u P, to first order. A halving takes two, each of at most u * 6 P; errors that
-  // come in are averaged. 36 * 12 + 96 = 528; the rest covers the terms of higher order, and the
-  // last term coordinates that underflow in the scaling.
+  // u * 6 P = 96 u P, to first order. A halving takes two, each of at most u * 6 P, and averages
+  // earlier errors. 36 * 12 + 96 = 528; the rest covers terms of higher order. The last term covers
+  // coordinates that underflow in the scaling.
   return 300 * std::numeric_limits<double>::epsilon() * longestR * longestS * longestT +
          std::ldexp(1., -400);
 }
@@ -159,7 +159,7 @@ Certificate certifyTrilinear(const Vector* x)
     {
       continue;
     }
-    // Parts of a box with a corner next to zero will not be certified either.
+    // Parts of a box with a corner next to zero cannot be certified either.
     if (corner <= error || box.halvings == MostHalvings)
     {
       isOpen = true;
@@ -171,7 +171,7 @@ Certificate certifyTrilinear(const Vector* x)
     }
     Box low, high;
     halve(box, low, high);
-    // The more doubtful half comes next: an inverted cell is then found soon.
+    // Continues with the more doubtful half, which finds an inverted cell sooner.
     const bool lowIsWorse = low.least() < high.least();
     stack.push_back(lowIsWorse ? high : low);
     stack.push_back(lowIsWorse ? low : high);

@@ -7,13 +7,14 @@
 
 namespace morph
 {
-/// The Jacobian determinant of a trilinear hexahedron, proved positive or found negative by
-/// subdivision of its Bernstein form; the rounding of the coefficients and of every subdivision is
-/// bounded. `x`: the eight corners in VTK's order, scaled by exactScale() (OrientationPredicate.h).
+/// Proves the Jacobian determinant of a trilinear hexahedron positive, or finds it negative. The
+/// proof subdivides the Bernstein form and bounds the rounding of all coefficients and
+/// subdivisions. `x`: the eight corners in VTK's order, scaled by exactScale()
+/// (OrientationPredicate.h).
 Certificate certifyTrilinear(const Eigen::Vector3d* x);
 
-/// Bounds the rounding error of a Bernstein coefficient of a Jacobian determinant, and of what at
-/// most 36 subdivisions make of it: each is a weighted mean of at most eight determinants of edges
-/// not longer than the given ones.
+/// Bounds the rounding error of a Bernstein coefficient of a Jacobian determinant after at most 36
+/// subdivisions. A coefficient is a weighted mean of at most eight determinants of edges; the
+/// arguments bound the edges' lengths.
 double coefficientError(double longestR, double longestS, double longestT);
 }

@@ -15,7 +15,7 @@ namespace morph
 {
 namespace
 {
-constexpr Index NodesToCheck = 4096; // whether it is cancelled
+constexpr Index NodesToCheck = 4096; // between two checks whether it is cancelled
 
 std::vector<char> isPrescribed(const Mesh& mesh, const NodePartition& partition)
 {
@@ -27,8 +27,7 @@ std::vector<char> isPrescribed(const Mesh& mesh, const NodePartition& partition)
   return result;
 }
 
-/// Whether enough corners are prescribed for one tetrahedron at a corner to hang on a single free
-/// node, or on none.
+/// Whether enough nodes are prescribed for a corner tetrahedron to have at most one free node.
 bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
 {
   const Index* nodes = mesh.cell(c);
@@ -36,7 +35,7 @@ bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
   return std::count_if(nodes, nodes + corners, [&](Index n) { return prescribed[n] != 0; }) >= 3;
 }
 
-/// Whether no place of a single free node is right for all corners that hang on it alone.
+/// Whether some free node has no valid position for the corners of which it is the only free node.
 bool leavesNoPlace(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
   const std::vector<char>& prescribed, const Points& points)
 {
@@ -127,7 +126,7 @@ std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePart
     {
       continue;
     }
-    // As few as cannot all be valid.
+    // Reduces the cells to a minimal set that cannot all be valid.
     for (std::size_t k = cells.size(); k-- > 0;)
     {
       std::vector<Index> others = cells;

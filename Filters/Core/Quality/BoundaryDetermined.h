@@ -9,26 +9,29 @@
 
 namespace morph
 {
-/// Cells that the prescribed positions invert whatever the free nodes do. Either a corner's four
-/// nodes, it and its neighbors along the edges, are all prescribed and span no positive volume; or
-/// no place of one free node makes all corners of the cell positive of which it is the only free
-/// node (CommonPoint.h: proved, over exact numbers). Ids, ascending. `points`: #nodes x 3, read at
-/// the prescribed nodes alone. `orientation`: #cells, see Topology's cellSigns(). Cost: one pass
-/// over the cells.
+/// Returns the cells, ascending, that the prescribed positions invert for any position of the free
+/// nodes. The proof covers two cases, the second in exact arithmetic (CommonPoint.h):
+///
+/// - A corner and its neighbors along the edges are prescribed and span no positive volume.
+///
+/// - No position of one free node makes the cell's corners positive that have no other free node.
+///
+/// `points`: #nodes x 3, read only at the prescribed nodes. `orientation`: #cells, see cellSigns()
+/// in Topology.h. Cost: one pass over the cells.
 std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points);
 
-/// A free node that has no place where all cells round it are valid, though each of them alone
-/// leaves it one.
+/// A free node without a position where all cells around it are valid. Each of these cells alone
+/// leaves it a position.
 struct NodeWithoutPlace
 {
   Index node;
-  /// ascending; at least one of them is inverted wherever the free nodes are
+  /// ascending; at least one is inverted for any position of the free nodes
   std::vector<Index> cells;
 };
 
-/// By node, ascending. Parameters as above. Cost: a pass over the cells, and 10 microseconds a free
-/// node next to prescribed ones.
+/// Returns such nodes, ascending; arguments as above. Cost: a pass over the cells, and 10
+/// microseconds a free node next to prescribed ones.
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor);
 }

@@ -20,7 +20,7 @@ namespace
 {
 using Vector = Eigen::Vector3d;
 
-/// Certified if all corner determinants are positive.
+/// Returns Certified if all corner determinants are positive.
 Certificate certifyCorners(Shape shape, const Vector* x)
 {
   const WeightedTet* tets = simplicialDecomposition(shape).tets;
@@ -41,11 +41,12 @@ Certificate certifyCorners(Shape shape, const Vector* x)
   return result;
 }
 
-/// b0 (1 - t)^2 + 2 b1 t (1 - t) + b2 t^2 on [0, 1], each coefficient known to within `error`.
+/// Certifies b0 (1 - t)^2 + 2 b1 t (1 - t) + b2 t^2 on [0, 1]; coefficients have errors up to
+/// `error`.
 Certificate certifyQuadratic(double b0, double b1, double b2, double error)
 {
   constexpr double Rounding = 4 * std::numeric_limits<double>::epsilon();
-  // A polynomial with lower coefficients is lower, one with higher coefficients higher.
+  // Lower coefficients give a lower polynomial, higher ones a higher polynomial.
   const double l0 = b0 - error, l1 = b1 - error, l2 = b2 - error;
   if (l0 > 0 && l2 > 0 && l1 > -(1 - Rounding) * std::sqrt(l0) * std::sqrt(l2))
   {
@@ -94,7 +95,7 @@ Certificate certifyShape(Shape shape, Vector* x)
                                  : Certificate::Certified;
 }
 
-/// `x`: all nodes of a quadratic cell; of others the corners.
+/// `x`: all nodes of a quadratic cell, the corners of another cell.
 Certificate certifyNodes(std::uint8_t type, const CellShape& shape, Vector* x)
 {
   return isQuadraticVolume(shape) && !isStraightSided(type, x) ? proveQuadratic(type, x).certificate
@@ -152,7 +153,7 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
       {
         const int place = k < shape->numberOfCorners ? shape->cornerNode[k] : k;
         x[k] = points.row(mesh.cell(c)[place]).transpose();
-        // A cell written in the mirrored order is examined as its mirror image.
+        // Examines a cell in mirrored order as its mirror image.
         x[k].z() *= orientation.empty() ? 1 : orientation[c];
       }
       report.cells[c] = certifyNodes(mesh.types[c], *shape, x);

@@ -9,16 +9,16 @@
 
 namespace morph
 {
-/// What is proved about the Jacobian determinant of a cell's map from its parametric coordinates.
+/// What is proved about the Jacobian determinant of a cell's parametric map.
 enum class Certificate : std::int8_t
 {
-  Inverted = -1, ///< somewhere in the cell, corners included, it is 0 or negative
+  Inverted = -1, ///< it is 0 or negative somewhere in the cell, corners included
   Undecided = 0, ///< neither is proved
   Certified = 1  ///< it is positive everywhere in the cell
 };
 
-/// A proof for one cell from its nodes in VTK's order; rounding errors are bounded throughout, so
-/// the answers Certified and Inverted hold for the coordinates as given.
+/// A proof for one cell from its nodes in VTK's order. Rounding errors are bounded throughout, so
+/// Certified and Inverted hold for the coordinates as given.
 ///
 /// - Tetrahedron: the determinant is constant and its sign exact (OrientationPredicate.h).
 /// - Pyramid: with the base Q(r, s) = q + r u + s v + r s w and the apex a, VTK's map is (1 - t) Q
@@ -40,14 +40,14 @@ enum class Certificate : std::int8_t
 ///   233 (2013) 359-372). Its corner signs are bounded, not exact. With nodes exactly in the middle
 ///   of their corners the cell is proved as the linear one that it is.
 ///
-/// Undecided are hexahedra and wedges whose determinant comes within about 1e-13 of zero, relative
-/// to the product of their longest edges in the three directions, without a corner at or below
-/// zero. So are quadratic cells within about 1e-11 of zero, those with a determinant of exactly
-/// zero (a node at a quarter of its edge) among them; coordinates that are not finite; and shapes
-/// that are not volumes. `nodes`: n x 3 with all n nodes of the cell, a voxel's in the order of a
-/// hexahedron. Cost: 0.1 microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved
-/// quadratic cell; at most about a millisecond for a linear cell that stays undecided, 5 for a
-/// quadratic one.
+/// Undecided are hexahedra and wedges with a determinant within about 1e-13 of zero, but no corner
+/// at or below zero. This is relative to the product of the longest edges in the three directions.
+/// Undecided are also: quadratic cells within about 1e-11 of zero, even if exactly zero (a node at
+/// a quarter of its edge); coordinates that are not finite; shapes that are not volumes.
+///
+/// `nodes`: n x 3, all n nodes of the cell, those of a voxel in a hexahedron's order. Cost: 0.1
+/// microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell. An
+/// undecided cell takes up to about a millisecond if linear, 5 if quadratic.
 Certificate certifyCell(std::uint8_t type, const double (*nodes)[3]);
 
 struct CertificateReport
@@ -55,14 +55,13 @@ struct CertificateReport
   std::vector<Certificate> cells; ///< #cells; Undecided where not examined
   Index certified = 0;
   Index inverted = 0;
-  Index undecided = 0; ///< examined cells only
+  Index undecided = 0; ///< among the examined cells
 };
 
-/// certifyCell() for all volume cells, and for cells of a type this library does not know, which
-/// stay undecided; cells of lower dimension and cells whose `skip` entry is not zero are not
-/// examined. `points`: #nodes x 3, the positions to examine; the mesh's own are not read.
-/// `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout. Threads over
-/// cells.
+/// Certifies all volume cells in parallel. Cells of an unknown type stay undecided. Cells of lower
+/// dimension and cells with a nonzero `skip` entry are not examined. `points`: #nodes x 3, the
+/// positions to examine, instead of the mesh's own. `orientation`: #cells of +1 / -1 (Topology.h),
+/// or empty for VTK's order throughout.
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);

@@ -28,7 +28,7 @@ void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation
     {
       continue;
     }
-    // To the front, which turns the tetrahedron over unless it is there.
+    // Moves the node to the front, which inverts the tetrahedron unless it is there already.
     std::swap(id[0], id[own]);
     if ((own == 0) != (orientation[c] > 0))
     {

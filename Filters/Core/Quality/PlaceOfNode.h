@@ -9,9 +9,9 @@
 
 namespace morph
 {
-/// The corners of cell `c` of which `node` alone is not prescribed: where it has to be for them to
-/// be positive. `isPrescribed`: #nodes. `points`: #nodes x 3, read at prescribed nodes alone. Adds
-/// to `result`.
+/// Adds to `result` the half-spaces where `node` makes its corners of cell `c` positive. It takes
+/// the corners whose nodes are all prescribed except `node`. `isPrescribed`: #nodes. `points`:
+/// #nodes x 3, read only at prescribed nodes.
 void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
   Index node, const std::vector<char>& isPrescribed, const Points& points,
   std::vector<HalfSpace>& result);

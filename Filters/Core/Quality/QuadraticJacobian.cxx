@@ -21,7 +21,7 @@ using Part = BernsteinHalving::Part;
 constexpr int MostHalvings = 36, MostHalvingsNextToZero = 9;
 constexpr int MostParts = 2048;
 
-/// A cell's nodes, scaled, and its derivatives.
+/// A cell's scaled nodes and derivatives.
 struct Cell
 {
   const QuadraticMap& map;
@@ -45,8 +45,8 @@ struct Cell
   }
 };
 
-/// The middle of an edge whose ends coincide: there the derivative along the edge, of degree two,
-/// is exactly 0.
+/// Finds the middle of an edge with coinciding ends. The derivative along the edge, of degree two,
+/// is exactly 0 there.
 bool hasCollapsedEdge(const CellShape& shape, const Cell& cell, double (&middle)[3])
 {
   for (int f = 0; f < shape.numberOfFaces; ++f)
@@ -105,7 +105,7 @@ QuadraticProof prove(const CellShape& shape, const Cell& cell)
       stack.pop_back();
       continue;
     }
-    // A part with a corner next to zero is not certified any more, but may hold an inverted point.
+    // A part with a corner next to zero cannot be certified, but may contain an inverted point.
     const bool isNextToZero = corner <= error;
     isOpen = isOpen || isNextToZero;
     if (part.halvings >= (isNextToZero ? MostHalvingsNextToZero : MostHalvings))
@@ -120,7 +120,7 @@ QuadraticProof prove(const CellShape& shape, const Cell& cell)
     }
     Part high;
     halving.halve(part, part, high);
-    // The more doubtful half comes next: an inverted cell is then found soon.
+    // Continues with the more doubtful half, which finds an inverted cell sooner.
     if (halving.minimum(part) < halving.minimum(high))
     {
       std::swap(part, high);
@@ -196,7 +196,7 @@ bool isStraightSided(std::uint8_t type, const Vector* x)
     shapeFunctions(shape.shape, shape.extraNodes[i - shape.numberOfCorners], N, nullptr);
     for (int j = 0; j < 3; ++j)
     {
-      // The corners that have a share have equal ones: 1/2, 1/4 or 1/8.
+      // The corners that contribute have equal shares: 1/2, 1/4 or 1/8.
       double sum = 0, share = 1;
       for (int a = 0; a < shape.numberOfCorners; ++a)
       {
@@ -207,7 +207,7 @@ bool isStraightSided(std::uint8_t type, const Vector* x)
         share = N[a];
         const double before = sum, corner = x[a][j];
         sum += corner;
-        // Only where no sum was rounded is the mean exact.
+        // The mean is exact only where no sum was rounded.
         if (sum - before != corner || sum - corner != before)
         {
           return false;

@@ -33,7 +33,7 @@ constexpr double CornerPlaces[3][8][3] = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0
   { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 },
     { 0, 1, 1 } } };
 
-/// The slots that share a simplex's degree of two; the same twice at its corner.
+/// Returns the two slots that share a simplex's degree of two; equal slots for its corner.
 std::array<int, 2> slotsOf(const BernsteinDomain& domain, const Exponents& term, int simplex)
 {
   std::array<int, 2> result = { -1, -1 };
@@ -48,7 +48,7 @@ std::array<int, 2> slotsOf(const BernsteinDomain& domain, const Exponents& term,
   return result;
 }
 
-/// The term that has its simplex's degree at one slot.
+/// Returns the term that has its simplex's degree at one slot.
 Exponents moved(Exponents term, const std::array<int, 2>& from, int to)
 {
   --term[from[0]];
@@ -58,8 +58,7 @@ Exponents moved(Exponents term, const std::array<int, 2>& from, int to)
 }
 }
 
-/// Points of the full lattice, then Bernstein coefficients of the map, as combinations of the
-/// cell's nodes.
+/// The points of the full lattice, then the map's Bernstein coefficients, as combinations of nodes.
 struct QuadraticMap::Rows
 {
   /// of degree two; a lattice point has a term's exponents / 2 as barycentric coordinates
@@ -69,7 +68,7 @@ struct QuadraticMap::Rows
 
 namespace
 {
-/// Fills in the points of the lattice at which the cell has no node.
+/// Computes the lattice points where the cell has no node.
 class Lattice
 {
 public:
@@ -122,7 +121,7 @@ private:
                this->at(moved(exponents, pair, pair[1]))) /
              2;
     }
-    // The first two simplices in whose middle it is.
+    // The first two simplices whose middle it is.
     std::vector<std::array<int, 2>> pairs;
     for (int simplex = 0; simplex <= last; ++simplex)
     {
@@ -154,8 +153,8 @@ private:
     return result;
   }
 
-  /// Above the base's height. Nodes: corners 0 to 3, apex 4, mid-sides of the base from 5, of the
-  /// edges to the apex from 9.
+  /// Returns a missing node above the base of a pyramid. Nodes: corners 0 to 3, apex 4, mid-sides
+  /// of the base from 5, of the edges to the apex from 9.
   Combination missingInPyramid(const Exponents& e) const
   {
     Combination result = Combination::Zero();
@@ -164,7 +163,7 @@ private:
       result(4) = 1;
       return result;
     }
-    // At half the height: the middle, or that of one side. Side i lies between the corners i and i
+    // At half the height: the middle of the square, or of one side. Side i connects corners i and i
     // + 1.
     const bool isMiddle = e[0] == 1 && e[2] == 1;
     const int side = e[0] == 1 ? (e[2] == 2 ? 0 : 2) : (e[0] == 2 ? 3 : 1);
@@ -197,8 +196,8 @@ public:
   std::vector<Combination> points;
 };
 
-/// A coefficient from the values on the lattice. In one simplex: the value at a corner; 2 f(middle)
-/// - (f + f) / 2 between two.
+/// Returns a coefficient from the values on the lattice. In one simplex it is the value at a
+/// corner, or 2 f(middle) - (f + f) / 2 between two corners.
 Combination coefficient(const BernsteinDomain& domain, const BernsteinTerms& terms,
   const std::vector<Combination>& lattice, const Exponents& exponents, int simplex)
 {
@@ -218,7 +217,7 @@ Combination coefficient(const BernsteinDomain& domain, const BernsteinTerms& ter
            2;
 }
 
-/// How many of the pairs (a, b) give each term of the product, at most.
+/// Returns the maximum number of pairs (a, b) that give one term of the product.
 int mostPairs(const std::vector<std::uint8_t>& product, int terms)
 {
   std::vector<int> count(terms, 0);
@@ -327,8 +326,8 @@ void QuadraticMap::setDerivative(int coordinate, const Rows& rows)
   std::vector<Combination> combinations;
   for (int term = 0; term < result.terms.size(); ++term)
   {
-    // The factor 1 - t is the barycentric coordinate of slot 4. Without it, the coefficients times
-    // their multinomial coefficients are the same.
+    // The factor 1 - t is the barycentric coordinate of slot 4. Removing it does not change the
+    // products of coefficients and multinomial coefficients.
     Exponents low = result.terms[term];
     low[4] = static_cast<std::int8_t>(low[4] + hasFactor);
     const double multinomial = all.multinomial(all.find(low));
@@ -341,9 +340,9 @@ void QuadraticMap::setDerivative(int coordinate, const Rows& rows)
     result.inverseMultinomial.push_back(1 / result.terms.multinomial(term));
   }
 
-  // Nodes on one line along the coordinate: their factors sum to 0 in every term, so that only
-  // their distances, which can be short beside the cell's other edges, need to be taken. In
-  // pyramids they do not.
+  // The factors of nodes on one line along the coordinate sum to 0 in every term. So only the
+  // distances between these nodes matter, which can be short compared with the cell's other edges.
+  // In pyramids the factors do not sum to 0.
   const auto isOnLine = [&](int a, int b)
   {
     for (int j = 0; j < 3; ++j)
@@ -413,8 +412,8 @@ void QuadraticMap::setProduct()
   {
     this->inverseMultinomial_.push_back(1 / volume.multinomial(i));
   }
-  // A mixed product takes five roundings, each sum one for each of its terms, the inverse
-  // multinomial coefficient two.
+  // A mixed product takes five roundings, each sum one per term, and the inverse multinomial
+  // coefficient two.
   this->roundings_ =
     7 + mostPairs(this->areaTerm_, area.size()) + mostPairs(this->volumeTerm_, volume.size());
   const Degrees degrees = degreesOf(domain, volume[0]);
@@ -476,8 +475,8 @@ double QuadraticMap::determinant(
   }
 
   // A coefficient is a weighted mean of determinants of derivatives' coefficients, and so is each
-  // sum of absolute products: at most 6 P, with P the product of the largest components. Exact
-  // derivatives differ by their own errors.
+  // sum of absolute products. So it is at most 6 P, with P the product of the largest components.
+  // The derivatives' own errors come in addition.
   double product = 1, exact = 1;
   for (int j = 0; j < 3; ++j)
   {
@@ -487,20 +486,21 @@ double QuadraticMap::determinant(
   double perturbation = 0;
   for (int j = 0; j < 3; ++j)
   {
-    // exact - product, without the cancellation of that difference.
+    // Computes exact - product without the cancellation of that difference.
     perturbation += derivatives.error[j] *
                     (derivatives.largest[(j + 1) % 3] + derivatives.error[(j + 1) % 3]) *
                     (derivatives.largest[(j + 2) % 3] + derivatives.error[(j + 2) % 3]);
   }
   const int roundings = this->roundings_ + halvings * this->roundingsOfHalving_;
-  // 1.01 covers terms of higher order; the last term coordinates that underflow in the scaling.
+  // 1.01 covers terms of higher order; the last term covers coordinates that underflow in the
+  // scaling.
   return 1.01 * 6 * (roundings * Unit * exact + perturbation) + std::ldexp(1., -400);
 }
 
 Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const double (&at)[3]) const
 {
   const BernsteinDomain& domain = *this->domain_;
-  // Barycentric coordinates: a simplex's first slot has what its others leave.
+  // A simplex's first slot has the rest of the barycentric coordinates, which sum to 1.
   double coordinate[BernsteinDomain::MostSlots];
   for (int slot = domain.slots - 1; slot >= 0; --slot)
   {

@@ -10,8 +10,8 @@
 
 namespace morph
 {
-/// VTK's map from the parametric coordinates of a quadratic volume cell to space, and its Jacobian
-/// determinant, both in Bernstein form. Types: 24 to 27, 29 and 31 to 33.
+/// VTK's parametric map of a quadratic volume cell and its Jacobian determinant, both in Bernstein
+/// form. Types: 24 to 27, 29 and 31 to 33.
 ///
 /// Each of VTK's maps is a polynomial of degree two over the simplices of its domain, so the
 /// missing nodes of the full lattice are fixed combinations of the cell's own nodes. All these
@@ -30,26 +30,26 @@ public:
   using Vector = Eigen::Vector3d;
   static constexpr int MostNodes = 27, MostTerms = 20; ///< terms: of one derivative
 
-  /// Null for other types. Built once.
+  /// Returns the map of a type, built once, or null for other types.
   static const QuadraticMap* find(std::uint8_t type);
 
-  /// The derivatives along r, s and t at some cell.
+  /// The derivatives of a cell's map along r, s and t.
   struct Derivatives
   {
     Vector c[3][MostTerms]; ///< Bernstein coefficients times their multinomial coefficients
-    double largest[3];      ///< of the Bernstein coefficients' components
-    double error[3];        ///< a bound of the components' rounding errors
+    double largest[3];      ///< of the Bernstein coefficients' components, by magnitude
+    double error[3];        ///< bounds of the components' rounding errors
   };
   /// `x`: the nodes in VTK's order, scaled by exactScale() (OrientationPredicate.h).
   Derivatives derivatives(const Vector* x) const;
 
-  /// The determinant's coefficients. Returns a bound of their errors, and of what subdivisions make
-  /// of them, up to `halvings` in a row.
+  /// Computes the determinant's coefficients. Returns a bound of their errors after up to
+  /// `halvings` successive subdivisions.
   double determinant(
     const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const;
 
-  /// The derivatives at a parametric point, as the columns of a matrix. Of pyramids those along r
-  /// and s are without their factor 1 - t.
+  /// Returns the derivatives at a parametric point as the columns of a matrix. For pyramids, the
+  /// derivatives along r and s lack their factor 1 - t.
   Eigen::Matrix3d jacobian(const Derivatives& derivatives, const double (&at)[3]) const;
 
   const BernsteinHalving& halving() const { return this->halving_; }
@@ -83,11 +83,12 @@ private:
   int nodes_;
   double place_[MostNodes][3];
   Derivative derivative_[3];
-  std::vector<std::uint8_t> areaTerm_;   ///< of the product of a term along r and one along s
-  std::vector<std::uint8_t> volumeTerm_; ///< of the product of that and a term along t
+  /// number of the product of a term along r and one along s
+  std::vector<std::uint8_t> areaTerm_;
+  std::vector<std::uint8_t> volumeTerm_; ///< number of the product of an area term and one along t
   int areaTerms_, volumeTerms_;
   std::vector<double> inverseMultinomial_; ///< of the determinant's terms
-  int roundings_; ///< in one coefficient of the determinant, besides the derivatives'
+  int roundings_; ///< in one coefficient of the determinant, in addition to the derivatives'
   int roundingsOfHalving_;
   BernsteinHalving halving_;
 };

@@ -18,8 +18,8 @@ using Vector = Eigen::Vector3d;
 
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// The edges at each corner, in the order that makes the triple product positive: e + 1 for edge e,
-// which goes from HexEdges[e][0] to HexEdges[e][1], or -(e + 1) where it ends at the corner.
+// The edges at each corner, ordered to make the triple product positive. The entry is e + 1 for
+// edge e, which goes from HexEdges[e][0] to HexEdges[e][1], or -(e + 1) if it ends at the corner.
 constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 },
   { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
 constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },
@@ -27,21 +27,21 @@ constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 },
 // The four edges along each parametric direction, at (0,0), (1,0), (0,1), (1,1) of the other two.
 constexpr int HexDirections[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
   { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
-// The three neighbors of each corner, in that order.
+// The three neighbors of each corner, in the same order.
 constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
   { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
 constexpr int PyramidCorners[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
   { 3, 0, 2, 4 } };
 
-/// The length of an edge, also where its square underflows.
+/// Returns the length of an edge, correct also if its square underflows.
 double lengthOf(const Vector& edge)
 {
   const double length = edge.norm();
   return length > 1e-150 ? length : std::hypot(edge.x(), edge.y(), edge.z());
 }
 
-/// Determinant of the three edges scaled to length 1; `collapsed` is set, and 0 returned, if one
-/// has no length.
+/// Returns the determinant of three edges scaled to length 1. If an edge has no length, sets
+/// `collapsed` and returns 0.
 double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, bool& collapsed)
 {
   const double la = lengthOf(a), lb = lengthOf(b), lc = lengthOf(c);
@@ -85,11 +85,12 @@ double hex(const Vector* x, bool& collapsed)
   const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
   const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
   const Vector t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
-  // The mean edges may vanish while every edge has a length: that is an inverted cell, not a
-  // collapsed one.
+  // The mean edges may vanish while every edge has a length: such a cell is inverted, not
+  // collapsed.
   bool noMeanEdge = false;
   double least = normalizedDeterminant(r, s, t, noMeanEdge);
-  // Each edge is at two corners: roots and divisions, most of the time, are taken once.
+  // Each edge is at two corners. Roots and divisions, which take most of the time, are computed
+  // once.
   Vector direction[12];
   for (int e = 0; e < 12; ++e)
   {
@@ -114,7 +115,7 @@ double pyramid(const Vector* x, bool& collapsed)
   {
     least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
   }
-  // Pyramids higher than the ideal one pass 1; like Verdict, count the excess as a defect.
+  // Pyramids higher than the ideal one exceed 1; the excess counts as a defect, as in Verdict.
   const double value = std::sqrt(2.0) * least;
   return value > 1 ? 2 - value : value;
 }
@@ -152,7 +153,7 @@ double quad(const Vector* x, bool& collapsed)
 double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
 {
   collapsed = false;
-  // A comparison with NaN is false, so that the minimum over the corners would pass over it.
+  // A comparison with NaN is false, so the minimum over the corners would ignore it.
   for (int k = 0; k < corners; ++k)
   {
     if (!x[k].allFinite())
@@ -187,7 +188,7 @@ double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
   return collapsed ? 0 : value;
 }
 
-/// The scaled Jacobian inside a cell whose corners have `ofCorners`.
+/// Returns the scaled Jacobian of a cell including its inside; its corners have `ofCorners`.
 double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh,
   const ConstPoints& points, Index cell, double sign, double ofCorners)
 {
@@ -197,7 +198,7 @@ double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh
     x[k] = points.row(mesh.cell(cell)[k]).transpose();
     x[k].z() *= sign;
   }
-  // The corners of straight-sided tetrahedra and pyramids tell all of their inside.
+  // The corners of straight-sided tetrahedra and pyramids determine their inside.
   const bool hasInside = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
   return hasInside || !isStraightSided(type, x) ? quadraticScaledJacobian(type, x, ofCorners)
                                                 : ofCorners;
@@ -230,7 +231,7 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         {
           continue;
         }
-        // A cell written in the mirrored order is measured as its mirror image.
+        // Measures a cell in mirrored order as its mirror image.
         const double sign = orientation.empty() ? 1 : orientation[c];
         Vector x[8];
         for (int k = 0; k < shape->numberOfCorners; ++k)
@@ -305,7 +306,7 @@ double scaledJacobian(std::uint8_t type, const double (*corners)[3])
 
 bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])
 {
-  constexpr double Beyond = 1e-13; // of the longest edge's cube: rounding is some 1e-15
+  constexpr double Beyond = 1e-13; // of the longest edge's cube; rounding is about 1e-15
   double longest2 = 0;
   const auto edge = [&](int from, int to, double* e)
   {

@@ -10,23 +10,25 @@
 
 namespace morph
 {
-/// Scaled Jacobian of one cell from its corners in VTK's hexahedron, wedge, ... order: the
-/// determinant of the Jacobian matrix with normalised edges, 1 for the ideal cell, <= 0 for an
-/// inverted one (Knupp, IJNME 48 (2000) 1165-1185; the conventions are Verdict's, Sandia report
-/// SAND2007-1751):
+/// The scaled Jacobian of one cell: the determinant of its Jacobian matrix with normalised edges.
+/// It is 1 for the ideal cell and <= 0 for an inverted one. Source: Knupp, IJNME 48 (2000)
+/// 1165-1185, with the conventions of Verdict (Sandia report SAND2007-1751):
+///
 ///   tet      sqrt(2) J / max over the four corners of the product of its three edge lengths
 ///   hex      minimum of the eight corners and the centre
 ///   wedge    minimum of the six corners, times 2/sqrt(3)
 ///   pyramid  minimum of the four base-corner tets, times sqrt(2), at most 1
 ///   tri      2/sqrt(3) times twice the area / largest product of two edge lengths (never negative)
 ///   quad     minimum corner, signed by the normal at the centre
-/// Where a corner's edges have no length the result is 0 (Verdict: 1e30); for a pyramid below 0 the
-/// value itself (Verdict: 0). Of quadratic cells this is the corner cell's alone; measureQuality()
-/// looks inside them. `corners`: numberOfCorners x 3.
+///
+/// Two values differ from Verdict: 0 where a corner's edges have no length (Verdict: 1e30), and a
+/// pyramid's negative values (Verdict: 0). Only the corners of a quadratic cell count here;
+/// measureQuality() looks inside it. `corners`: numberOfCorners x 3, in VTK's hexahedron, wedge,
+/// ... order.
 double scaledJacobian(std::uint8_t type, const double (*corners)[3]);
 
-/// True only where scaledJacobian() of a hexahedron or wedge is positive beyond rounding. False
-/// says nothing. Cost: a third of scaledJacobian()'s, by determinants that are not normalised.
+/// Whether scaledJacobian() of a hexahedron or wedge is certainly positive despite rounding. False
+/// proves nothing. Cost: a third of scaledJacobian()'s, by determinants that are not normalised.
 bool areCornersSurelyPositive(Shape shape, const double (*corners)[3]);
 
 struct Quality
@@ -36,32 +38,33 @@ struct Quality
   double mean = 0;                    ///< NaN if no cell was measured
   Index measured = 0;
   Index inverted = 0;   ///< scaled Jacobian < 0 (or 0 with positive edges)
-  Index degenerate = 0; ///< a corner whose edges have no length; not counted as inverted
-  Index worstCell = -1; ///< the lowest id among the cells at the minimum
+  Index degenerate = 0; ///< a corner has edges without length; not counted as inverted
+  Index worstCell = -1; ///< lowest id of the cells at the minimum
 };
 
-/// Measures the cells of the highest dimension in the mesh (3 or 2); the others, and cells whose
-/// `skip` entry is not zero (ghosts), get NaN and are not counted. A quadratic volume cell has its
-/// corners' value unless its true map proves otherwise (quadraticScaledJacobian()): at most 0 where
-/// its determinant is negative somewhere inside. `orientation`: #cells of +1 / -1 (Topology.h), or
-/// empty for VTK's order throughout. `points`: #nodes x 3, the positions to measure at; the mesh's
-/// own are not read. Threads over cells; the sums are taken in a fixed order. Cost: one pass, about
-/// 0.1 microseconds a cell, 5 for a quadratic volume cell.
+/// Measures the cells of the highest dimension in the mesh (3 or 2). Other cells and cells with a
+/// nonzero `skip` entry (ghosts) get NaN and are not counted. A quadratic volume cell has its
+/// corners' value unless its true map proves otherwise (quadraticScaledJacobian()). It is then at
+/// most 0 if the determinant is negative somewhere inside.
+///
+/// `points`: #nodes x 3, the positions to measure, instead of the mesh's own. `orientation`: #cells
+/// of +1 / -1 (Topology.h), or empty for VTK's order throughout. Runs in parallel; sums have a
+/// fixed order. Cost: one pass, about 0.1 microseconds a cell, 5 for a quadratic volume cell.
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);
 
-/// measureQuality() by the corners alone, also of quadratic cells: for what moves corners while the
-/// nodes between them still stand where they were. Cost: about 0.1 microseconds a cell.
+/// Measures by the corners alone, also quadratic cells. For methods that move corners before the
+/// nodes between them. Cost: about 0.1 microseconds a cell.
 Quality measureCorners(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);
 
-/// Ids of the cells with a scaled Jacobian of 0 or less: inverted and degenerate ones, in ascending
-/// order.
+/// Returns the ids, ascending, of cells with a scaled Jacobian of 0 or less: inverted and
+/// degenerate ones.
 std::vector<Index> invertedCells(const Quality& quality);
 
-/// Ids of the cells whose scaled Jacobian is not positive, degenerate ones included, ascending.
+/// Measures `mesh` at `points` and returns the ids, ascending, of cells without a positive value.
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   const std::vector<std::int8_t>& orientation, Monitor& monitor);
 }
