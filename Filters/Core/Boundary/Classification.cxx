@@ -66,7 +66,7 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
   }
 }
 
-/// Sorted lists of the different values in a row of an Adjacency: made from pairs.
+/// Returns sorted lists of the distinct second values for each first value.
 Adjacency lists(std::vector<std::pair<Index, Index>>& pairs, Index rows)
 {
   std::sort(pairs.begin(), pairs.end());
@@ -153,7 +153,7 @@ private:
     }
   }
 
-  /// Mid-side nodes by the edge they lie in, for those edges that curves run along.
+  /// Lists mid-side nodes by their edge, for edges on curves.
   void findMiddles()
   {
     for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i)
@@ -199,7 +199,7 @@ private:
     return angle * 180 / std::acos(-1.) > this->options_.cornerAngle;
   }
 
-  /// The curve that a node is given to, or that of the edge's other end for a vertex.
+  /// Returns the curve given to a node or, for a vertex, to the edge's other end.
   Index givenCurve(Index edge, Index node) const
   {
     const Index other = this->otherEnd(edge, node);
@@ -208,8 +208,8 @@ private:
                                     : NoGeometry;
   }
 
-  /// Whether a curve ends at this corner, where it has `degree` curve edges, the first two of which
-  /// are `edges`.
+  /// Whether a curve ends at this corner. `degree`: number of its curve edges; `edges`: the first
+  /// two of them.
   bool isVertex(Index node, int degree, const std::array<Index, 2>& edges) const
   {
     if (this->isGiven(node, 0) || degree == 1 || degree > 2)
@@ -311,8 +311,8 @@ private:
     }
   }
 
-  /// Fills curve.parameter where every node inside has a given one; the nodes are then in the
-  /// parameter's order. False where the given ones make no sense.
+  /// Fills curve.parameter if every inner node has a given parameter, and sorts the nodes by it.
+  /// Returns false if the given parameters are inconsistent.
   bool takeGivenParameters(GeometryCurve& curve) const
   {
     const auto given = [&](Index node)
@@ -351,13 +351,13 @@ private:
       const bool isEnd = !curve.loop && (i == 0 || i + 1 == curve.nodes.size());
       curve.parameter.push_back(isEnd ? static_cast<double>(i > 0) : given(curve.nodes[i]));
     }
-    // Ends may coincide with a first node at 0; inside, places differ.
+    // Ends may coincide with a first node at 0; inner nodes must differ.
     return std::is_sorted(curve.parameter.begin(), curve.parameter.end()) &&
            std::adjacent_find(
              inside, end, [&](Index a, Index b) { return given(a) == given(b); }) == end;
   }
 
-  /// Ids: as given; those that are missing follow the greatest given one, or count from 0.
+  /// Assigns ids: as given; missing ids follow the largest given one, or count from 0.
   template <typename Entities>
   static void name(Entities& entities)
   {
@@ -450,7 +450,8 @@ private:
     }
   }
 
-  /// The surface of faces.nodes[i], which is on no curve: that which all its corners touch.
+  /// Returns the surface of faces.nodes[i], which is on no curve: the one that all its corners
+  /// touch.
   Index surfaceOf(Index i) const
   {
     const Index node = this->faces_.nodes[i];
@@ -468,7 +469,7 @@ private:
         return this->patches_.ofFace[*this->result_.edges.faces.begin(edge)];
       }
     }
-    // The middle of a face: the face with these corners, found at one of its edges.
+    // A face node: finds the face with these corners at one of its edges.
     const std::vector<Index> corners(corner, end);
     const auto onFace = [&](Index face, Index n)
     {

@@ -28,7 +28,7 @@ public:
   std::vector<CurveChain> trace()
   {
     std::vector<CurveChain> chains;
-    // Sorted by node: the lower of two vertices starts first, at its lower neighbor.
+    // Sorted by node: the lower of two vertices starts first, towards its lower neighbor.
     for (const Step& step : this->at_)
     {
       if (this->isVertex_[step.from] && !this->used_[step.edge])
@@ -42,7 +42,7 @@ public:
       {
         chains.push_back(this->follow(step));
         chains.back().loop = true;
-        // Mid-side nodes of the closing edge stay behind the last corner; the first corner is not
+        // Mid-side nodes of the closing edge remain after the last corner; the first corner is not
         // repeated.
         chains.back().nodes.pop_back();
       }

@@ -10,7 +10,7 @@ namespace morph
 {
 namespace
 {
-/// Sums of the faces' areas at each of faces.nodes.
+/// Sums the faces' areas at each of faces.nodes.
 class NodeSums
 {
 public:
@@ -32,8 +32,8 @@ public:
     }
   }
 
-  /// Over the faces with the node as a corner or, for a node between corners, with all of these. Of
-  /// those that `isChosen` says alone, unless it is null.
+  /// Sums over faces that have the node as a corner or, for a node between corners, all of these.
+  /// Unless `isChosen` is null, only chosen faces count.
   Points sum(const Points& areas, const std::vector<std::uint8_t>* isChosen) const
   {
     Points result = Points::Zero(static_cast<Index>(this->faces_.nodes.size()), 3);
@@ -70,7 +70,7 @@ private:
 
   const BoundaryFaces& faces_;
   std::vector<Index> row_; ///< of a node in faces.nodes
-  /// For each row the rows of the nodes that it is the first corner of.
+  /// For each row, the rows of the nodes of which it is the first corner.
   std::vector<std::vector<Index>> between_;
 };
 }

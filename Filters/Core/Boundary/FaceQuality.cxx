@@ -12,7 +12,8 @@ namespace morph
 {
 namespace
 {
-/// cof(F) of the affine map nearest to a surface's motion: takes normals at rest to moved ones.
+/// Returns cof(F) of the affine map that fits a surface's motion: it maps undeformed normals to
+/// moved ones.
 Eigen::Matrix3d normalMap(
   const ConstPoints& rest, const ConstPoints& moved, const std::vector<Index>& nodes)
 {
@@ -39,8 +40,8 @@ Eigen::Matrix3d normalMap(
       inverse[j] = 1 / axes.eigenvalues()[j];
     }
   }
-  // Across a plane F is the identity, whatever that is: cof(F) n is the cross product of two moved
-  // tangents.
+  // F is the identity across a plane; this has no effect, as cof(F) n is the cross product of two
+  // moved tangents.
   const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + P * axes.eigenvectors() *
                                                             inverse.asDiagonal() *
                                                             axes.eigenvectors().transpose();
@@ -65,7 +66,7 @@ double leastCorner(
     const Eigen::RowVector3d area = a.cross(b);
     const double sine = lengths > 0 ? area.norm() / lengths : 0;
     turned = area.dot(normal) < 0;
-    // The corners of a triangle turn together: there the sign goes to the least of them.
+    // The corners of a triangle turn together: its sign applies to the minimum.
     least = std::min(least, turned && size == 4 ? -sine : sine);
   }
   return size == 3 ? (turned ? -least : least) * 2 / std::sqrt(3.) : least;

@@ -39,13 +39,13 @@ enum class State : char
   Visited
 };
 
-/// The rim of a patch of turned faces: its edges that have a straight face of the same surface on
-/// the other side.
+/// The rim of a patch of turned faces: its edges with a straight face of the same surface on the
+/// other side.
 struct Rim
 {
   Index edges = 0;
-  Index against = 0;    ///< of them those where the moved faces look against each other
-  bool bowTies = false; ///< there are such faces beside it
+  Index against = 0;    ///< number of these edges where the moved faces oppose each other
+  bool bowTies = false; ///< the patch is next to such faces
 
   void add(double cosine)
   {
@@ -55,8 +55,7 @@ struct Rim
   bool isFold() const { return this->edges > 0 ? 2 * this->against >= this->edges : this->bowTies; }
 };
 
-/// Calls body(g) for the faces g of the surface of f that have an edge in common with it, and for
-/// f, once for each edge.
+/// Calls body(g) once an edge for f and for the faces g of its surface that share the edge.
 template <typename Body>
 void forNeighbors(const Classification& geometry, Index f, const Body& body)
 {

@@ -9,16 +9,17 @@
 
 namespace morph
 {
-/// Numbers of the boundary faces that a motion folds, ascending: faceQuality() is 0 or less, and
-/// the fold can be seen at the face alone (a quadrilateral whose corners turn different ways) or at
-/// the rim of a patch of the others (at half or more of its edges inside the surface the faces on
-/// both sides look against each other). The rim tells folds from surfaces that bend so much that
-/// the sign of faceQuality() means nothing. `rest`, `moved`: #nodes x 3. Cost: faceQuality()'s, and
-/// a pass over the edges.
+/// Returns the boundary faces, ascending, that a motion folds: their faceQuality() is 0 or less,
+/// and the fold is visible. It is visible at the face itself if a quadrilateral's corners turn
+/// different ways. Or it is visible at the rim of a patch of other such faces. There, at half or
+/// more of the edges inside the surface, the faces on both sides oppose each other. The rim
+/// distinguishes folds from strong bends, where the sign of faceQuality() is meaningless. `rest`,
+/// `moved`: #nodes x 3. Cost: that of faceQuality(), and a pass over the edges.
 std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const Classification& geometry);
 
-/// Those of them all nodes of which are fixed. `isFixed`: #nodes, not 0 where a node is.
+/// Returns the folded faces with fixed nodes only. `isFixed`: #nodes, nonzero where a node is
+/// fixed.
 std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const Classification& geometry, const std::vector<char>& isFixed);
 }

@@ -18,7 +18,7 @@ bool mayShareCurve(const GivenGeometry& given, const std::array<Index, 2>& nodes
   return a < 2 && b < 2 && (a == 0 || b == 0 || given.id[nodes[0]] == given.id[nodes[1]]);
 }
 
-/// From the surface nodes of each face.
+/// Returns the id of each face from its surface nodes.
 std::vector<Index> fromNodes(const BoundaryFaces& faces, const GivenGeometry& given)
 {
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;
@@ -52,7 +52,7 @@ std::vector<Index> fromNodes(const BoundaryFaces& faces, const GivenGeometry& gi
   return result;
 }
 
-/// Where two faces meet at an edge: the ids of both, or `found` false.
+/// The ids of the two faces at an edge; `found` is false if there are not two.
 struct Beside
 {
   bool found;
@@ -66,9 +66,9 @@ Beside beside(const SurfaceEdges& edges, Index e)
                                       : Beside{ false, { -1, -1 } };
 }
 
-/// Faces without an id take a neighbor's over edges that `mayCross` lets pass, the flattest first,
-/// round by round. After the first round only neighbors of faces that took one in the round before
-/// can: each face is looked at a few times. Returns how often one was.
+/// Gives faces without an id a neighbor's over edges that `mayCross` allows, the flattest first, in
+/// rounds. After the first round only neighbors of faces that the last round changed can change, so
+/// each face is examined a few times. Returns the number of examinations.
 template <typename MayCross>
 Index spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<Index>& id)
 {
@@ -166,7 +166,7 @@ private:
     }
   }
 
-  /// Edges not marked yet that may lie on a curve, `onCurve` of whose ends are given to one.
+  /// Returns unmarked edges that may lie on a curve and have `onCurve` ends that are given to one.
   std::vector<Index> candidates(int onCurve) const
   {
     std::vector<Index> result;
@@ -229,7 +229,7 @@ private:
     }
   }
 
-  /// Of the candidates at a node, the one that continues its curve edge, or another candidate, most
+  /// Returns the candidate at a node that continues its curve edge, or another candidate, most
   /// nearly straight.
   Index straightest(Index node, const std::vector<Index>& open) const
   {

@@ -13,7 +13,7 @@ namespace morph
 {
 namespace
 {
-/// One side of one face.
+/// One side of a face.
 struct Side
 {
   Index low, high, face, place;
@@ -44,7 +44,7 @@ std::vector<Side> sides(const BoundaryFaces& faces)
   return result;
 }
 
-/// Unit normals; zero for faces without area.
+/// Returns unit normals; zero for faces without area.
 Points normals(const ConstPoints& points, const BoundaryFaces& faces)
 {
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;
@@ -60,7 +60,7 @@ Points normals(const ConstPoints& points, const BoundaryFaces& faces)
         std::max(longest, (points.row(nodes[(k + 1) % size]) - points.row(nodes[k])).squaredNorm());
     }
     const Eigen::RowVector3d area = vectorArea(points, nodes, size);
-    // Thinner than this, rounding decides where the normal points.
+    // Below this thickness, rounding determines the normal.
     if (area.norm() > 1e-10 * longest)
     {
       result.row(f) = area.normalized();
@@ -73,12 +73,12 @@ Points normals(const ConstPoints& points, const BoundaryFaces& faces)
 struct Meeting
 {
   Index face[2];
-  bool sameDirection; ///< both run through the edge alike: they are wound against each other
+  bool sameDirection; ///< both run through the edge in one direction: their windings are opposite
 };
 
-/// Gives faces without area the normal of their neighbor at the longest edge that has one, round by
-/// round. After the first round only neighbors of faces that took one in the round before can.
-/// Returns how often a face was looked at.
+/// Gives faces without area the normal of their neighbor at the longest edge that has one, in
+/// rounds. After the first round only neighbors of faces that the last round changed can change.
+/// Returns the number of examinations.
 Index fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
   const std::vector<Meeting>& meeting, Points& normal)
 {
@@ -141,7 +141,7 @@ double degreesBetween(Eigen::RowVector3d a, const Eigen::RowVector3d& b, bool sa
 {
   if (sameDirection)
   {
-    a = -a; // neighbors wound alike run through their edge in opposite directions
+    a = -a; // neighbors of equal winding run through their edge in opposite directions
   }
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::acos(-1.);
 }

@@ -8,7 +8,7 @@ namespace morph
 {
 namespace
 {
-/// Sets of faces.
+/// Disjoint sets of faces (union-find).
 class Sets
 {
 public:
@@ -37,7 +37,7 @@ private:
   std::vector<Index> parent_;
 };
 
-/// Patch numbers in the order of each patch's lowest face, faces compared by their sorted node ids.
+/// Numbers patches in the order of their lowest faces, compared by sorted node ids.
 void number(const BoundaryFaces& faces, Sets& sets, SurfacePatches& result)
 {
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;

@@ -10,26 +10,25 @@
 
 namespace morph
 {
-/// What moves a closed curve without a vertex, or a closed surface without a curve, on which
-/// nothing is given.
+/// The motion of a closed curve without a vertex, or a closed surface without a curve, where
+/// nothing is given on it.
 enum class UnattachedMotion : std::uint8_t
 {
-  FollowAffinely, ///< the affine map nearest to the motion around it
-  FollowRigidly,  ///< the rotation and shift nearest to it: keeps its shape
+  FollowAffinely, ///< by the affine map that fits the surrounding motion
+  FollowRigidly,  ///< by the rotation and shift that fit it: keeps the shape
   Stay
 };
 
-/// The boundary on its way, one geometric dimension after the other: vertices, curves, surfaces
-/// (Staten et al., IMR 2011).
+/// The state of a boundary morph, one geometric dimension after the other: vertices, curves,
+/// surfaces. Source: Staten et al. (IMR 2011).
 struct BoundaryMotion
 {
-  /// How a node came by its displacement. What is settled in one step stays fixed in the later
-  /// ones.
+  /// The origin of a node's displacement. Later steps do not change a known displacement.
   enum State : std::uint8_t
   {
     Unknown = 0,
     Given,   ///< by the caller
-    Held,    ///< a vertex that nobody gave
+    Held,    ///< a vertex that is not given
     OnCurve, ///< by its curve
     OnSurface
   };
@@ -44,19 +43,19 @@ struct BoundaryMotion
   Index count(State state) const;
   /// Ids of all nodes whose displacement is known, ascending.
   std::vector<Index> known() const;
-  /// #nodes x 3: given nodes exactly where they were given, nodes without displacement where they
-  /// were, bit for bit.
+  /// Returns moved positions, #nodes x 3. Given nodes have exactly their given position, nodes
+  /// without displacement keep theirs bit for bit.
   Points moved() const;
 };
 
-/// Starts with the given nodes; vertices that are not among them are held in place. `ids`: of
-/// boundary nodes; `targets`: #ids x 3, their new positions. Throws Error naming ids that do not
-/// exist, come twice or are not on the boundary, targets that are not finite or not as many, and
-/// where nothing is given at all.
+/// Starts with the given nodes and holds all other vertices in place. `ids`: of boundary nodes;
+/// `targets`: #ids x 3, their new positions. Throws Error naming ids that do not exist, occur twice
+/// or are not on the boundary. Also throws for targets that are not finite or differ in number, and
+/// where nothing is given.
 BoundaryMotion beginMotion(const Mesh& rest, const BoundaryFaces& faces,
   const Classification& geometry, const std::vector<Index>& ids, const ConstPoints& targets);
 
-/// The same for a boundary whose volume cells are not at hand. `rest`: #nodes x 3; `bodyOfNode`:
+/// Starts a boundary without its volume cells. `rest`: #nodes x 3, undeformed; `bodyOfNode`:
 /// #nodes, as in BoundaryMotion.
 BoundaryMotion beginMotion(const ConstPoints& rest, const std::vector<Index>& bodyOfNode,
   const BoundaryFaces& faces, const Classification& geometry, const std::vector<Index>& ids,

@@ -27,7 +27,7 @@ std::vector<Index> nodesIn(const BoundaryMotion& motion, BoundaryMotion::State s
   return ids;
 }
 
-/// Tries search(node, position, found) for each id; where it succeeds the node goes there.
+/// Calls search(node, position, found) for each id, and moves the node if it succeeds.
 template <typename Search>
 ProjectionReport moveTo(
   const std::vector<Index>& ids, const Search& search, BoundaryMotion& motion, Monitor& monitor)
@@ -56,7 +56,7 @@ ProjectionReport moveTo(
   return report;
 }
 
-/// The projected nodes on their way back to where they were.
+/// Returns projected nodes to their position before the projection.
 class TakingBack
 {
 public:
@@ -73,8 +73,8 @@ public:
     }
   }
 
-  /// Takes the node back if it is projected, in `now` (#nodes x 3, the moved positions) as well.
-  /// Returns whether it is.
+  /// Returns the node if it is projected, also in `now` (#nodes x 3, the moved positions). The
+  /// result tells whether it is.
   bool take(Index node, Points& now)
   {
     if (!this->isProjected_[node])
@@ -87,7 +87,7 @@ public:
     return true;
   }
 
-  /// Moves what was taken back from `projected` to `kept`.
+  /// Moves the returned nodes from `projected` to `kept`.
   void finish(ProjectionReport& report) const
   {
     const auto kept = std::stable_partition(report.projected.begin(), report.projected.end(),
@@ -102,14 +102,14 @@ private:
   std::vector<std::uint8_t> isProjected_; ///< #nodes
 };
 
-/// Enough for folds some tens of faces across to open; a round costs little beside the projection.
+/// Opens folds some tens of faces across; a round costs little compared with the projection.
 constexpr int RelaxationRounds = 100;
 
-/// Spreads projected nodes out where faces fold.
+/// Spreads projected nodes where faces fold.
 class Relaxation
 {
 public:
-  /// `now`: #nodes x 3, the moved positions; kept up to date.
+  /// `now`: #nodes x 3, the moved positions, updated.
   Relaxation(const BoundaryFaces& faces, const Classification& geometry,
     const ProjectionTarget& target, const Points& normals, BoundaryMotion& motion, Points& now,
     Monitor& monitor)
@@ -130,8 +130,8 @@ public:
     std::sort(this->pairs_.begin(), this->pairs_.end());
   }
 
-  /// Moves those of `nodes` and their neighbors that are projected to the place on the target
-  /// nearest to the mean of their neighbors, all at once.
+  /// Moves projected ones of `nodes` and their neighbors simultaneously: to the target's point
+  /// nearest to the mean of their neighbors.
   void round(const std::vector<Index>& nodes, const std::vector<Index>& projected)
   {
     std::vector<Index> around = nodes;
@@ -159,7 +159,7 @@ public:
       });
   }
 
-  /// Brings projected mid-side and face nodes back between their corners where those were moved.
+  /// Moves projected mid-side and face nodes between their corners if these moved.
   void finish(const std::vector<Index>& projected)
   {
     std::vector<Index> moving;
@@ -200,7 +200,7 @@ private:
     return { this->faces_.between.begin(i), this->faces_.between.end(i) };
   }
 
-  /// All at once: `wanted` sees the positions of before.
+  /// Moves all nodes simultaneously: `wanted` sees the previous positions.
   template <typename Wanted>
   void place(const std::vector<Index>& nodes, const Wanted& wanted)
   {
@@ -240,7 +240,7 @@ private:
   Points& now_;
   Monitor& monitor_;
   std::vector<std::uint8_t> wasMoved_;
-  std::vector<std::pair<Index, Index>> pairs_; ///< corners that share an edge, both ways
+  std::vector<std::pair<Index, Index>> pairs_; ///< corners that share an edge, in both directions
 };
 }
 
@@ -253,7 +253,7 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
     [&](Index, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
     { return target.closestOnFeatures(x, y); },
     motion, monitor);
-  // Round by round; after the first only pieces next to a node that went back can have turned.
+  // After the first round, only pieces next to a node that went back can have turned.
   Points now = motion.moved();
   TakingBack takingBack(displacement, moved, report.projected, motion);
   for (const GeometryCurve& curve : geometry.curves)
@@ -328,7 +328,7 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
     for (int round = 0; round < RelaxationRounds && !nodes.empty(); ++round)
     {
       relaxation.round(nodes, report.projected);
-      // Nodes that no longer fold go on moving: they make room for the others.
+      // Nodes that no longer fold keep moving: they make room for the others.
       const std::vector<Index> folded = folding({});
       std::vector<Index> moving;
       if (!folded.empty())

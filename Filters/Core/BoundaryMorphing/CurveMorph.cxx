@@ -9,15 +9,14 @@ namespace morph
 {
 namespace
 {
-/// A known node on the curve, or one of its two ends there.
+/// A known node on the curve, or one of its two ends.
 struct Anchor
 {
   double parameter;
-  Index place; ///< in curve.nodes
+  Index place; ///< index in curve.nodes
 };
 
-/// Displacements of the nodes of one curve that are unknown; in the order of curve.nodes, zero for
-/// the known.
+/// Returns displacements in the order of curve.nodes, zero for the known nodes.
 Points blend(const GeometryCurve& curve, const std::vector<Anchor>& anchors, const AffineFit& fit,
   const BoundaryMotion& motion)
 {

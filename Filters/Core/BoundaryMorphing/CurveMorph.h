@@ -7,24 +7,24 @@
 
 namespace morph
 {
-/// Moves the nodes of all curves that are not given: they keep their parameter on the moved curve.
-/// Vertices, and nodes given on curves and surfaces, stay as they are.
+/// Moves the nodes of all curves that are not given: each keeps its parameter on the moved curve.
+/// Vertices, and nodes given on curves and surfaces, keep their positions.
 ///
-/// A node at parameter t between the known nodes (or vertices) a and b of its curve, at t_a <= t <=
-/// t_b, moves by
+/// A node at parameter t between the known nodes (or vertices) a and b, t_a <= t <= t_b, moves by
 ///   u(x) + (1 - s) (U_a - u(x_a)) + s (U_b - u(x_b)),   s = (t - t_a) / (t_b - t_a),
-/// with u the affine field nearest to the motion around the curve. On a straight curve by arc
-/// length u drops out, and U is linear in t; on a curved one u carries the bulge along, so that
-/// affine motions come out exactly. u is fitted to the smallest of these sets whose flat (line,
-/// plane, space) holds the curve: the curve's own known nodes, those on the surfaces beside it, on
-/// its body, on all bodies. Where none does, u is of minimum norm.
+/// where u is the affine field that fits the motion around the curve.
 ///
-/// A closed curve without any known node follows the nodes of the same sets by `unattached`. Where
-/// nothing moves the result is zero, exactly. Independent of the curves' order.
+/// On a straight curve by arc length u cancels, and U is linear in t. On a curved one u maps its
+/// shape, so affine motions are exact. u is fitted to the first of these sets whose affine span
+/// contains the curve: the known nodes of the curve, of its adjacent surfaces, of its body, of all
+/// bodies. If none does, u has minimum norm.
 ///
-/// Returns how many known nodes the fits summed up: it grows linearly with the boundary, however
-/// many curves there are, as does the rest of the cost. The sums of a surface, body or of all are
-/// made once; see KnownMotion.
+/// A closed curve without a known node follows the nodes of the same sets by `unattached`. Without
+/// motion the result is exactly zero. It does not depend on the order of curves.
+///
+/// Returns the number of known nodes that the fits summed. Cost: linear in the boundary for any
+/// number of curves. The sums of a surface, of a body and of all are computed once; see
+/// KnownMotion.
 Index morphCurves(const Classification& geometry, UnattachedMotion unattached,
   BoundaryMotion& motion, Monitor& monitor);
 }

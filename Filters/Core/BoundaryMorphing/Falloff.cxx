@@ -23,7 +23,7 @@ std::vector<Index> all(Index count)
   return rows;
 }
 
-/// Squared distance of each place from the nearest node.
+/// Returns the squared distance of each place from the nearest node.
 std::vector<double> squaredDistances(const Points& nodes, const Points& places, Monitor& monitor)
 {
   std::vector<double> result(places.rows());

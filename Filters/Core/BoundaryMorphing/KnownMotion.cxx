@@ -17,8 +17,8 @@ std::vector<Index> knownOf(const std::vector<Index>& nodes, const BoundaryMotion
   return known;
 }
 
-/// Below it a node counts as in a flat: 1e-9 of the model's size, or what rounding makes of
-/// coordinates far away.
+/// The distance below which a node lies in an affine span: 1e-9 of the model's size, or the
+/// rounding of distant coordinates.
 double flatTolerance(const Points& rest)
 {
   if (rest.rows() == 0)
@@ -84,7 +84,7 @@ const MotionSums& KnownMotion::besides(const GeometryCurve& curve)
       sums = this->surface_[*surface];
       continue;
     }
-    std::vector<Index> others; // known nodes that none of the larger ones has
+    std::vector<Index> others; // known nodes that the larger sets do not have
     for (Index node : this->ofSurface_[*surface])
     {
       const auto has = [&](Index larger)

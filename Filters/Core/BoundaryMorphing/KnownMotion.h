@@ -8,24 +8,24 @@
 
 namespace morph
 {
-/// The known displacements of a boundary at one moment, summed once by surface and by body, for all
-/// the curves and surfaces that take an affine or rigid field from what moves around them.
+/// The known displacements of a boundary, summed once by surface and by body. Curves and surfaces
+/// fit affine or rigid fields to these sums.
 class KnownMotion
 {
 public:
-  /// Keeps references to both: `motion` must not change while this is asked. Cost: one pass over
-  /// the surfaces' nodes.
+  /// Keeps references to both; `motion` must not change while the object is in use. Cost: one pass
+  /// over the surfaces' nodes.
   KnownMotion(const Classification& geometry, const BoundaryMotion& motion);
 
-  /// The known nodes on the curve, or on the surfaces beside it, on its body, or all: the first of
-  /// these sets whose flat (line, plane, space) holds the curve, so that an affine motion of the
-  /// set is known on the curve. The last that is not empty if none does. Cost: the curve's nodes
-  /// and those of its surfaces but the largest, once for each such set of surfaces.
+  /// Returns the sums of the first set whose affine span (line, plane, space) contains the curve,
+  /// or of the last nonempty one. The sets are the known nodes of the curve, of its adjacent
+  /// surfaces, of its body, of all. An affine motion of the set is then known on the curve. Cost:
+  /// the curve's nodes; once for each set of adjacent surfaces, the nodes of all but the largest.
   MotionSums around(const GeometryCurve& curve);
-  /// The same for other nodes on a body: its known nodes, or all. Cost: `nodes`.
+  /// Returns the sums for other nodes on a body: of its known nodes, or of all. Cost: `nodes`.
   MotionSums around(Index body, const std::vector<Index>& nodes) const;
 
-  /// Known nodes that were summed so far: a measure of the cost.
+  /// Returns the number of known nodes summed so far, a measure of the cost.
   Index summed() const { return this->summed_; }
 
 private:
@@ -34,12 +34,13 @@ private:
   bool holds(const MotionSums& sums, const std::vector<Index>& nodes) const;
 
   const BoundaryMotion& motion_;
-  double tolerance_ = 0;                      ///< length below which a node lies in a flat
+  /// maximum distance of a node from an affine span that contains it
+  double tolerance_ = 0;
   std::vector<std::vector<Index>> ofSurface_; ///< #surfaces: the known nodes
   std::vector<MotionSums> surface_;           ///< #surfaces
-  std::vector<MotionSums> body_; ///< one more than #bodies, the first of the nodes on none
+  std::vector<MotionSums> body_; ///< one more than #bodies; the first has the nodes of no body
   MotionSums all_;
-  std::map<std::vector<Index>, MotionSums> besides_; ///< by the surfaces beside a curve
+  std::map<std::vector<Index>, MotionSums> besides_; ///< by the adjacent surfaces of a curve
   Index summed_ = 0;
 };
 }

@@ -14,8 +14,8 @@ MotionSums::MotionSums(const BoundaryMotion& motion, const std::vector<Index>& i
   {
     return;
   }
-  // Sums of differences: those of coordinates far from the origin would lose the digits that tell
-  // the nodes apart.
+  // Sum differences: sums of coordinates far from the origin would lose the digits that tell the
+  // nodes apart.
   const double n = static_cast<double>(ids.size());
   const Eigen::RowVector3d first = motion.rest.row(ids[0]);
   for (Index id : ids)
@@ -39,7 +39,7 @@ void MotionSums::add(const MotionSums& other)
     *this = this->empty() ? other : *this;
     return;
   }
-  // Chan, Golub, LeVeque (The American Statistician 37 (1983) 242-247): nothing cancels.
+  // Chan, Golub, LeVeque (The American Statistician 37 (1983) 242-247): free of cancellation.
   const double n = static_cast<double>(this->count_), m = static_cast<double>(other.count_);
   const Eigen::RowVector3d arm = other.centre_ - this->centre_, gain = other.mean_ - this->mean_;
   const double weight = n * m / (n + m);
@@ -84,13 +84,13 @@ MotionSums::RigidFit MotionSums::rigidFit() const
     fit.turn_.setZero();
     return fit;
   }
-  // With displacements beside positions a small motion keeps its digits.
+  // Uses displacements in addition to positions, so a small motion keeps its digits.
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
     this->stretch_.transpose() + this->spread_, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& size = svd.singularValues();
   if (!(size[1] > 1e-10 * size[0]))
   {
-    // A line: the turn about its axis is free.
+    // A line: the rotation about its axis is free.
     const Eigen::Quaterniond q =
       Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0));
     fit.turn_ = q.toRotationMatrix() - Eigen::Matrix3d::Identity();

@@ -8,40 +8,39 @@
 
 namespace morph
 {
-/// The points that lie in the flat through some nodes: their common point, line, plane or all
-/// space.
+/// The affine span of some nodes: their common point, line, plane or all of space.
 class AffineSpan
 {
 public:
   /// `centre`: the nodes' mean position; `spread`: their second moments about it.
   AffineSpan(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread);
-  /// How far `x` is from it.
+  /// Returns the distance of `x` from the span.
   double distance(const Eigen::RowVector3d& x) const;
 
 private:
   Eigen::RowVector3d centre_;
-  Eigen::Matrix3d normal_; ///< projects onto what is perpendicular
+  Eigen::Matrix3d normal_; ///< projects onto the orthogonal complement
 };
 
-/// What fits need to know of a set of nodes with displacements: sums that can be added, so that
-/// nobody has to walk through a set again that is made of others.
+/// Sums over nodes with displacements, from which fits follow. Sums of disjoint sets can be added
+/// without visiting their nodes again.
 class MotionSums
 {
 public:
   MotionSums() = default;
   MotionSums(const BoundaryMotion& motion, const std::vector<Index>& ids);
-  /// Adds a set that has no node in common with this one. Cost: constant.
+  /// Adds a set without common nodes. Cost: constant.
   void add(const MotionSums& other);
 
   bool empty() const { return this->count_ == 0; }
   AffineSpan flat() const { return AffineSpan(this->centre_, this->spread_); }
 
-  /// The affine displacement field nearest to the nodes' displacements. It is zero where those are.
+  /// Returns the affine displacement field that fits the displacements, zero if all of them are.
   AffineFit affineFit() const;
 
-  /// The rigid motion x' = c' + (x - c) R^T nearest to theirs in the sense of least squares
-  /// (Kabsch, Acta Cryst. A32 (1976) 922-923), without reflection; where the nodes lie on a line,
-  /// of all turns that fit the one by the smallest angle.
+  /// The rigid motion x' = c' + (x - c) R^T, without reflection, that fits the displacements by
+  /// least squares. If the nodes lie on a line, it is the fit with the smallest angle. Source:
+  /// Kabsch, Acta Cryst. A32 (1976) 922-923.
   class RigidFit
   {
   public:
@@ -62,11 +61,11 @@ private:
   Eigen::Matrix3d stretch_ = Eigen::Matrix3d::Zero();      ///< of (x - c)^T (d - mean)
 };
 
-/// The affine displacement field nearest to the displacements of `ids`. It is zero where those are.
+/// Returns the affine displacement field that fits the displacements of `ids`, zero if all are.
 AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids);
 
-/// Gives `nodes` the displacement by which `how` makes them follow the nodes of `sums`; zero where
-/// that is empty.
+/// Moves `nodes` with the nodes of `sums` by the fit that `how` selects; by zero if `sums` is
+/// empty.
 void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, UnattachedMotion how,
   BoundaryMotion& motion);
 }

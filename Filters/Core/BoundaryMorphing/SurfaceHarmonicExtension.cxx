@@ -14,7 +14,7 @@ namespace
 {
 using Pair = std::pair<Index, Index>;
 
-/// The edges of the faces, lower node first, each once.
+/// Returns the edges of the faces, lower node first, each once.
 std::vector<Pair> edgesOf(const BoundaryFaces& faces, const std::vector<Index>& faceIds)
 {
   std::vector<Pair> edges;
@@ -33,7 +33,7 @@ std::vector<Pair> edgesOf(const BoundaryFaces& faces, const std::vector<Index>& 
   return edges;
 }
 
-/// Corners that lie between nodes of a quadratic face; the same list a corner has is empty.
+/// Returns the corners that a quadratic face's node is between; empty for a corner.
 std::pair<const Index*, const Index*> between(const BoundaryFaces& faces, Index node)
 {
   const Index i =
@@ -88,7 +88,7 @@ private:
   {
     this->motion_.displacement.row(node) = this->field(node) + residual;
   }
-  /// The row of a free corner, or -1.
+  /// Returns the row of a free corner, or -1.
   int row(Index node) const
   {
     const auto place = std::lower_bound(this->corners_.begin(), this->corners_.end(), node);
@@ -112,7 +112,7 @@ private:
     double largestResidual = 0, largestMotion = 0;
     for (const Pair& e : edges)
     {
-      // Nodes in one place are tied together, but not without bound.
+      // The weight of coincident nodes is large but bounded.
       const double weight = longest > 0 ? longest / std::max(length(e), 1e-6 * longest) : 1;
       const int i = this->row(e.first), j = this->row(e.second);
       for (const auto& [own, other, node] :
@@ -140,7 +140,7 @@ private:
     {
       place.row(i) = this->motion_.rest.row(this->corners_[i]);
     }
-    if (largestResidual > 1e-13 * largestMotion) // else it is rounding
+    if (largestResidual > 1e-13 * largestMotion) // otherwise it is rounding
     {
       CsrMatrix matrix(n, n);
       matrix.setFromTriplets(entries.begin(), entries.end());

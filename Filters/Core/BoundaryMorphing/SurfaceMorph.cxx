@@ -28,7 +28,7 @@ bool isUnknown(const GeometrySurface& surface, const BoundaryMotion& motion)
     [&](Index node) { return motion.state[node] == BoundaryMotion::Unknown; });
 }
 
-/// The loops round a surface as rows in `fixed`; none where a loop's node is not fixed.
+/// Returns the loops around a surface as rows in `fixed`; none if a loop's node is not fixed.
 SurfaceResidual::Loops loopRows(
   const BoundaryFaces& faces, const std::vector<Index>& faceIds, const std::vector<Index>& fixed)
 {
@@ -56,7 +56,7 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
   {
     return;
   }
-  surface.fixed.clear(); // should it throw
+  surface.fixed.clear(); // if prepare() throws, none are kept
   surface.residual.setNumberOfNeighbors(neighbors);
   surface.residual.prepare(
     rows(rest, fixed), rows(rest, free), loopRows(faces, faceIds, fixed), monitor);
@@ -88,7 +88,7 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
   SurfaceWeights& weights = kept ? *kept : own;
   weights.surfaces.resize(geometry.surfaces.size());
   BoundaryMotion before;
-  std::optional<KnownMotion> known; // where a surface has to follow what others do
+  std::optional<KnownMotion> known; // for surfaces that follow other nodes
   if (std::any_of(geometry.surfaces.begin(), geometry.surfaces.end(),
         [&](const GeometrySurface& surface) { return isUnknown(surface, motion); }))
   {
@@ -129,7 +129,7 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
         }
         if (!kept)
         {
-          one = {}; // the memory of one surface's weights at a time
+          one = {}; // keeps the weights of one surface at a time in memory
         }
       }
     }

@@ -15,7 +15,7 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 1024;
-constexpr double Flat = 1e-12; // determinants and areas this small, relative, count as zero
+constexpr double Flat = 1e-12; // determinants and areas below this, relative, count as zero
 
 void requireFinite(const char* what, const Points& points)
 {
@@ -64,8 +64,8 @@ Points centred(const Points& points)
   return points.rowwise() - points.colwise().mean();
 }
 
-/// Unit normal of the plane nearest to the points, and two unit vectors in it; turned as the
-/// eigenvectors happen to be.
+/// Returns the unit normal of the plane that fits the points, and two unit vectors in it. Their
+/// rotation is that of the eigenvectors.
 Eigen::Matrix3d planeAxes(const Points& points)
 {
   const Points arms = centred(points);
@@ -94,8 +94,9 @@ Eigen::Vector3d vectorArea(const Points& points, const SurfaceResidual::Loops& l
   return sum;
 }
 
-/// Rotation times scale nearest to the map from `rest` to `moved` (both centred): Kabsch, Acta
-/// Cryst. A 34 (1978) 827-828, and the ratio of the extents. Rows are multiplied by it.
+/// Returns the rotation times scale that fits the map from `rest` to `moved` (both centred), for
+/// row vectors. Source: Kabsch, Acta Cryst. A 34 (1978) 827-828; the scale is the ratio of the
+/// extents.
 Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
@@ -168,8 +169,8 @@ SurfaceResidual::Map SurfaceResidual::map(
   if (this->fit_.rank() == 2)
   {
     map.report.fit = Fit::Plane;
-    // Axes, areas and normals of both planes come out of the same steps: bit for bit the same where
-    // nothing moves.
+    // Both planes' axes, areas and normals result from the same steps, so they agree bit for bit
+    // without motion.
     const Eigen::Matrix3d axes = planeAxes(sites);
     const Eigen::Vector3d u = axes.col(1), v = axes.col(2);
     Eigen::Vector3d area = u.cross(v);
@@ -177,7 +178,7 @@ SurfaceResidual::Map SurfaceResidual::map(
                                   .cross(Eigen::Vector3d(v + map.gradient.transpose() * v));
     const Eigen::Vector3d loopArea = vectorArea(this->prescribed_, this->loops_);
     const Eigen::Vector3d movedLoopArea = vectorArea(prescribed, this->loops_);
-    // The loops of a closed strip cancel, and say nothing.
+    // The loops of a closed strip cancel and determine nothing.
     if (loopArea.norm() > Flat * (sites.rowwise() - map.centre).squaredNorm())
     {
       area = loopArea;

@@ -17,11 +17,11 @@ namespace morph
 namespace
 {
 constexpr double Poor = 0.2;       // scaled Jacobian
-constexpr double PartOfRest = 0.5; // of it at rest
+constexpr double PartOfRest = 0.5; // of its undeformed value
 constexpr int Rings = 2;
 constexpr int Sweeps = 20;
 constexpr int MostHalvings = 8;
-constexpr double LeastDecrease = 1e-4; // of the sum, to be worth a step
+constexpr double LeastDecrease = 1e-4; // minimum decrease of the sum, relative
 
 using Row = Eigen::RowVector3d;
 using Plane = Eigen::Matrix<double, 3, 2>; ///< two tangents, right-handed with the normal
@@ -34,12 +34,12 @@ Plane tangents(const Row& normal)
   return plane;
 }
 
-/// One corner of a face with its two neighbors there.
+/// A corner of a face with its two neighbors.
 struct Corner
 {
   Index node[3];               ///< the corner, the next node, the one before
-  Eigen::Matrix2d restInverse; ///< of the two edges in the face's plane at rest
-  double area;                 ///< twice the triangle's at rest
+  Eigen::Matrix2d restInverse; ///< of the two edges in the undeformed face's plane
+  double area;                 ///< twice the undeformed triangle's
 };
 
 class Improvement
@@ -146,7 +146,7 @@ private:
     return D;
   }
 
-  /// Corners of faces within some rings of the poor ones that move, ascending.
+  /// Returns corners that move, ascending, of faces within some rings of the poor ones.
   std::vector<Index> around(const std::vector<Index>& poor) const
   {
     std::vector<std::uint8_t> near(this->motion_.rest.rows(), 0);
@@ -217,8 +217,8 @@ private:
     return sum;
   }
 
-  /// The Newton step in the tangent plane, by differences of the gradient; curvature is taken as
-  /// positive.
+  /// Returns the Newton step in the tangent plane, by differences of the gradient. Curvature is
+  /// made positive.
   Eigen::Vector2d step(Index node, const Plane& plane, double delta, const Sum& sum)
   {
     const Row place = this->position_.row(node);
@@ -281,8 +281,8 @@ private:
     return false;
   }
 
-  /// Hands the corners' new places to the motion, and takes the nodes between them along. Returns
-  /// who moved.
+  /// Writes the corners' new positions to the motion and moves the nodes between them. Returns the
+  /// ids of moved nodes.
   std::vector<Index> write(const std::vector<Index>& patch)
   {
     const Points before = this->motion_.moved();

@@ -42,8 +42,8 @@ enum class Certificate : std::int8_t
 ///
 /// Undecided are hexahedra and wedges with a determinant within about 1e-13 of zero, but no corner
 /// at or below zero. This is relative to the product of the longest edges in the three directions.
-/// Undecided are also: quadratic cells within about 1e-11 of zero, even if exactly zero (a node at
-/// a quarter of its edge); coordinates that are not finite; shapes that are not volumes.
+/// Also undecided are quadratic cells within about 1e-11 of zero, even if exactly zero (a node at a
+/// quarter of its edge). So are coordinates that are not finite and shapes that are not volumes.
 ///
 /// `nodes`: n x 3, all n nodes of the cell, those of a voxel in a hexahedron's order. Cost: 0.1
 /// microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell. An

@@ -13,17 +13,18 @@ namespace morph
 /// VTK's parametric map of a quadratic volume cell and its Jacobian determinant, both in Bernstein
 /// form. Types: 24 to 27, 29 and 31 to 33.
 ///
-/// Each of VTK's maps is a polynomial of degree two over the simplices of its domain, so the
-/// missing nodes of the full lattice are fixed combinations of the cell's own nodes. All these
-/// factors are multiples of 1/64, hence exact.
+/// Each map is a polynomial of degree two over the simplices of its domain. So the missing nodes of
+/// the full lattice are fixed combinations of the cell's own nodes. All these factors are multiples
+/// of 1/64, hence exact.
+///
 /// - 20 and 24 nodes, wedge with 15: the middle of a square is half the sum of its mid-side nodes
-///   less a quarter of the sum of its corners; the hexahedron's middle is that of the square at
+///   less a quarter of the sum of its corners. The hexahedron's middle is that of the square at
 ///   half its height.
 /// - Wedge with 12: nodes at half the height are means.
 /// - Pyramid with 13: a hexahedron whose upper nodes are all the apex, by the functions of
-///   InterpolateFunctions() (as in VTK 9.2, where InterpolateDerivs() belongs to other
-///   functions). Its derivatives along r and s have the factor 1 - t, its determinant (1 - t)^2;
-///   both are divided out here, as the factors leave no sign.
+///   InterpolateFunctions() (as in VTK 9.2, where InterpolateDerivs() belongs to other functions).
+///   Its derivatives along r and s have the factor 1 - t, its determinant (1 - t)^2. Both are
+///   divided out here; they do not change the sign.
 class QuadraticMap
 {
 public:
