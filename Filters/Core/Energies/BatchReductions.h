@@ -16,8 +16,8 @@ namespace detail
 constexpr Index BatchGrain = 128;
 }
 
-/// What Body::run(batch, batches, arguments..., sum) adds to a Sum for each batch, see
-/// SimdDispatch.h. Sums of fixed blocks, in their order: no thread shows.
+/// Sums Body::run(batch, batches, arguments..., sum) over all batches, see SimdDispatch.h. Batches
+/// are summed in fixed blocks in order, so the result does not depend on threads.
 template <typename Body, typename Sum, typename... Arguments>
 Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments&... arguments)
 {
@@ -41,9 +41,9 @@ Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments
   return sum;
 }
 
-/// Body::run(batch, batches, arguments..., parts) writes what the batch gives to its corners at
-/// their places in `parts`, whose room is used again; `result` becomes each row's sum over its
-/// places, in their order.
+/// Sums the contributions of all batches to the rows' corners into `result`, #rows x 3.
+/// Body::run(batch, batches, arguments..., parts) writes a batch's contributions to their places in
+/// `parts`, whose memory is reused. Each row's sum has the order of its places.
 template <typename Body, typename... Arguments>
 void gatherFromBatches(const CellBatches& batches, Points& parts, Points& result, Monitor& monitor,
   const Arguments&... arguments)

@@ -7,8 +7,8 @@
 
 namespace morph
 {
-/// What a function on a batch of cells needs first: corners, and the Jacobians of their tetrahedra.
-/// Included by few sources.
+/// Common steps of functions on batches of cells: corners, and the Jacobians of their tetrahedra.
+/// Few sources include this.
 namespace foldover
 {
 using SimdVector = Vector3<SimdDouble4>;
@@ -31,7 +31,7 @@ MORPH_SIMD_INLINE void cornersOf(
   }
 }
 
-/// From a tetrahedron's first corner to the others, by columns.
+/// Computes the edges from a tetrahedron's first corner to the others, by columns.
 MORPH_SIMD_INLINE void edgesOf(const SimdVector (&x)[8], const int* corner, SimdMatrix& D)
 {
   for (int k = 0; k < 3; ++k)
@@ -43,7 +43,7 @@ MORPH_SIMD_INLINE void edgesOf(const SimdVector (&x)[8], const int* corner, Simd
   }
 }
 
-/// Writes what a batch gives to its corners to their places.
+/// Stores a batch's contributions to its corners at their places.
 MORPH_SIMD_INLINE void storeAtPlaces(
   const CellBatches& batches, Index batch, const SimdVector (&sum)[8], Points& parts)
 {
@@ -71,7 +71,7 @@ MORPH_SIMD_INLINE void inverseOf(const CellBatches::Tetrahedra& tetrahedra, Simd
   }
 }
 
-/// The identity in lanes of weight 0, which then are harmless numbers.
+/// Computes J; it is the identity in lanes of weight 0, which keeps their numbers harmless.
 MORPH_SIMD_INLINE void jacobian(const SimdVector (&x)[8], const int* corner,
   const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& inverse, SimdMatrix& J)
 {

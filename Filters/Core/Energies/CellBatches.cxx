@@ -20,7 +20,7 @@ std::vector<Index> allCells(const Mesh& mesh)
   return ids;
 }
 
-/// Of a volume cell's corners; negative where none is free.
+/// Returns the minimum row of a volume cell's corners; negative if none is free.
 Index leastRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
@@ -54,7 +54,7 @@ CellBatches::CellBatches(
       batch.cells = 0;
     }
   };
-  // In the order of their least rows, so that what a row gathers is near in memory.
+  // In the order of their minimum rows, so that a row's contributions are near in memory.
   const Adjacency order = gatherMap(
     static_cast<Index>(cells.size()), rows, [&](Index i) { return leastRow(mesh, cells[i], row); });
   for (Index i : order.values)

@@ -10,27 +10,27 @@
 
 namespace morph
 {
-/// Cells with a free node, four of one shape side by side, so that the same formula runs on four
-/// tetrahedra at once. The last batch of a shape may have fewer; the lanes left over repeat its
-/// first cell, with weight 0.
+/// Cells with a free node in batches of four of one shape, so that a formula runs on four
+/// tetrahedra at once. The last batch of a shape may have fewer cells: its spare lanes repeat the
+/// first cell with weight 0.
 class CellBatches
 {
 public:
-  /// One tetrahedron of each cell of a batch. Lanes of weight 0 count for nothing.
+  /// One tetrahedron of each cell of a batch. Lanes of weight 0 have no effect.
   struct Tetrahedra
   {
-    double inverse[9][SimdWidth]; ///< of the target, by columns
+    double inverse[9][SimdWidth]; ///< of the target matrix, by columns
     double weight[SimdWidth], theta[SimdWidth];
     double stiffened[SimdWidth]; ///< 1 or 0
   };
 
-  /// `free`: ids of the nodes that move, in the order of the rows: fast where that keeps neighbors
-  /// near, see unknownOrdering().
+  /// `free`: ids of the nodes that move, in the order of the rows. An order that keeps neighbors
+  /// near is fast, see unknownOrdering().
   CellBatches(const Mesh& mesh, const std::vector<Index>& free);
-  /// Of the volume cells with these ids alone.
+  /// Only the volume cells with the ids `cells`.
   CellBatches(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);
 
-  /// Tetrahedra without a free node have weight 0: nothing moves them.
+  /// Tetrahedra without a free node get weight 0, as they are constant.
   void setTargets(const TargetMatrices& targets);
 
   Index size() const { return static_cast<Index>(this->batches_.size()); }
@@ -43,15 +43,16 @@ public:
   {
     return this->node_.data() + this->batches_[batch].firstPlace;
   }
-  /// Of the batch's first corner in its first cell, among all lanes of all corners.
+  /// The place of the batch's first corner in its first cell, among all lanes of all corners.
   Index firstPlace(Index batch) const { return this->batches_[batch].firstPlace; }
   Index places() const { return static_cast<Index>(this->node_.size()); }
   Index batchOf(Index place) const { return this->batchOf_[place / SimdWidth]; }
-  /// The row of the place's node, or negative: its node is prescribed, or its lane repeats another.
+  /// The row of the place's node, or negative if the node is prescribed or the lane is a
+  /// repetition.
   std::int32_t row(Index place) const { return this->row_[place]; }
   /// The places of each row, ascending.
   const Adjacency& uses() const { return this->uses_; }
-  /// Whether a free node moves the tetrahedron of these four corners in that cell of the batch.
+  /// Whether the tetrahedron of these four corners in this lane of the batch has a free node.
   bool moves(Index batch, int lane, const int* corner) const;
 
   const Tetrahedra* targets(Index batch) const

@@ -7,8 +7,8 @@
 
 namespace morph
 {
-/// The formulas of FoldoverDensity, for a number type T that is double or SimdDouble4. Included by
-/// few sources: all is inlined.
+/// The formulas of FoldoverDensity for a number type T, double or SimdDouble4. Few sources include
+/// this, as all is inlined.
 namespace foldover
 {
 template <typename T>
@@ -80,7 +80,7 @@ MORPH_SIMD_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
   }
 }
 
-/// What the formulas depend on besides J.
+/// The parameters of the density.
 template <typename T>
 struct Parameters
 {
@@ -88,7 +88,7 @@ struct Parameters
   double epsilon;
 };
 
-/// chi, and its derivatives by the determinant D.
+/// chi and its derivatives by the determinant D.
 template <typename T>
 struct Regularised
 {
@@ -98,14 +98,14 @@ struct Regularised
   {
     const double square = epsilon * epsilon;
     const T root = squareRoot(square + D * D);
-    // The second form is the first without its cancellation.
+    // The second form avoids the cancellation of the first.
     this->chi = D > 0. ? (D + root) / 2. : square / (2. * (root - D));
     this->first = this->chi / root;
     this->second = square / (2. * root * root * root);
   }
 };
 
-/// phi, without the stiffness. `I`: squared norm of J; `D`: its determinant.
+/// Computes phi, without the stiffness. `I`: squared norm of J; `D`: its determinant.
 template <typename T>
 MORPH_SIMD_INLINE void distortion(const Parameters<T>& p, const T& I, const T& D, T& phi)
 {
@@ -122,7 +122,7 @@ MORPH_SIMD_INLINE void stiffen(const T& stiffness, const T& phi, T& value)
   value = gap > 0. ? phi / gap : infinity;
 }
 
-/// The density and its derivatives by I and D, which mean nothing where it is infinite.
+/// The density and its derivatives by I and D, which are undefined where it is infinite.
 template <typename T>
 struct Derivatives
 {
@@ -159,7 +159,7 @@ MORPH_SIMD_INLINE void derivatives(
   stiffen(parameters.stiffness, phi, d.value);
 }
 
-/// One rotation of Jacobi's method for eigenvalues, of axes p and q; r is the third.
+/// One Jacobi rotation for eigenvalues, of axes p and q; r is the third axis.
 template <typename T>
 MORPH_SIMD_INLINE void rotate(
   T& app, T& aqq, T& apq, T& apr, T& aqr, Vector3<T>& vp, Vector3<T>& vq)
@@ -183,12 +183,12 @@ MORPH_SIMD_INLINE void rotate(
   }
 }
 
-/// Eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix, of which
-/// the lower triangle is read.
+/// Computes eigenvalues `e` and eigenvectors, the columns of a rotation V, of a symmetric matrix.
+/// Only the lower triangle of `A` is read.
 template <typename T>
 MORPH_SIMD_INLINE void symmetricEigen(const Matrix3<T>& A, Vector3<T>& e, Matrix3<T>& V)
 {
-  constexpr int Sweeps = 4; // the error is squared in each
+  constexpr int Sweeps = 4; // each squares the error
   T a00 = A[0][0], a11 = A[1][1], a22 = A[2][2], a01 = A[0][1], a02 = A[0][2], a12 = A[1][2];
   for (int j = 0; j < 3; ++j)
   {
@@ -223,11 +223,11 @@ MORPH_SIMD_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
   }
 }
 
-/// Some unit vector at a right angle to the unit vector `u`.
+/// Computes a unit vector perpendicular to the unit vector `u`.
 template <typename T>
 MORPH_SIMD_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
 {
-  // Of its three products with the axes, one of the longer ones.
+  // Of the cross products with the axes, take a long one.
   const auto alongZ = u[2] * u[2] > u[0] * u[0];
   const T zero = T{};
   result[0] = alongZ ? zero : -u[1];
@@ -242,8 +242,8 @@ MORPH_SIMD_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
   }
 }
 
-/// J = U diag(S) V^T with rotations U and V; the last of the descending singular values carries the
-/// determinant's sign.
+/// Computes J = U diag(S) V^T with rotations U and V. Singular values descend; the last has the
+/// sign of the determinant.
 template <typename T>
 MORPH_SIMD_INLINE void signedSingularValues(
   const Matrix3<T>& J, Matrix3<T>& U, Vector3<T>& S, Matrix3<T>& V)
@@ -263,8 +263,8 @@ MORPH_SIMD_INLINE void signedSingularValues(
   descend(e[0], e[1], V[0], V[1]);
   cross(V[0], V[1], V[2]);
 
-  // The left vectors by orthogonalisation in descending order: a vanishing singular value leaves
-  // its vector to the others.
+  // The left vectors result from orthogonalisation in descending order, so a vanishing singular
+  // value takes the remaining direction.
   Vector3<T> f[3];
   for (int j = 0; j < 3; ++j)
   {
@@ -307,7 +307,7 @@ MORPH_SIMD_INLINE void signedSingularValues(
 template <typename T>
 MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
 {
-  // Most matrices are definite, which their leading minors tell sooner.
+  // Most matrices are definite, which their leading minors show faster.
   const T minor = A[0][0] * A[1][1] - A[0][1] * A[0][1];
   const T determinant = A[2][2] * minor - A[0][2] * (A[0][2] * A[1][1] - A[0][1] * A[1][2]) +
                         A[1][2] * (A[0][2] * A[0][1] - A[0][0] * A[1][2]);
@@ -347,7 +347,7 @@ MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>
   Derivatives<T> d;
   derivatives(parameters, T(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), T(s[0] * c[0]), d);
 
-  // Stretches along the axes, coupled with each other.
+  // Stretches along the axes, which are coupled.
   Matrix3<T> A;
   for (int i = 0; i < 3; ++i)
   {

@@ -14,7 +14,8 @@ namespace
 {
 using namespace foldover;
 
-constexpr double Barrier = 1e-9; // regularisation that keeps nothing inverted finite
+// with less regularisation, every inverted tetrahedron has infinite energy
+constexpr double Barrier = 1e-9;
 
 struct Sum
 {
@@ -71,7 +72,7 @@ struct BatchEnergy
   }
 };
 
-/// What each batch gives to its corners, at their places in `parts`.
+/// Computes each batch's gradient at its corners, at their places in `parts`.
 struct BatchGradient
 {
   static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,

@@ -11,8 +11,7 @@
 namespace morph
 {
 /// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all
-/// cells. Tetrahedra without a free node are left out: nothing moves them. Not for two threads at
-/// once.
+/// cells. Tetrahedra without a free node are left out, as they are constant. Not thread-safe.
 class MeshEnergy : public SecondOrderObjective
 {
 public:
@@ -20,10 +19,10 @@ public:
   /// unknownOrdering(). Cost: passes over the cells; 100 bytes a cell.
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
 
-  /// What the tetrahedra aim for, with their weights and theta; before anything below. Those of
-  /// weight 0 are left out. 96 bytes a tetrahedron.
+  /// Sets the tetrahedra's target matrices, weights and theta; required before the functions below.
+  /// Tetrahedra of weight 0 are left out. Memory: 96 bytes a tetrahedron.
   void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
-  /// The regularisation and the stiffness; theta is that of the targets. With a regularisation
+  /// Sets the regularisation and the stiffness; theta is that of the targets. With a regularisation
   /// below 1e-9 no step may end with an inverted tetrahedron.
   void setDensity(const FoldoverDensity& density) { this->density_ = density; }
   const FoldoverDensity& density() const { return this->density_; }
@@ -31,9 +30,10 @@ public:
   struct State
   {
     double energy = 0;
-    double leastDeterminant = 0; ///< relative to the targets; positive: no tetrahedron is inverted
-    Index inverted = 0;          ///< tetrahedra whose determinant is not positive
-    double mostDistortion = 0; ///< largest phi where the stiffness counts: not in tetrahedral cells
+    /// minimum, relative to the targets; positive: no tetrahedron is inverted
+    double leastDeterminant = 0;
+    Index inverted = 0;        ///< tetrahedra whose determinant is not positive
+    double mostDistortion = 0; ///< maximum of phi over stiffened tetrahedra
   };
   State evaluate(const Points& points, Monitor& monitor) const;
 
@@ -50,7 +50,7 @@ private:
   PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;
   CellBatches batches_;
-  mutable Points parts_; ///< of the gradient, kept from call to call
+  mutable Points parts_; ///< of the gradient, kept between calls
   FoldoverDensity density_;
 };
 }

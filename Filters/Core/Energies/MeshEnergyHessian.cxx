@@ -13,12 +13,14 @@ namespace
 {
 using namespace foldover;
 
-constexpr Index Grain = 64;                                 // batches
-constexpr Index RowGrain = 256;                             // rows
-constexpr Index BatchesToCheck = 4096, RowsToCheck = 16384; // whether it is cancelled
-constexpr double Largest = 1e20; // of an entry: its square still is a float
+constexpr Index Grain = 64;     // batches
+constexpr Index RowGrain = 256; // rows
+// between two checks whether it is cancelled
+constexpr Index BatchesToCheck = 4096, RowsToCheck = 16384;
+constexpr double Largest = 1e20; // of an entry: its square is still a float
 
-/// Where the block of corners a <= b stands in the upper triangle of a cell with `n` corners.
+/// Returns the number of the block of corners a <= b in the upper triangle of a cell with `n`
+/// corners.
 MORPH_SIMD_INLINE Index blockOf(Index a, Index b, Index n)
 {
   return a * n - a * (a - 1) / 2 + b - a;
@@ -29,7 +31,7 @@ constexpr Index blocksOf(Index corners)
   return corners * (corners + 1) / 2;
 }
 
-/// to += block, or its transpose where the corners stand the other way round.
+/// Computes to += factor * block, or its transpose if the corners have the reverse order.
 MORPH_SIMD_INLINE void addBlock(
   const SimdMatrix& block, bool transposed, const SimdDouble4& factor, SimdMatrix& to)
 {
@@ -42,7 +44,7 @@ MORPH_SIMD_INLINE void addBlock(
   }
 }
 
-/// Turns `entries`, of four cells side by side, into `count` numbers a cell, one cell after the
+/// Rearranges `entries` of four interleaved cells into `count` numbers a cell, one cell after the
 /// other.
 MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, float* to)
 {
@@ -71,8 +73,8 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
   }
 }
 
-/// The second derivatives of a batch's tetrahedra, by pairs of corners a <= b of the cell, in
-/// single precision: cell, block, column, row.
+/// Computes the second derivatives of a batch's tetrahedra by pairs of corners a <= b of the cell.
+/// Single precision, in the order cell, block, column, row.
 struct BatchHessian
 {
   static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
@@ -136,7 +138,7 @@ private:
     const SimdDouble4 weight =
       load(tetrahedra.weight) * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
 
-    // Moving all four corners alike changes nothing: the blocks of corner 0 follow from the others.
+    // A translation changes nothing: the blocks of corner 0 follow from the others.
     SimdMatrix first = {};
     for (int b = 0; b < 3; ++b)
     {
@@ -220,7 +222,7 @@ void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
   {
     this->openMatrix(result, monitor);
   }
-  // The blocks of each batch; then each row gathers its own, cell by cell.
+  // First the blocks of each batch; then each row gathers its blocks in the order of the cells.
   std::vector<Index> start(this->batches_.size() + 1, 0);
   for (Index batch = 0; batch < this->batches_.size(); ++batch)
   {
@@ -228,8 +230,7 @@ void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
   }
   std::vector<float>& blocks = result.scratch();
   blocks.resize(start.back());
-  // In pieces that end within tenths of a second, and between them a look at whether it is
-  // cancelled.
+  // Pieces end within tenths of a second; between them it checks whether it is cancelled.
   for (Index begin = 0; begin < this->batches_.size(); begin += BatchesToCheck)
   {
     monitor.check();

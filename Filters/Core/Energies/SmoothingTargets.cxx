@@ -14,7 +14,7 @@ namespace
 {
 constexpr double LeastVolume = 1e-3; // of the mean cell's
 
-/// Corners of the shape with all edges of length 1, in VTK's order.
+/// Returns the corners of the shape with all edges of length 1, in VTK's order.
 const double (*unitShape(Shape shape))[3]
 {
   static const double h = std::sqrt(.75), p = std::sqrt(.5), q = std::sqrt(2. / 3);
@@ -38,7 +38,7 @@ const double (*unitShape(Shape shape))[3]
   }
 }
 
-/// Of each volume cell, those with next to none as large as the mean; 0 for other cells.
+/// Returns the volume of each volume cell, 0 for other cells. Nearly flat cells get the mean.
 std::vector<double> volumes(const Mesh& rest)
 {
   std::vector<double> result(rest.numberOfCells(), 0);

@@ -18,8 +18,10 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double MostStretch = 20;
-constexpr double LeastQuality = 1e-3; // scaled Jacobian of a cell at rest that serves as a target
-constexpr double LeastVolume = 1e-3;  // of a tetrahedron to the mean in its cell
+// minimum scaled Jacobian of an undeformed cell that is a target
+constexpr double LeastQuality = 1e-3;
+// minimum volume of a tetrahedron, relative to the mean in its cell
+constexpr double LeastVolume = 1e-3;
 
 using Corners = Eigen::Matrix<double, 3, 8>;
 using Lengths = Eigen::Vector3d; // along the three axes of a cell
@@ -36,7 +38,7 @@ const Axes* axesOf(Shape shape)
   static const Axes hex = { { 4, 4, 4 },
     { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } }, { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } },
       { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } } };
-  // The triangle's two axes are made one; its third edge counts with both.
+  // The triangle has two equal axes; its third edge counts for both.
   static const Axes wedge = { { 3, 3, 3 },
     { { { 0, 1 }, { 3, 4 }, { 1, 2 }, { 0, 0 } }, { { 0, 2 }, { 3, 5 }, { 4, 5 }, { 0, 0 } },
       { { 0, 3 }, { 1, 4 }, { 2, 5 }, { 0, 0 } } } };
@@ -61,8 +63,8 @@ const Axes* axesOf(Shape shape)
   }
 }
 
-/// Mean edge lengths along the axes; those of a wedge's triangles and all of a tetrahedron's are
-/// one.
+/// Returns mean edge lengths along the axes. A wedge's triangle axes are equal, and so are all of a
+/// tetrahedron's.
 Lengths lengths(Shape shape, const Corners& x)
 {
   const Axes& axes = *axesOf(shape);
@@ -85,15 +87,15 @@ Lengths lengths(Shape shape, const Corners& x)
   return result;
 }
 
-/// Mean edge vectors along the axes; a pyramid's third leads from the middle of its base to its
-/// apex.
+/// Returns mean edge vectors along the axes. A pyramid's third axis connects the middle of its base
+/// to its apex.
 Eigen::Matrix3d frame(Shape shape, const Corners& x)
 {
   const Axes& axes = *axesOf(shape);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   for (int d = 0; d < 3; ++d)
   {
-    // A wedge's third triangle edges lie across both axes.
+    // A wedge's third triangle edges are not along either axis.
     const int n = shape == Shape::Wedge && d < 2 ? 2 : axes.count[d];
     for (int e = 0; e < n; ++e)
     {
@@ -103,7 +105,7 @@ Eigen::Matrix3d frame(Shape shape, const Corners& x)
   return J;
 }
 
-/// Right-angled, or regular, with these lengths along the axes, in VTK's order.
+/// Returns the right-angled or regular shape with these lengths along the axes, in VTK's order.
 Corners idealShape(Shape shape, const Lengths& length)
 {
   const double a = length[0], b = length[1], c = length[2];
@@ -159,7 +161,7 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
   return D;
 }
 
-/// Of a tetrahedron of the cell's decomposition.
+/// Returns the nodes of a tetrahedron of the cell's decomposition.
 std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
@@ -175,7 +177,7 @@ bool isVolume(const Mesh& mesh, Index cell)
   return numberOfCorners(cellShape(mesh.types[cell])->shape) > 0;
 }
 
-/// Whether the cells at rest may serve as targets.
+/// Returns which undeformed cells may serve as targets.
 std::vector<char> validCells(
   const Mesh& rest, const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
@@ -198,8 +200,7 @@ double meanVolume(const SimplicialDecomposition& parts, const Corners& x)
   return sum / parts.count;
 }
 
-/// For a cell that cannot be its own target: the mean edge lengths of the valid cells around it, or
-/// its own.
+/// Returns the mean edge lengths of the valid cells around a cell that is not valid, or its own.
 Lengths lengthsAround(
   const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
 {

@@ -22,16 +22,16 @@ enum class TargetConstruction
   Ideal
 };
 
-/// The tetrahedra of all cells' averaged simplicial decompositions, with the inverse of their
-/// target and their weight.
+/// Target matrices of all cells: for each tetrahedron of the averaged simplicial decompositions,
+/// the inverse of its target and a weight.
 struct TargetMatrices
 {
-  /// Of tetrahedron t: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity where it has its
-  /// target's shape and size. Its corners are those of the same place in the shape's
-  /// simplicialDecomposition(), of which a cell has the first ones or all.
+  /// One tetrahedron: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity for the target's
+  /// shape and size. The corners are those of the same entry in the shape's
+  /// simplicialDecomposition(). A cell has the first of these tetrahedra or all.
   struct Tetrahedron
   {
-    bool stiffened;    ///< not in tetrahedral cells: it lowers their scaled Jacobian
+    bool stiffened;    ///< not in tetrahedral cells, whose scaled Jacobian it lowers
     double inverse[9]; ///< column major
     double weight;     ///< decomposition weight times target volume; the mean over all is 1
     double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
@@ -50,19 +50,19 @@ struct TargetMatrices
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, TargetConstruction target, Monitor& monitor);
 
-/// Gives weight 0 to the tetrahedra that have three corners on one of the boundary `faces` numbered
-/// in `folded`, which are turned over: either these are inverted or their neighbors.
+/// Sets weight 0 for tetrahedra with three corners on one of the boundary `faces` numbered in
+/// `folded`. On a folded face, either these tetrahedra or their neighbors are inverted.
 void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
   const std::vector<Index>& folded, TargetMatrices& targets);
 
-/// Ids of the cells with a tetrahedron of positive weight that is inverted or flat at `points`
+/// Returns the cells with a tetrahedron of positive weight that is inverted or flat at `points`
 /// (#nodes x 3).
 std::vector<Index> tangledCells(
   const Mesh& mesh, const Points& points, const TargetMatrices& targets);
 
-/// Gives weight 0 to the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have at
-/// least two corners whose `isFixed` (#nodes) is not 0: behind a fold of the boundary, where none
-/// can be positive. Returns how many.
+/// Sets weight 0 for tetrahedra that are inverted or flat at `points` (#nodes x 3) and have two or
+/// more fixed corners. Behind a fold of the boundary such tetrahedra cannot be positive. `isFixed`:
+/// #nodes, nonzero where fixed. Returns their number.
 Index excludeInvertedAtFixedNodes(const Mesh& mesh, const std::vector<char>& isFixed,
   const Points& points, TargetMatrices& targets);
 }

@@ -16,8 +16,8 @@ namespace
 using namespace foldover;
 using Tetrahedra = UntangleEnergy::Tetrahedra;
 
-/// What a tetrahedron lacks of the margin, 0 if nothing; and the normals of its edges, by which its
-/// determinant grows.
+/// Computes how far a tetrahedron is below the margin, or 0. Also computes its edges' normals, the
+/// gradient of its determinant.
 MORPH_SIMD_INLINE void missing(const SimdVector (&x)[8], const int* corner,
   const SimdDouble4& inverse, double margin, SimdMatrix& normal, SimdDouble4& result)
 {

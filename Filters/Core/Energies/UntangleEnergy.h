@@ -9,13 +9,13 @@
 
 namespace morph
 {
-/// The untangling objective of P. M. Knupp, "Hexahedral and tetrahedral mesh untangling",
-/// Engineering with Computers 17 (2001) 261-268: the mean over all tetrahedra of (|d - b| - (d -
-/// b))^2, where d is the tetrahedron's determinant relative to its target's (his alpha over a
-/// volume, so that the sizes of the mesh and of its cells do not matter) and b the margin. It is 0,
-/// and flat, once all determinants are above the margin: what it leaves are barely valid cells, so
-/// a shape measure has to follow. Tetrahedra without a free node and those of weight 0 are left
-/// out. Not for two threads at once.
+/// The untangling objective of Knupp: the mean over all tetrahedra of (|d - b| - (d - b))^2. d is a
+/// tetrahedron's determinant relative to its target's, b the margin. d is Knupp's alpha over a
+/// volume, so it does not depend on the sizes of the mesh and its cells. The objective is 0, and
+/// flat, once all determinants exceed the margin. It leaves barely valid cells, so a shape measure
+/// has to follow. Tetrahedra without a free node or with weight 0 are left out. Not thread-safe.
+/// Source: P. M. Knupp, "Hexahedral and tetrahedral mesh untangling", Engineering with Computers 17
+/// (2001) 261-268.
 class UntangleEnergy : public Objective
 {
 public:
@@ -28,25 +28,25 @@ public:
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// Of one tetrahedron in each cell of a batch: 1 / determinant of the target, with its sign; 0
-  /// where the tetrahedron does not count.
+  /// One tetrahedron in each cell of a batch: 1 / determinant of its target, with its sign; 0 if
+  /// left out.
   struct Volumes
   {
     double inverse[SimdWidth];
   };
-  /// Those of each batch in turn.
+  /// The tetrahedra of all batches, in order.
   struct Tetrahedra
   {
     std::vector<Index> first{ 0 }; ///< #batches + 1
     std::vector<Volumes> volumes;
     double margin;
-    Index count = 0; ///< that count
+    Index count = 0; ///< number of tetrahedra that are not left out
   };
 
 private:
   std::vector<Index> free_;
   CellBatches batches_;
   Tetrahedra tetrahedra_;
-  mutable Points parts_; ///< of the gradient, kept from call to call
+  mutable Points parts_; ///< of the gradient, kept between calls
 };
 }

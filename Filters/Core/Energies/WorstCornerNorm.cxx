@@ -18,7 +18,7 @@ using namespace foldover;
 using Corners = WorstCornerNorm::Corners;
 constexpr int Power = 8;
 
-/// A tetrahedron's corners in positive order; the decomposition has one of them.
+/// A tetrahedron's corners in positive order; the decomposition has only one of them.
 constexpr WeightedTet TetCorners[4] = { { { 0, 1, 2, 3 }, 1 }, { { 1, 2, 0, 3 }, 1 },
   { { 2, 0, 1, 3 }, 1 }, { { 3, 0, 2, 1 }, 1 } };
 
@@ -29,7 +29,7 @@ SimplicialDecomposition cornerTets(Shape shape)
                                  simplicialDecomposition(shape).tets };
 }
 
-/// What takes s to 1 in the cell of scaled Jacobian 1.
+/// Returns the factor that makes s 1 in the cell of scaled Jacobian 1.
 double scaleOf(Shape shape)
 {
   switch (shape)
@@ -47,9 +47,9 @@ double scaleOf(Shape shape)
 /// One corner of each cell of a batch.
 struct Corner
 {
-  SimdMatrix edges, normals; ///< the normals: of each two edges, by which the determinant grows
+  SimdMatrix edges, normals; ///< the normals of pairs of edges are the determinant's gradient
   SimdDouble4 determinant, squares[3];
-  SimdDouble4 s; ///< over `least`, 1 where the corner does not count
+  SimdDouble4 s; ///< over `least`, 1 where the corner is left out
 
   MORPH_SIMD_INLINE Corner(const SimdVector (&x)[8], const int* corner, const SimdDouble4& scale)
   {
@@ -67,7 +67,7 @@ struct Corner
     this->s = scale == 0. ? one : some ? quotient : zero;
   }
 
-  /// s^-8, infinite where s is not positive.
+  /// Computes s^-8, infinite where s is not positive.
   MORPH_SIMD_INLINE void power(SimdDouble4& result) const
   {
     static_assert(Power == 8, "three squarings");

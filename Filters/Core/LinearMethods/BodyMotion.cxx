@@ -12,10 +12,10 @@ namespace morph
 {
 namespace
 {
-constexpr double Affine = 1e-9; // of the mesh's size: what rounding may take from an affine motion
+constexpr double Affine = 1e-9; // of the mesh's size: rounding of an affine motion
 
-/// I + gradient where the points fix it, completed by a similarity where they do not. Positions are
-/// rows.
+/// Returns I + gradient where the points determine it, completed by a similarity elsewhere.
+/// Positions are rows.
 Eigen::Matrix3d completed(
   const AffineLeastSquares& points, const Points& arms, const AffineFit& fit)
 {
@@ -28,7 +28,7 @@ Eigen::Matrix3d completed(
     const Eigen::Vector3d moved = a.cross(b);
     if (moved.norm() > 0)
     {
-      // The thickness follows the sheet's lengths.
+      // The thickness scales with the sheet's lengths.
       map += normal * (moved / std::sqrt(moved.norm()) - normal).transpose();
     }
   }
@@ -44,7 +44,7 @@ Eigen::Matrix3d completed(
   return map;
 }
 
-/// Rows of `all` at those places of the list that belong to each body.
+/// Returns for each body the rows of `all` that belong to it.
 std::vector<std::vector<Index>> prescribedOfBodies(
   const ConnectedComponents& bodies, const NodePartition& partition)
 {

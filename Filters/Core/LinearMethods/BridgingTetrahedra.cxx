@@ -26,15 +26,15 @@ constexpr double SameVolume = 1e-9;
 
 using Vector = Eigen::RowVector3d;
 
-/// The corner of an outer face at a node: two unit vectors along its edges, and its outward unit
-/// normal there, 0 where the face has none.
+/// The corner of an outer face at a node: unit vectors along its two edges, and its outward unit
+/// normal, 0 if it has none.
 struct Sector
 {
   Vector first, second, normal;
 };
 
-/// How far the unit vector `d` is from a sector: 1 minus the cosine of the angle to its nearest
-/// direction.
+/// Returns the distance of the unit vector `d` from a sector: 1 minus the cosine of the angle to
+/// its nearest direction.
 double distance(const Sector& sector, const Vector& d)
 {
   const Vector inPlane = d - d.dot(sector.normal) * sector.normal;
@@ -43,12 +43,12 @@ double distance(const Sector& sector, const Vector& d)
   return 1 - (between ? inPlane.norm() : std::max(d.dot(sector.first), d.dot(sector.second)));
 }
 
-/// `d` goes from the node out of the mesh, whose outer faces at the node are `begin` .. `end`.
+/// Whether `d` leaves the mesh at a node with the outer faces `begin` to `end`.
 bool leaves(const Sector* begin, const Sector* end, const Vector& d)
 {
   if (std::all_of(begin, end, [&d](const Sector& s) { return d.dot(s.normal) <= LeavingSine; }))
   {
-    return false; // below all of its faces' planes
+    return false; // inside all of its faces' planes
   }
   double nearest = std::numeric_limits<double>::infinity();
   Vector normal = Vector::Zero();
@@ -72,7 +72,7 @@ bool leaves(const Sector* begin, const Sector* end, const Vector& d)
   return d.dot(normal.normalized()) > LeavingSine;
 }
 
-/// Twice the area of a face times its normal.
+/// Returns twice the area of a face times its normal.
 Vector areaVector(const Points& points, const Index* corner, Index n)
 {
   Vector sum = Vector::Zero();
@@ -85,8 +85,8 @@ Vector areaVector(const Points& points, const Index* corner, Index n)
   return sum;
 }
 
-/// The sector at corner k of a face with n corners; `forward`: they turn counter-clockwise, seen
-/// from outside.
+/// Returns the sector at corner k of a face with n corners. `forward`: they are counter-clockwise,
+/// seen from outside.
 Sector sectorAt(const Points& points, const Index* corner, Index n, Index k, bool forward)
 {
   const auto along = [&](Index to)
@@ -97,7 +97,7 @@ Sector sectorAt(const Points& points, const Index* corner, Index n, Index k, boo
     first.swap(second);
   }
   Vector normal = first.cross(second);
-  if (!(normal.norm() > StraightSine)) // half a turn: its edges span no plane
+  if (!(normal.norm() > StraightSine)) // a straight angle: its edges span no plane
   {
     normal = (forward ? 1 : -1) * areaVector(points, corner, n);
   }
@@ -115,7 +115,7 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
 {
   const BoundaryFaces faces = boundaryFaces(mesh, monitor);
   const std::vector<std::int8_t> sign =
-    cellSigns(mesh, connectedComponents(mesh)); // of mirrored meshes too
+    cellSigns(mesh, connectedComponents(mesh)); // signs allow mirrored meshes
   std::vector<Index> place(mesh.numberOfNodes(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
@@ -152,7 +152,8 @@ Sectors sectorsAt(const Mesh& mesh, const std::vector<Index>& nodes, Monitor& mo
   return sectors;
 }
 
-/// The cells fill the tessellation: a convex mesh. Much cheaper to find out than its outer faces.
+/// Whether the cells fill the tessellation, so that the mesh is convex. Much cheaper than finding
+/// its outer faces.
 bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 {
   const double cells = reproducibleSum(mesh.numberOfCells(), monitor, 0.,
@@ -177,8 +178,7 @@ bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 bool leavesMesh(
   const InterpolationSites& sites, const Sectors& sectors, Index site, const Vector& d)
 {
-  // Where bodies touch, what leaves one may enter the other; a node inside has no faces to leave
-  // by.
+  // Where bodies touch, an edge that leaves one may enter the other. An inner node has no faces.
   const Index* end = sites.prescribed().end(site);
   return std::all_of(sites.prescribed().begin(site), end,
     [&](Index node)

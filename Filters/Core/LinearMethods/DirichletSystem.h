@@ -11,30 +11,30 @@
 
 namespace morph
 {
-/// What methods that solve A_I U_I = -A_B U_B share. `rows`: the node id of each matrix row, see
-/// UnknownOrdering.h.
+/// Parts shared by methods that solve A_I U_I = -A_B U_B. `rows`: the node id of each matrix row,
+/// see UnknownOrdering.h.
 
 /// Throws Error unless the tolerance lies in (0, 1).
 void requireTolerance(double tolerance);
 
-/// #rows x 3, the positions of the rows' nodes.
+/// Returns the positions of the rows' nodes, #rows x 3.
 Points rowPositions(const Points& points, const std::vector<Index>& rows);
 
-/// The first guess of A_I U_I = -A_B U_B: in each component of the rows the affine displacement
-/// nearest to that of the prescribed nodes that A_B couples with the component. Affine motions
-/// solve the equations, so the iteration has to find only what remains of the others.
+/// The first guess of A_I U_I = -A_B U_B: an affine displacement field in each component of the
+/// rows. It fits the prescribed nodes that A_B couples with the component. Affine motions solve the
+/// equations, so the iteration finds only the remainder.
 class AffineGuess
 {
 public:
   AffineGuess() = default;
-  /// `components`: of A_I, copied. Cost: one pass over `coupling`, which is A_B.
+  /// `components`: of A_I, copied; `coupling`: A_B. Cost: one pass over A_B.
   AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
     const CsrMatrix& coupling);
 
-  /// The fit of each component; `prescribed`: #prescribed x 3 displacements.
+  /// Returns the fit of each component; `prescribed`: #prescribed x 3 displacements.
   std::vector<AffineFit> fits(const Points& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
-  /// Bytes kept.
+  /// Returns the bytes in use.
   std::size_t memory() const;
 
 private:
@@ -43,12 +43,12 @@ private:
   std::vector<AffineLeastSquares> leastSquares_;
 };
 
-/// `rhs` becomes -A_B U_B, `x` the first guess; both #rows x 3.
+/// Sets `rhs` to -A_B U_B and `x` to the first guess; both #rows x 3.
 void rightHandSideAndGuess(const Points& points, const std::vector<Index>& rows,
   const AffineGuess& guess, const CsrMatrix& coupling, const Points& prescribed, Points& rhs,
   Points& x, Monitor& monitor);
 
-/// From NodePartition::free's order to that of the rows, and back; #free x 3.
+/// Reorders rows from NodePartition::free's order to the matrix order, and back; #free x 3.
 ///@{
 Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
 void unpermute(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,

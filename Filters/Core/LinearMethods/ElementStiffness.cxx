@@ -18,8 +18,8 @@ using Vector = Eigen::Map<const Eigen::Vector3d>;
 
 // A Jacobian determinant below this share of the product of its columns' lengths counts as zero.
 constexpr double Vanishing = 1e-8;
-// A cell without a usable volume gets at least this share of (largest face)^2 / size: stiff, not
-// singular.
+// A cell without a usable volume gets at least this share of (largest face)^2 / size: stiff, but
+// not singular.
 constexpr double VolumeFloor = 1e-3;
 
 double size(const double (*corners)[3], int n)
@@ -33,14 +33,14 @@ double size(const double (*corners)[3], int n)
   return (high - low).norm();
 }
 
-/// 0 where the determinant vanishes beside the product of the columns' lengths.
+/// Returns 0 if the determinant vanishes relative to the product of the columns' lengths.
 int signOf(double determinant, double lengths)
 {
   return determinant > Vanishing * lengths ? 1 : determinant < -Vanishing * lengths ? -1 : 0;
 }
 
-/// grad N_a = normal_a / (6 volume): the inward area vectors, doubled; returns 6 x volume, and in
-/// `sign` that of a volume that does not vanish.
+/// Computes doubled inward area vectors; grad N_a = normal_a / (6 volume). Returns 6 x volume, and
+/// its sign, or 0, in `sign`.
 double tetNormals(const double (*corners)[3], const int c[4], Eigen::Vector3d normal[4], int& sign)
 {
   const Vector origin(corners[c[0]]);
@@ -55,7 +55,8 @@ double tetNormals(const double (*corners)[3], const int c[4], Eigen::Vector3d no
   return det;
 }
 
-/// Stiffness by tetrahedra, for tets and pyramids and for cells no quadrature can treat.
+/// Computes the stiffness by tetrahedra: for tets, pyramids, and cells that quadrature cannot
+/// treat.
 int simplicialStiffness(Shape shape, const double (*corners)[3], double* K)
 {
   const int n = numberOfCorners(shape);
@@ -88,7 +89,7 @@ int simplicialStiffness(Shape shape, const double (*corners)[3], double* K)
     }
     if (!(det > 0))
     {
-      continue; // all corners on one line
+      continue; // all corners are on one line
     }
     const int* c = split.tets[t].corner;
     const double factor = split.tets[t].weight / (6 * det);
@@ -103,14 +104,14 @@ int simplicialStiffness(Shape shape, const double (*corners)[3], double* K)
   return sign;
 }
 
-/// The eight Gauss points at once: grad N_a = C_a / det with C_a = cofactor(J) dN_a, so K_ab =
-/// sum_q C_a . C_b / (8 det). Each column of J depends on two of the three parametric coordinates
-/// alone.
+/// Integrates at the eight Gauss points at once. grad N_a = C_a / det with C_a = cofactor(J) dN_a,
+/// so K_ab = sum_q C_a . C_b / (8 det). Each column of J depends on only two of the parametric
+/// coordinates.
 int hexStiffness(const double (*x)[3], double* K)
 {
   constexpr double P = 0.78867513459481288225; // (1 + 1/sqrt(3)) / 2
   constexpr double M = 0.21132486540518711775;
-  constexpr double Share[2] = { P, M }; // weight of the near and far corner, or of far and near
+  constexpr double Share[2] = { P, M }; // weights of the near and far corner, or of far and near
   // The four edges along each direction, by their ends, at (0,0), (1,0), (0,1), (1,1) of the other
   // two.
   constexpr int Edge[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
@@ -212,7 +213,7 @@ int wedgeStiffness(const double (*x)[3], double* K)
   constexpr double Line[2] = { 0.21132486540518711775, 0.78867513459481288225 };
   Eigen::Matrix<double, 6, 3, Eigen::RowMajor> X =
     Eigen::Map<const Eigen::Matrix<double, 6, 3, Eigen::RowMajor>>(x[0]);
-  X.rowwise() -= X.row(0).eval(); // far from the origin the cell would drown in rounding
+  X.rowwise() -= X.row(0).eval(); // far from the origin, rounding would exceed the cell's size
   Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
   int positive = 0, negative = 0;
   for (const auto& at : Triangle)

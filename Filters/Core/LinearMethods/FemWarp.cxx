@@ -29,7 +29,7 @@ struct CellMatrices
   Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
 };
 
-/// Whether two corners of a cell are in one place, as in a hexahedron that is used as a wedge.
+/// Whether two corners of a cell coincide, as in a hexahedron that is used as a wedge.
 bool isCollapsed(const Mesh& mesh, Index cell)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
@@ -46,8 +46,8 @@ bool isCollapsed(const Mesh& mesh, Index cell)
   return false;
 }
 
-/// Warns of cells that are inverted by their scaled Jacobian or that have no usable volume.
-/// `sign`: #cells, from elementStiffness().
+/// Warns of cells that are inverted by their scaled Jacobian or have no usable volume. `sign`:
+/// #cells, from elementStiffness().
 void reportBadCells(const Mesh& mesh, const ConnectedComponents& bodies,
   const std::vector<std::int8_t>& sign, Monitor& monitor)
 {
@@ -146,7 +146,7 @@ CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, M
   return result;
 }
 
-/// triangleIndex(n, a, b) of every n up to 8, looked up: the assembly's inner loop.
+/// A table of triangleIndex(n, a, b) for n up to 8, for the assembly's inner loop.
 struct TriangleTable
 {
   std::uint8_t at[9][8][8] = {};
@@ -171,11 +171,11 @@ struct System
   CsrMatrix coupling; ///< A_B, #free x #prescribed
 };
 
-/// The order of the columns of one row.
+/// Sorts the columns of one row.
 class ColumnRanks
 {
 public:
-  /// For each of the different `columns` how many of them are less.
+  /// Returns for each of the distinct `columns` its rank.
   const std::vector<int>& of(const std::vector<int>& columns)
   {
     const int n = static_cast<int>(columns.size());
@@ -206,13 +206,13 @@ public:
   }
 
 private:
-  static constexpr int MostCounted = 96; // counting has no branches to guess, sorting has
+  static constexpr int MostCounted = 96; // counting has no branches to mispredict, unlike sorting
 
   std::vector<int> ranks_, sorted_;
 };
 
-/// Entries of the free nodes' rows, gathered node by node from the cells around, in ascending order
-/// of the cells: the sums do not depend on the threads.
+/// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
+/// sums do not depend on threads.
 std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& bodies,
   const std::vector<Index>& free, const std::vector<Index>& prescribed, Monitor& monitor)
 {
@@ -235,7 +235,7 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& b
   }
 
   // Visits the cells around a row's free node, once for every corner that is this node. A visit
-  // gets the cell's nodes and matrix, and where the corner's entries are in that.
+  // gets the cell's nodes and matrix, and the index of the corner's entries.
   const TriangleTable triangle;
   const auto visit = [&](Index row, const auto& onCorner)
   {
@@ -274,7 +274,8 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& b
             {
               place[a] = places.find(column[nodes[cornerNode[a]]]);
             }
-            values.resize(places.size(), -0.); // to which any number adds as it is, zeros too
+            // adding any number to -0 gives this number, also for zeros
+            values.resize(places.size(), -0.);
             double* sums = values.data();
             for (int a = 0; a < n; ++a)
             {
@@ -315,7 +316,7 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& b
 System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, Monitor& monitor)
 {
-  // The cells' matrices are gone before the rows are joined.
+  // Frees the cells' matrices before the rows are joined.
   std::vector<SplitRows> chunks = gatherRows(mesh, bodies, free, prescribed, monitor);
   monitor.check();
   monitor.progress(0.5);

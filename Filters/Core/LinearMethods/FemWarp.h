@@ -9,38 +9,38 @@
 
 namespace morph
 {
-/// FEMWARP: the displacement is the finite element solution of Laplace's equation on the undeformed
-/// mesh with the prescribed displacements as boundary values (Baker, Engineering with Computers 18
-/// (2002) 188-198; Shontz and Vavasis, BIT 50 (2010) 863-884; Staten et al., IMR 2011, equations
-/// (9) to (12)): A_I U_I = -A_B U_B.
+/// FEMWARP: displacements solve Laplace's equation by finite elements on the undeformed mesh, A_I
+/// U_I = -A_B U_B. The boundary values are the prescribed displacements. Sources: Baker,
+/// Engineering with Computers 18 (2002) 188-198; Shontz and Vavasis, BIT 50 (2010) 863-884; Staten
+/// et al., IMR 2011, equations (9) to (12).
 ///
-/// Stiffness: tet exact; hex trilinear with 2 x 2 x 2 Gauss points; wedge with 3 x 2 points;
-/// pyramid the mean of the two splits into tets, which conforms with the neighbors' quadrilaterals.
-/// Affine motions come out exactly, to the solver's tolerance. A cell with a Jacobian that is not
-/// positive at all its quadrature points takes the averaged simplicial stiffness with absolute
-/// volumes: the system stays positive definite. A warning names these cells, and all others that
-/// are inverted by their scaled Jacobian.
+/// Stiffness: see elementStiffness(). Affine motions are exact to the solver's tolerance. A cell
+/// whose Jacobian is not positive at all its quadrature points takes the averaged simplicial
+/// stiffness with absolute volumes. So the system stays positive definite. A warning names these
+/// cells, and all others that are inverted by their scaled Jacobian.
 ///
-/// prepare(): one pass over the cells; keeps about 0.7 kB per node of a hexahedral mesh and 0.5 kB
-/// per node of a tetrahedral one. evaluate(): conjugate gradients, to 1e-10 in 7 iterations on a
-/// cube of hexahedra, 10 on tetrahedra and wedges, 20 where layers grow by 1.6, nearly independent
-/// of the mesh's size. Slivers take more: 640 where many have a height of 1e-6.
+/// prepare(): one pass over the cells. It keeps about 0.7 kB a node of a hexahedral mesh and 0.5 kB
+/// of a tetrahedral one. evaluate(): conjugate gradients to 1e-10, nearly independent of the mesh's
+/// size. They take 7 iterations on a cube of hexahedra, 10 on tetrahedra and wedges, 20 where
+/// layers grow by 1.6. Slivers take more: 640 where many have a height of 1e-6.
 class FemWarp : public LinearMorpher
 {
 public:
-  /// Relative residual at which the solver stops, per coordinate. Range (0, 1), default 1e-10.
+  /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
+  /// 1e-10.
   void setTolerance(double tolerance);
   double tolerance() const { return this->tolerance_; }
 
-  /// The node id of each matrix row: NodePartition::free, or those ids in a better order for the
-  /// memory.
+  /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
+  /// for memory.
   const std::vector<Index>& rows() const { return this->rows_; }
-  /// The solver with its matrix A_I (#free x #free, in the order of rows()), for benchmarks and
-  /// checks.
+  /// Returns the solver with its matrix A_I (#free x #free, in the order of rows()), for benchmarks
+  /// and checks.
   const SpdSolver& solver() const { return this->solver_; }
-  /// A_B, #free x #prescribed; rows as above, columns in the order of NodePartition::prescribed.
+  /// Returns A_B, #free x #prescribed; rows as above, columns in the order of
+  /// NodePartition::prescribed.
   const CsrMatrix& coupling() const { return this->coupling_; }
-  /// Bytes that prepare() keeps.
+  /// Returns the bytes that prepare() keeps.
   std::size_t memory() const;
 
 protected:

@@ -10,7 +10,7 @@ namespace morph
 {
 namespace
 {
-/// What there is to tell of the rows of one chunk.
+/// Statistics of one chunk's rows.
 struct Tally
 {
   std::vector<Index> outside, empty;
@@ -36,7 +36,7 @@ struct Tally
   }
 };
 
-/// Appends the row of `columns` and minus `weights`, with 1 on the diagonal.
+/// Appends a row with minus `weights` at `columns`, and 1 on the diagonal.
 void append(SplitRows& chunk, int row, int rows, const std::vector<int>& columns,
   const std::vector<double>& weights)
 {

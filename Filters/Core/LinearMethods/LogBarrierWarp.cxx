@@ -15,7 +15,7 @@ namespace
 {
 constexpr int MaxIterations = 2000;
 
-/// Throws for nodes that have no weights.
+/// Throws Error naming nodes without weights.
 void requireWeights(const LogBarrierSystem& system, bool relax)
 {
   if (system.empty.empty())

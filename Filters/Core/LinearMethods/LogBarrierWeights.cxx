@@ -13,9 +13,9 @@ namespace morph
 namespace
 {
 constexpr int UsualIterations = 30;
-constexpr int MostIterations = 500;   // towards a face of the hull a step grows mu by a sixth
+constexpr int MostIterations = 500;   // towards a face of the hull a step increases mu by a sixth
 constexpr double DampedAbove = 0.25;  // of the Newton decrement
-constexpr double EndDecrement = 1e-6; // the step from there leaves its square
+constexpr double EndDecrement = 1e-6; // the next step squares it
 constexpr double UsualMu = 1e3;
 constexpr double LargestMu = 1e10;
 constexpr double TurnEvery = 1e2; // growth of mu
@@ -25,8 +25,8 @@ constexpr double FaceTolerance =
   1e-8; // for neighbors in it; their own part of mu tilts the plane a little less
 constexpr double LargestResidual = 1e-10;
 
-/// Solves H x = -g, H symmetric positive definite with entries xx, xy, xz, yy, yz, zz. Returns x
-/// and the Newton decrement.
+/// Solves H x = -g, where H is symmetric positive definite with entries xx, xy, xz, yy, yz, zz.
+/// Returns x and the Newton decrement.
 double newtonStep(const double H[6], const Eigen::Vector3d& g, Eigen::Vector3d& x)
 {
   const double i0 = 1 / H[0];
@@ -53,11 +53,12 @@ void LogBarrierWeights::resize(int k)
   {
     v->resize(pairs);
   }
-  // The partner of an odd last neighbor.
+  // Pads an odd number of neighbors.
   this->x_.back()[1] = this->y_.back()[1] = this->z_.back()[1] = 0;
 }
 
-/// By the Cholesky factor of sum d d^T / k. False where that is too near singular for its digits.
+/// Whitens by the Cholesky factor of sum d d^T / k. Returns false if it is too near singular for
+/// its digits.
 bool LogBarrierWeights::whiten(const double (*offsets)[3], int k, double scale)
 {
   constexpr double SmallestPivot = 1e-12; // of the entry it came from
@@ -109,8 +110,8 @@ bool LogBarrierWeights::whiten(const double (*offsets)[3], int k, double scale)
   return true;
 }
 
-/// By the singular values of all d_j, which keep the digits that their squares lose. Returns the
-/// dimension of what the d_j span; whitened coordinates past it are zero.
+/// Whitens by the singular values of all d_j, which keep the digits that their squares lose.
+/// Returns the dimension of the span of the d_j; whitened coordinates beyond it are zero.
 int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double scale)
 {
   const Points d = scale * Eigen::Map<const Points>(offsets[0], k, 3);
@@ -132,8 +133,8 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
   return principal.dimension;
 }
 
-/// Newton's method from dual.mu, with iterations up to a count of `mostIterations`, while mu stays
-/// below `limit`.
+/// Applies Newton's method from dual.mu, up to a total of `mostIterations`, while mu stays below
+/// `limit`.
 void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit, int mostIterations)
 {
   const std::size_t pairs = static_cast<std::size_t>(k + 1) / 2;
@@ -144,7 +145,8 @@ void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit,
     double decrement = 0;
     if (dual.iterations == 0)
     {
-      // Whitening made the Hessian at mu = 0 k times the identity: the first step needs no sums.
+      // Whitening makes the Hessian at mu = 0 k times the identity, so the first step needs no
+      // sums.
       step = this->mean_;
       decrement = std::sqrt(static_cast<double>(k)) * step.norm();
     }
@@ -173,7 +175,7 @@ void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit,
         yz += b * c;
         zz += c * c;
       }
-      // mu . d_j >= 0 for all j: a plane through the node has all neighbors on one side.
+      // mu . d_j >= 0 for all j: all neighbors are on one side of a plane through the node.
       if (least.minCoeff() >= -HullTolerance * most.maxCoeff() && most.maxCoeff() > 0)
       {
         dual.status = Status::OnBoundary;
@@ -205,9 +207,9 @@ void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit,
   }
 }
 
-/// Reflects the whitened coordinates so that mu lies along the last of them. Next to the hull mu is
-/// huge and nearly orthogonal to the neighbors that carry the node: along an axis their products
-/// with it, and the Hessian's smallest pivot, keep their digits.
+/// Reflects the whitened coordinates so that mu lies along the last axis. Near the hull mu is huge
+/// and nearly orthogonal to the neighbors with large weights. Along an axis its products with them,
+/// and the Hessian's smallest pivot, keep their digits.
 void LogBarrierWeights::turn(Dual& dual, int k, int dimension)
 {
   Eigen::Vector3d axis = dual.mu.normalized();
@@ -256,7 +258,7 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
   {
     return { Place::Outside, 0 };
   }
-  if (!(largest > 0)) // all in one point: any convex weights are exact
+  if (!(largest > 0)) // all neighbors coincide: any convex weights are exact
   {
     std::fill(weights, weights + k, 1. / k);
     return { Place::Inside, 0 };
@@ -280,10 +282,9 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
   return careful;
 }
 
-/// For all that the usual path does not settle: flat neighborhoods, nodes next to the hull, on it
-/// and outside. Where g has no minimum, mu shows a plane through the node with every neighbor on
-/// one side; those off the plane get weight zero, and the rest is the same problem with a dimension
-/// less.
+/// Treats the remaining cases: flat neighborhoods, and nodes near the hull, on it or outside. Where
+/// g has no minimum, mu defines a plane through the node with every neighbor on one side. Neighbors
+/// off this plane get weight zero, and the others form the same problem with one dimension less.
 LogBarrierWeights::Result LogBarrierWeights::computeCarefully(
   const double (*offsets)[3], int k, double scale, double* weights)
 {

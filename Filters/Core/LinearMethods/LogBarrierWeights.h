@@ -7,24 +7,24 @@
 
 namespace morph
 {
-/// Log-barrier weights of one node: the convex weights that place it among its neighbors and lie as
-/// far from zero as they can, max sum log w_j subject to sum w_j = 1, sum w_j d_j = 0 (Staten et
-/// al., IMR 2011, equation (13); Shontz and Vavasis, IMR 2003), d_j = x_j - x_i.
+/// Log-barrier weights of one node i: the convex weights that keep it in place and maximise sum log
+/// w_j. The constraints are sum w_j = 1 and sum w_j d_j = 0, with d_j = x_j - x_i. Sources: Staten
+/// et al., IMR 2011, equation (13); Shontz and Vavasis, IMR 2003.
 ///
-/// Solved in the dual. The stationary point has 1 / w_j = k (1 + mu . d_j) with k neighbors, where
-/// mu minimises g(mu) = -sum log(1 + mu . d_j), a self-concordant function of three unknowns:
-/// damped Newton steps converge from mu = 0 without a line search (Nesterov and Nemirovskii, 1994)
-/// wherever the node lies strictly inside its neighbors' hull. The d_j are whitened first, so
-/// stretched and flat neighborhoods are as easy as round ones.
+/// The dual problem has three unknowns. The stationary point has 1 / w_j = k (1 + mu . d_j) with k
+/// neighbors, where mu minimises the self-concordant function g(mu) = -sum log(1 + mu . d_j).
+/// Damped Newton steps from mu = 0 converge without a line search (Nesterov and Nemirovskii, 1994)
+/// if the node lies strictly inside its neighbors' hull. The d_j are whitened first, so stretched
+/// and flat neighborhoods are as easy as round ones.
 ///
-/// One object per thread: it keeps its buffers from node to node.
+/// Use one object a thread: it keeps its buffers between nodes.
 class LogBarrierWeights
 {
 public:
   enum class Place
   {
     Inside, ///< strictly inside the hull, all weights positive
-    /// on a face or edge of the hull: the limit of the weights, zero for neighbors off that face
+    /// on a face or edge of the hull: the limit of the weights, zero off this face
     OnHull,
     Outside ///< no convex weights exist
   };
@@ -34,10 +34,10 @@ public:
     int iterations; ///< Newton steps
   };
 
-  /// `offsets`: k x 3, the d_j, in any unit; neighbors may coincide. `weights`: k numbers, filled
-  /// unless Outside, with sum 1 to rounding and |sum w_j d_j| <= 1e-10 max |d_j|. On the hull means
-  /// within 1e-11 of the local size, and such that the limit keeps that residual; a node that is
-  /// inside but nearer to the hull than about 1e-9 may count as either. Cost: 0.5 to 1 microsecond
+  /// Computes the weights. `offsets`: k x 3, the d_j, in any unit; neighbors may coincide.
+  /// `weights`: k numbers, filled unless Outside, with sum 1 to rounding and |sum w_j d_j| <= 1e-10
+  /// max |d_j|. OnHull means within 1e-11 of the local size, if the limit has this residual. An
+  /// inner node nearer to the hull than about 1e-9 may count as either. Cost: 0.5 to 1 microsecond
   /// for the 26 neighbors in a hexahedral mesh.
   Result compute(const double (*offsets)[3], int k, double* weights);
 
@@ -65,7 +65,7 @@ private:
   void fillWeights(int k, double* weights) const;
   Result computeCarefully(const double (*offsets)[3], int k, double scale, double* weights);
 
-  // Whitened d_j by coordinate, padded with zeros, which add nothing to any sum.
+  // Whitened d_j by coordinate, padded with zeros, which do not change any sum.
   std::vector<Pair> x_, y_, z_;
   std::vector<Pair> inverse_; ///< 1 / (1 + mu . d_j) at the minimum
   Eigen::Vector3d mean_;      ///< of the whitened d_j

@@ -34,7 +34,7 @@ NodeWeights::NodeWeights(const Mesh& mesh, const Adjacency& around, const Weight
 {
 }
 
-/// Adds the nodes that share a volume cell with `node` and have not been met since the last clear.
+/// Adds the nodes that share a volume cell with `node` and were not found since the last clear.
 void NodeWeights::gather(Index node)
 {
   for (const Index* cell = this->around_->begin(node); cell != this->around_->end(node); ++cell)
@@ -85,8 +85,8 @@ bool NodeWeights::logBarrier()
   return result.place != LogBarrierWeights::Place::Outside;
 }
 
-/// min |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) / k, m
-/// the mean and C the covariance of the d_j.
+/// Minimises |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) /
+/// k. m is the mean and C the covariance of the d_j.
 bool NodeWeights::leastNormAffine()
 {
   const Index k = static_cast<Index>(this->offsets_.size());

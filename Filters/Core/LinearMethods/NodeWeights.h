@@ -20,34 +20,33 @@ struct WeightColumns
   std::vector<Index> nodes; ///< node of each column
 };
 
-/// One row of LBWARP's weights: the neighbors of a node and the weights that place it among them.
-/// One object per thread.
+/// One row of LBWARP's weights: a node's neighbors and their weights. Use one object a thread.
 class NodeWeights
 {
 public:
-  /// Where the weights come from.
+  /// The origin of the weights.
   enum class Kind
   {
     OneRing, ///< log-barrier weights among the nodes that share a volume cell with the node
-    TwoRing, ///< log-barrier weights among those and their neighbors
-    /// least-norm affine weights of the one ring: exact for affine maps, some of them negative
+    TwoRing, ///< log-barrier weights among these nodes and their neighbors
+    /// affine weights of minimum norm of the one ring: exact for affine maps, some negative
     Affine,
     Stiffness, ///< FEMWARP's row
-    None       ///< no weights: asked for OneRing only, or every cell around has zero volume
+    None       ///< no weights: only OneRing was allowed, or every cell around has zero volume
   };
 
   /// The arguments must outlive this object. `around`: nodeToCells(mesh).
   NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
 
-  /// Weights of `node`. With `relax` the kinds are tried in their order, without it only the first
-  /// is.
+  /// Computes the weights of `node`. With `relax` the kinds are tried in order, otherwise only the
+  /// first.
   Kind compute(Index node, bool relax);
 
-  /// Ascending; the node's own is not among them.
+  /// Ascending, without the node's own column.
   const std::vector<int>& columns() const { return this->columns_; }
   /// One per column, sum 1.
   const std::vector<double>& weights() const { return this->weights_; }
-  /// Newton steps of the last compute().
+  /// Returns the Newton steps of the last compute().
   int iterations() const { return this->iterations_; }
 
 private:
@@ -67,6 +66,6 @@ private:
   std::vector<double> weights_;
   std::vector<std::array<double, 3>> offsets_;
   int iterations_ = 0;
-  RowPlaces met_; ///< the columns of this gathering, and the node's own
+  RowPlaces met_; ///< the node's own column and those gathered
 };
 }

@@ -22,8 +22,8 @@ std::vector<int> distinct(std::vector<int> values)
   return values;
 }
 
-/// Outside the hull a tetrahedron's weights are of any size, and its corners' motions count by
-/// them.
+/// Warns of extrapolated nodes with large weights: a tetrahedron's weights are unbounded outside
+/// the hull.
 void warnOfLargeWeights(
   const PointLocation& enclosing, const std::vector<Index>& ids, Monitor& monitor)
 {

@@ -15,9 +15,10 @@ namespace
 constexpr Index BlockLength = 128;
 constexpr Index Stretch = 64; // blocks between two chances to cancel
 constexpr Index Samples = 64;
-constexpr Index Sums = 32; // of the transposed product: fixed, so that threads do not show
+// of the transposed product: fixed, so that results do not depend on threads
+constexpr Index Sums = 32;
 
-/// Places in `ids` in spatial order of the nodes.
+/// Returns the indices in `ids` in spatial order of the nodes.
 std::vector<Index> placesInOrder(const Points& points, const std::vector<Index>& ids)
 {
   std::vector<Index> places = spatialOrder(points, ids);
@@ -34,7 +35,7 @@ Index SimplexNaturalNeighbor::blocks() const
   return (static_cast<Index>(this->order_.size()) + BlockLength - 1) / BlockLength;
 }
 
-/// Into the workspace; false where they are the barycentric coordinates.
+/// Computes the weights into the workspace; returns false if they are barycentric coordinates.
 bool SimplexNaturalNeighbor::weightsOf(Index place, NaturalNeighbors::Workspace& work) const
 {
   const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
@@ -65,7 +66,7 @@ double SimplexNaturalNeighbor::estimateMemory() const
   return 12. * static_cast<double>(entries) / static_cast<double>(samples) * static_cast<double>(n);
 }
 
-/// Returns how many of the block's nodes take barycentric coordinates.
+/// Returns the number of the block's nodes with barycentric coordinates.
 Index SimplexNaturalNeighbor::computeBlock(
   Index block, NaturalNeighbors::Workspace& work, WeightMatrix& weights) const
 {
@@ -88,7 +89,7 @@ Index SimplexNaturalNeighbor::computeBlock(
   return barycentric;
 }
 
-/// Returns how many nodes took barycentric coordinates, where it computes them.
+/// Returns the number of nodes with barycentric coordinates if it computes the weights.
 Index SimplexNaturalNeighbor::forEachBlock(
   Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const
 {

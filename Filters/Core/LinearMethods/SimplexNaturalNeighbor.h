@@ -13,42 +13,41 @@
 
 namespace morph
 {
-/// Simplex-natural neighbor: each free node follows its natural neighbors among the prescribed
-/// nodes, weighted by natural-neighbor coordinates (Staten et al., IMR 2011, section 3.4, equation
-/// (8); Owen, "An implementation of natural neighbor interpolation in three dimensions", MSc
-/// thesis, Brigham Young University, 1992). Smoother than simplex-linear, and independent of how
-/// the Delaunay tessellation of cospherical nodes is chosen; affine motions come out exactly. It
-/// takes no notice of the mesh's cells, and its weights are many: about 1000 a node within a cube
-/// whose surface has 15,000 nodes.
+/// Simplex-natural neighbor: free nodes follow prescribed ones, weighted by natural neighbor
+/// coordinates. It is smoother than simplex-linear and does not depend on the tessellation of
+/// cospherical nodes; affine motions are exact. It ignores the mesh's cells, and its weights are
+/// many: about 1000 a node within a cube whose surface has 15,000 nodes. Sources: Staten et al.,
+/// IMR 2011, section 3.4, equation (8); Owen, "An implementation of natural neighbor interpolation
+/// in three dimensions", MSc thesis, Brigham Young University, 1992.
 ///
-/// Prescribed nodes in the same place (1e-12 of the size) count as one that moves by their mean. A
-/// node on or outside the prescribed nodes' convex hull, and one whose weights rounding spoils,
-/// takes the barycentric coordinates of simplex-linear.
+/// Coincident prescribed nodes (1e-12 of the size) count as one that moves by their mean. A node
+/// takes the barycentric coordinates of simplex-linear if it is on or outside the prescribed nodes'
+/// convex hull, or if rounding spoils its weights.
 ///
-/// Counts: `BarycentricNodes`, that took those; `ExtrapolatedNodes`, outside the hull by more than
-/// rounding; `WeightsStored`, 1 or 0.
+/// Counts: `BarycentricNodes`, which take these coordinates; `ExtrapolatedNodes`, outside the hull
+/// by more than rounding; `WeightsStored`, 1 or 0.
 ///
-/// prepare(): 0.6 microseconds of processor time a free node and natural neighbor. The weights, 12
-/// bytes each, are estimated from a sample of the nodes and kept if they stay within the memory
-/// limit; evaluate() is then one pass over them. Otherwise a warning tells the number, and each
-/// evaluate() and applyTranspose() recomputes them: as slow as prepare(), with the same results.
+/// prepare(): 0.6 microseconds of processor time a free node and natural neighbor. A sample of the
+/// nodes estimates the weights' memory, 12 bytes each. Within the memory limit they are kept, and
+/// evaluate() is one pass over them. Otherwise a warning tells the estimate, and each evaluate()
+/// and applyTranspose() recomputes them, as slowly as prepare() and with the same results.
 class SimplexNaturalNeighbor : public LinearMorpher
 {
 public:
   using Coordinates = NaturalNeighbors::Coordinates;
-  /// Before prepare(). Default Sibson.
+  /// Call it before prepare(). Default Sibson.
   void setCoordinates(Coordinates coordinates) { this->coordinates_ = coordinates; }
-  /// Bytes that the weights may take. Before prepare(). Default 4e9.
+  /// Sets the maximum number of bytes for the weights. Call it before prepare(). Default 4e9.
   void setMemoryLimit(std::size_t bytes) { this->memoryLimit_ = bytes; }
 
-  /// The sites that the numbers in weightsOf() stand for.
+  /// Returns the sites that the numbers in weightsOf() denote.
   const InterpolationSites& sites() const { return this->sites_; }
-  /// Calls `use` with the place in NodePartition::free, the sites and the weights of one node after
-  /// another, for checks.
+  /// Calls `use` for each node with its index in NodePartition::free, its sites and weights, for
+  /// checks.
   void forEachNode(
     const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
       use) const;
-  /// Bytes that prepare() keeps.
+  /// Returns the bytes that prepare() keeps.
   std::size_t memory() const;
 
 protected:
@@ -72,8 +71,8 @@ private:
   Delaunay delaunay_;
   NaturalNeighbors neighbors_;
   PointLocation enclosing_;
-  std::vector<Index> order_; ///< places in NodePartition::free, along a space-filling curve
-  /// one a block of nodes in that order; empty where they are recomputed
+  std::vector<Index> order_; ///< indices in NodePartition::free, along a space-filling curve
+  /// one a block of nodes in this order; empty if they are recomputed
   std::vector<WeightMatrix> stored_;
   Index barycentric_ = 0;
 };

@@ -9,14 +9,14 @@
 
 namespace morph
 {
-/// Some rows of [A_I A_B] in the making, the two parts apart. Chunks of ChunkRows rows are made by
-/// any thread and then joined, so that no thread needs scratch of the matrix's size.
+/// Rows of [A_I A_B] in two parts during assembly. Any thread makes chunks of ChunkRows rows, which
+/// are then joined. So no thread needs buffers of the matrix's size.
 struct SplitRows
 {
   static constexpr Index ChunkRows = 4096;
   static Index chunksOf(Index rows) { return (rows + ChunkRows - 1) / ChunkRows; }
 
-  /// One of the two matrices' part.
+  /// The part of one of the two matrices.
   struct Part
   {
     std::vector<int> size;   ///< entries per row
@@ -30,8 +30,8 @@ struct SplitRows
   void clear();
 };
 
-/// Calls makeRow(i, chunk) for the rows of [0, rows) in chunks, ascending within each; it appends
-/// row i. makeRow = makeRows() is made once per thread's range.
+/// Calls makeRow(i, chunk) for the rows in [0, rows), ascending within each chunk; it appends row
+/// i. makeRow = makeRows() is made once per thread's range.
 template <typename MakeRows>
 std::vector<SplitRows> splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
 {
@@ -40,7 +40,7 @@ std::vector<SplitRows> splitRows(Index rows, Monitor& monitor, const MakeRows& m
     [&](Index first, Index last)
     {
       auto makeRow = makeRows();
-      SplitRows scratch; // keeps its capacity from chunk to chunk
+      SplitRows scratch; // keeps its capacity between chunks
       for (Index c = first; c < last; ++c)
       {
         scratch.clear();
@@ -55,7 +55,7 @@ std::vector<SplitRows> splitRows(Index rows, Monitor& monitor, const MakeRows& m
   return chunks;
 }
 
-/// Puts one part of all chunks, `part`, into `matrix`, which gets `width` columns, and frees it.
+/// Moves `part` of all chunks into `matrix`, which gets `width` columns, and frees it.
 void joinRows(CsrMatrix& matrix, Index width, std::vector<SplitRows>& chunks,
   SplitRows::Part SplitRows::*part, Monitor& monitor);
 }

@@ -102,7 +102,7 @@ EvaluateReport WeightedResidual::displaceTranspose(
 
 std::size_t WeightedResidual::memory() const
 {
-  // The fit keeps an arm per site.
+  // The fit keeps a vector per site.
   return this->sites_.memory() + this->weights_.memory() +
          sizeof(double) * (this->freePlaces_.size() + this->sites_.coordinates().size());
 }

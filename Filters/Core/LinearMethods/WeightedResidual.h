@@ -8,34 +8,33 @@
 
 namespace morph
 {
-/// Weighted residuals: an affine map fitted to the motion of the whole boundary, plus what that map
-/// leaves of the motion of the prescribed nodes nearby, weighted by inverse squared distance.
-/// Meshless: cells are not looked at.
+/// Weighted residuals: an affine fit of the whole boundary's motion plus weighted residuals of
+/// nearby nodes. Residuals are weighted by inverse squared distance. The method is meshless: it
+/// ignores cells.
 ///
-/// Equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A
-/// Comparison of Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation (3) with the
-/// square that least squares have. With sites b_k (see InterpolationSites), their displacements U_k
-/// and the fit L:
+/// Sources: equations (3) to (6) of M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S.
+/// Coffey, "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", IMR 2011; equation
+/// (3) with the square of least squares. With sites b_k (see InterpolationSites), their
+/// displacements U_k and the fit L:
 ///
 ///     u(x) = L(x) + sum over the n nearest sites of w_k (U_k - L(b_k)),
 ///     w_k = |x - b_k|^-2 / sum_j |x - b_j|^-2
 ///
-/// Exact for affine motions of prescribed nodes that do not all lie in one plane; where they do,
-/// the fit of minimum norm keeps the method linear, and nodes off the plane get the displacement of
-/// the map below them. A free node within 1e-12 of the size of a site gets that site's
-/// displacement. The n nearest are the smallest by (distance, site number). The map is not
-/// continuous in x: where the n-th neighbor changes, u jumps by its share of the residual, and on
-/// fine meshes the nodes either side of the middle see different walls, which is why this method
-/// inverts cells first.
+/// It is exact for affine motions of prescribed nodes that do not all lie in one plane. If they do,
+/// the fit of minimum norm keeps the method linear, and nodes off the plane move as their
+/// projections. A free node within 1e-12 of the size of a site has the site's displacement. The n
+/// nearest are the smallest by (distance, site number). The map is not continuous in x: where the
+/// n-th neighbor changes, u jumps by its share of the residual. On fine meshes, nodes on either
+/// side of the middle depend on different walls, so this method inverts cells first.
 ///
-/// prepare(): a search for the neighbors, O((free + prescribed) log(prescribed)); keeps 12 bytes
-/// per neighbor of a free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass
-/// over those weights. Options count from the next prepare() on.
+/// prepare(): a neighbor search, O((free + prescribed) log(prescribed)). It keeps 12 bytes per
+/// neighbor of a free node (1 kB a node with 80). evaluate() and applyTranspose(): one pass over
+/// the weights. Options take effect at the next prepare().
 class WeightedResidual : public LinearMorpher
 {
 public:
-  /// How many prescribed nodes take part at a free node (all of them where there are fewer). At
-  /// least 1, default 80, the paper's choice for volumes.
+  /// Sets the number of prescribed nodes that influence a free node (or all of fewer). At least 1,
+  /// default 80, the paper's choice for volumes.
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
@@ -47,17 +46,16 @@ public:
   void setAdaptiveNeighbors(bool on) { this->adaptiveNeighbors_ = on; }
   bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
 
-  /// The sites that the weights' columns stand for.
+  /// Returns the sites of the weights' columns.
   const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
   const WeightMatrix& weights() const { return this->weights_; }
-  /// Bytes that prepare() keeps.
+  /// Returns the bytes that prepare() keeps.
   std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  /// Warns where the fit turns the mesh inside out or flattens it: the result then is seldom of
-  /// use.
+  /// Warns where the fit reflects or flattens the mesh: the result is then rarely useful.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

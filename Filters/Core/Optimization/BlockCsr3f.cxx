@@ -19,11 +19,11 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr std::size_t Padding = 1;
-constexpr double Shift = 1e-7; // of a diagonal block's trace: keeps singular ones invertible
+constexpr double Shift = 1e-7; // of a diagonal block's trace: makes singular blocks invertible
 
 using Row = Eigen::RowVector3d;
 
-/// A row of the matrix times a vector, a column of a block at once; the fourth lane means nothing.
+/// A row of the matrix times a vector, one block column at a time; the fourth lane is unused.
 struct RowProduct
 {
   static MORPH_SIMD_INLINE void run(Index row, const BlockCsr3f& matrix, const Points& x, Points& y)
@@ -148,7 +148,7 @@ int BlockCsr3f::solve(
   }
   if (iteration == 0)
   {
-    x = z; // no curvature at all: the preconditioned gradient is a direction still
+    x = z; // no curvature at all: the preconditioned gradient is still a direction
   }
   return iteration;
 }

@@ -9,7 +9,7 @@
 
 namespace morph
 {
-/// Tells the patterns of different owners apart: each object has a number of its own, a copy too.
+/// Identifies the owner of a pattern: every object has a unique number, also a copy.
 class PatternId
 {
 public:
@@ -35,19 +35,19 @@ private:
 struct BlockPattern
 {
   std::vector<Index> offsets{ 0 };   ///< #rows + 1, into `columns`
-  std::vector<std::int32_t> columns; ///< ascending in each row, the diagonal among them
-  /// Where in its row each contribution goes, in the order in which the owner adds them; -1 for
-  /// nowhere.
+  std::vector<std::int32_t> columns; ///< ascending in each row, including the diagonal
+  /// The block in its row for each contribution, in the order in which the owner adds them; -1 to
+  /// skip it.
   std::vector<Index> placeOffsets{ 0 }; ///< #rows + 1, into `places`
   std::vector<std::int32_t> places;
 };
 
-/// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, both triangles, in
-/// single precision: it only gives directions of search, and half the bytes are half the time.
+/// A symmetric positive semi-definite matrix of 3 x 3 blocks in compressed rows, with both
+/// triangles. Single precision suffices for search directions and halves memory traffic.
 class BlockCsr3f
 {
 public:
-  /// `id`: the owner's, by which it later recognises its pattern.
+  /// Sets the pattern; `id` lets its owner recognise it later.
   void open(const PatternId& id, BlockPattern pattern);
   bool isOpenFor(const PatternId& id) const { return this->id_ == id.number(); }
 
@@ -60,31 +60,31 @@ public:
   {
     return this->pattern_.places.data() + this->pattern_.placeOffsets[row];
   }
-  /// Nine values a block, column major, in the order of the columns; up to blocks(row + 1). Each
-  /// row is for one thread to write.
+  /// The blocks from this row up to blocks(row + 1): nine values each, column major, in the order
+  /// of the columns. Each row is for one thread to write.
   float* blocks(Index row) { return this->values_.data() + 9 * this->pattern_.offsets[row]; }
   const float* blocks(Index row) const
   {
     return this->values_.data() + 9 * this->pattern_.offsets[row];
   }
 
-  /// The owner's, kept from one filling of the matrix to the next.
+  /// Memory of the owner, kept between two fillings of the matrix.
   std::vector<float>& scratch() { return this->scratch_; }
 
   void multiply(const Points& x, Points& y, Monitor& monitor) const;
 
-  /// Conjugate gradients for A x = b from x = 0, preconditioned by the inverses of the diagonal
-  /// blocks, until the residual's norm is `tolerance` times that of b, or `most` iterations. Where
-  /// a direction has no positive curvature what was found so far is the result. Returns the
-  /// iterations. Cost: one pass over the blocks an iteration.
+  /// Solves A x = b from x = 0 by conjugate gradients, preconditioned by the inverse diagonal
+  /// blocks. It stops when the residual's norm is `tolerance` times that of b, after `most`
+  /// iterations, or at a direction without positive curvature. Returns the number of iterations.
+  /// Cost: one pass over the blocks an iteration.
   int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const;
 
   std::size_t memory() const;
 
 private:
-  std::uint64_t id_ = 0; ///< 0: of no pattern
+  std::uint64_t id_ = 0; ///< 0: no pattern
   BlockPattern pattern_;
   std::vector<float> scratch_;
-  std::vector<float> values_; ///< and Padding more, for reads of four numbers where three are meant
+  std::vector<float> values_; ///< Padding more follow, for reads of four numbers instead of three
 };
 }

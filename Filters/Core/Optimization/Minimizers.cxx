@@ -23,7 +23,7 @@ double dot(const Points& a, const Points& b, Monitor& monitor)
   return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
-/// to += factor * from
+/// Computes to += factor * from.
 void add(double factor, const Points& from, Points& to, Monitor& monitor)
 {
   monitor.parallelFor(to.rows(), Grain,
@@ -31,15 +31,15 @@ void add(double factor, const Points& from, Points& to, Monitor& monitor)
     { to.middleRows(first, last - first) += factor * from.middleRows(first, last - first); });
 }
 
-/// Walks down along `direction`, a full step first. Returns false, leaving everything, where the
-/// slope does not descend or no step of sufficient decrease was found.
+/// Searches along `direction`, a full step first. Returns false, without changes, if the slope does
+/// not descend or no step decreases enough.
 bool lineSearch(const Objective& objective, const Points& direction, double slope, Points& points,
   Objective::Value& value, MinimizerEffort& effort, Monitor& monitor)
 {
   const std::vector<Index>& free = objective.free();
   Points trial = points;
   double length = 1;
-  if (!(slope < 0)) // not a number, too
+  if (!(slope < 0)) // also if it is not a number
   {
     return false;
   }
@@ -67,7 +67,7 @@ bool lineSearch(const Objective& objective, const Points& direction, double slop
   return false;
 }
 
-/// When to stop, by the energies and the gradients' norms.
+/// Stopping criteria, by energies and gradient norms.
 class Progress
 {
 public:
@@ -90,12 +90,12 @@ private:
   double first_ = -1;
 };
 
-/// The two-loop recursion over the pairs of steps and gradient differences.
+/// The two-loop recursion over pairs of steps and gradient differences.
 class InverseHessian
 {
 public:
-  /// `first`: how far the first step takes the node with the largest gradient; nothing else gives
-  /// it a length.
+  /// `first`: how far the first step moves the node with the largest gradient, as nothing else
+  /// scales it.
   explicit InverseHessian(double first)
     : first_(first)
   {

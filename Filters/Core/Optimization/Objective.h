@@ -9,20 +9,20 @@
 
 namespace morph
 {
-/// A function of the free nodes' positions that a minimiser lowers. Independent of the threads, to
-/// the last bit.
+/// An objective function of the free nodes' positions, to be minimised. Its values do not depend on
+/// threads, bit for bit.
 class Objective
 {
 public:
   virtual ~Objective();
 
-  /// Ids of the nodes that move, in the order of the gradient's rows.
+  /// Returns the ids of the nodes that move, in the order of the gradient's rows.
   virtual const std::vector<Index>& free() const = 0;
 
   struct Value
   {
-    double energy = 0;   ///< infinite where the function is not defined
-    bool allowed = true; ///< false: no step may end here, whatever the energy
+    double energy = 0;   ///< infinite where the function is undefined
+    bool allowed = true; ///< false: no step may end here
   };
   /// `points`: #nodes x 3.
   virtual Value value(const Points& points, Monitor& monitor) const = 0;
@@ -34,8 +34,8 @@ public:
 class SecondOrderObjective : public Objective
 {
 public:
-  /// A positive semi-definite approximation of the second derivatives, #free x #free blocks; a
-  /// matrix that this objective has not filled before is opened first.
+  /// Computes a positive semi-definite approximation of the second derivatives, #free x #free
+  /// blocks. It first opens a matrix that this objective has not filled before.
   virtual void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const = 0;
 };
 }
