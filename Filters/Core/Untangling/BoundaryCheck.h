@@ -10,23 +10,23 @@
 
 namespace morph
 {
-/// Cells that prescribed positions forbid to be valid, whatever the method.
+/// Cells that no method can make valid with the prescribed positions.
 struct ForbiddenCells
 {
   std::vector<Index> determined;              ///< see boundaryDeterminedInversions()
   std::vector<NodeWithoutPlace> withoutPlace; ///< see nodesWithoutPlace()
   std::vector<Index> folded; ///< behind prescribed faces that are folded, see foldedFaces()
 
-  /// All of these, ascending, each once.
+  /// Returns all of these, ascending, each once.
   std::vector<Index> all() const;
 };
 
-/// Looks for them in one mesh, for any positions of one set of prescribed nodes. Holds its
+/// Finds such cells of one mesh for any positions of one set of prescribed nodes. Holds its
 /// arguments by reference.
 class BoundaryCheck
 {
 public:
-  /// `mesh`: before the motion; `faces`: its boundaryFaces(). Cost: classify()'s.
+  /// `mesh`: before the motion; `faces`: its boundaryFaces(). Cost: that of classify().
   BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
     const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor);
 

@@ -9,15 +9,14 @@ namespace morph
 {
 namespace
 {
-constexpr double Valid = 1e-10; // the regularisation of a valid mesh: none, but for rounding
+constexpr double Valid = 1e-10; // the regularisation of a valid mesh: only for rounding
 constexpr int MostSteps = 30;
-constexpr int RegularisedSteps =
-  4;                            // more are wasted on a mesh that the next regularisation changes
-constexpr int StepsOfBfgs = 20; // that are worth one of Newton's
+constexpr int RegularisedSteps = 4; // more are wasted, as the next regularisation changes the mesh
+constexpr int StepsOfBfgs = 20;     // equivalent to one Newton step
 constexpr double Settled = 1e-5;
 constexpr int Patience = 10;       // stages without progress before untangling gives up
-constexpr double Gain = 0.05;      // of the least determinant, that is progress
-constexpr double LeastRatio = 0.3; // of one stage's regularisation to that before
+constexpr double Gain = 0.05;      // increase of the minimum determinant that is progress
+constexpr double LeastRatio = 0.3; // minimum ratio of successive regularisations
 
 double chi(double D, double epsilon)
 {
@@ -35,7 +34,7 @@ public:
     return least > 0 ? Valid : fast(least);
   }
 
-  /// `least`: the least determinant; `decrease`: of the stage's energy, relative.
+  /// `least`: the minimum determinant; `decrease`: of the stage's energy, relative.
   double next(double least, double decrease, double epsilon)
   {
     if (least > 0)
@@ -47,16 +46,16 @@ public:
     this->careful_ = this->careful_ || this->idle_ >= 3;
     if (!this->careful_)
     {
-      // Steps too large leave the minimiser in a worse mesh than before.
+      // Steps that are too large leave the minimiser in a worse mesh.
       return std::max(fast(least), LeastRatio * epsilon);
     }
-    // The rule with the proof.
+    // The rule with a proof of convergence.
     const double mu = (1 - std::max(decrease, 0.1)) * chi(least, epsilon);
     return least < mu ? 2 * std::sqrt(mu * (mu - least)) : Valid;
   }
 
 private:
-  /// As much as the worst tetrahedron needs.
+  /// Returns the regularisation that the worst tetrahedron needs.
   static double fast(double least) { return std::sqrt(1e-6 + 0.04 * least * least); }
 
   double best_ = 0;
@@ -64,7 +63,7 @@ private:
   bool careful_ = false;
 };
 
-/// Whether the stages still lead somewhere.
+/// Detects stages without progress.
 class Stagnation
 {
 public:
@@ -74,7 +73,7 @@ public:
   {
   }
 
-  /// After a stage.
+  /// Call it after each stage.
   bool gaveUp(const MeshEnergy::State& state)
   {
     const bool isProgress = state.leastDeterminant > 0 || state.inverted < this->inverted_ ||
@@ -145,7 +144,7 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
     state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
     if (!std::isfinite(start) || !std::isfinite(state.energy))
     {
-      break; // no step is taken from here, whatever the regularisation
+      break; // no step is taken from here with any regularisation
     }
     if (epsilon <= Valid)
     {

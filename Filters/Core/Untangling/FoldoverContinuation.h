@@ -6,16 +6,16 @@
 
 namespace morph
 {
-/// The stages by which a mesh's foldover-free energy is minimised (Garanzha et al., ACM Trans.
-/// Graph. 40(4) (2021), arXiv 2102.03069 and 43(1) (2024) 10). `points` in all: #nodes x 3, the
-/// start in, the result out.
+/// Minimises a mesh's foldover-free energy by continuation in its regularisation. Sources: Garanzha
+/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069, and 43(1) (2024) 10. `points` in all
+/// functions: #nodes x 3, start and result.
 class FoldoverContinuation
 {
 public:
   enum class Minimizer
   {
     Newton,
-    LimitedMemoryBfgs ///< as fast on some 10,000 cells, slower on many; without a matrix
+    LimitedMemoryBfgs ///< needs no matrix; as fast for about 10,000 cells, slower for more
   };
 
   FoldoverContinuation(MeshEnergy& energy, Minimizer minimizer)
@@ -24,21 +24,19 @@ public:
   {
   }
 
-  /// Lowers the regularisation stage by stage, of which there are at most `stages`, until no
-  /// tetrahedron is inverted and the energy has settled. Gives up once ten stages in a row have
-  /// neither left fewer tetrahedra inverted nor raised the least determinant by 5 % of itself:
-  /// where the boundary admits no valid mesh that ends it soon. Returns whether all tetrahedra are
-  /// positive.
+  /// Lowers the regularisation in at most `stages` stages, until no tetrahedron is inverted and the
+  /// energy has settled. Gives up after ten successive stages without progress, which soon ends it
+  /// if the boundary admits no valid mesh. Progress means fewer inverted tetrahedra, or a minimum
+  /// determinant raised by 5 %. Returns whether all tetrahedra are positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
-  /// From a valid mesh to a better one by at most so many steps of the minimiser; the mesh stays
-  /// valid.
+  /// Improves a valid mesh by at most `steps` steps of the minimiser; the mesh stays valid.
   void improve(Points& points, int steps, Monitor& monitor);
-  /// From a valid mesh to one with a lower greatest distortion; the mesh stays valid.
+  /// Lowers the maximum distortion of a valid mesh; the mesh stays valid.
   void stiffen(Points& points, Monitor& monitor);
 
   Minimizer minimizer() const { return this->minimizer_; }
   const MinimizerEffort& effort() const { return this->effort_; }
-  /// Counts the effort of stages on a part of the mesh as well.
+  /// Adds the effort of stages on a part of the mesh.
   void include(const MinimizerEffort& effort);
 
 private:

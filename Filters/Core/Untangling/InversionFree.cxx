@@ -18,7 +18,7 @@ namespace
 {
 constexpr int RefreshSteps = 3;
 
-/// Of the volume cells, from node to node around them; 1 where there is none.
+/// Returns the mean edge of the volume cells, from node to node around them; 1 if there are none.
 double meanEdge(const Mesh& mesh)
 {
   double sum = 0;
@@ -103,7 +103,7 @@ Points InversionFree::moved(
 Points InversionFree::betterGuess(
   const Points& warped, const Points& boundary, Monitor& monitor) const
 {
-  // Who asks for a certain target wants its minimum.
+  // A user who asks for a certain target wants its minimum.
   if (this->hasSimplexLinear_ && this->target_ == TargetConstruction::Stretched)
   {
     EvaluateReport ignored;
@@ -133,13 +133,13 @@ void InversionFree::raiseQuality(
   {
     const Points before = points;
     stages.stiffen(points, monitor);
-    // It costs the average cell something: only worth it where the worst one gains.
+    // Stiffening worsens the average cell: it is only kept if the worst cell gains.
     const double least = this->leastScaledJacobian(before, monitor);
     if (!(this->leastScaledJacobian(points, monitor) > least + significantGain(least)))
     {
       points = before;
     }
-    this->raiseWorst(points, monitor); // distortion is not the angles' measure
+    this->raiseWorst(points, monitor); // distortion does not measure angles
   }
   monitor.progress(0.95);
 }
@@ -152,7 +152,7 @@ void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
 
 double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
 {
-  // Nodes between corners follow only in the end.
+  // Nodes between corners follow last.
   return measureCorners(this->referenceMesh_, points, this->orientation_, {}, monitor).minimum;
 }
 
@@ -222,7 +222,7 @@ EvaluateReport InversionFree::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
-  // Ideal shapes are not those at rest: they change the mesh without any motion.
+  // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
   if (this->validAtRest_ && this->target_ != TargetConstruction::Ideal &&
       (prescribed.array() == 0).all())
   {

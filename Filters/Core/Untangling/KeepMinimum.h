@@ -8,12 +8,12 @@
 
 namespace morph
 {
-/// Takes back what lowered the minimum of the scaled Jacobian. Free corners of cells below the
-/// minimum of `start` go back to where they were in it, until no cell is below; where `start`
-/// itself is not valid nothing happens. `start`, `points`: #nodes x 3, alike at the nodes that are
-/// not `free` (ids, ascending). `measure`: the quality of such points, which may set followers.
-/// Returns how many nodes went back. Cost: a measurement for each layer of cells that goes back;
-/// the first that is not enough after 30 takes all nodes back.
+/// Reverts moves that lowered the minimum scaled Jacobian. Free corners of cells below the minimum
+/// of `start` return to their position there, until no cell is below. Nothing happens if `start` is
+/// not valid. `start`, `points`: #nodes x 3, equal at nodes that are not `free` (ids, ascending).
+/// `measure`: returns the quality of points, and may set their higher-order nodes. Returns the
+/// number of reverted nodes. Cost: a measurement for each layer of reverted cells; after 30 layers
+/// all nodes are reverted.
 Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points& start,
   Points& points, const std::function<Quality(Points&)>& measure);
 }

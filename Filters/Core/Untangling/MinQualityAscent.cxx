@@ -16,7 +16,7 @@ constexpr int Rounds = 16;
 constexpr int Setbacks = 2; // in a row
 constexpr int Steps = 40;
 constexpr int Rings = 2;
-// Worst are the cells that are less than this above the least: of it, and of the way to 1.
+// Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 
 std::vector<Index> worstCells(const Mesh& mesh, const Quality& quality)
@@ -69,7 +69,7 @@ int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orient
   int kept = 0, setbacks = 0;
   for (int round = 0; round < Rounds && setbacks < Setbacks; ++round)
   {
-    // A cell without a free node is the boundary's: no mesh has a higher least.
+    // A cell without a free node is fixed by the boundary: no mesh has a higher minimum.
     if (!(quality.minimum > 0) || !hasFreeCorner(mesh, free, worst))
     {
       break;
@@ -85,7 +85,7 @@ int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orient
     MinimizerEffort effort;
     limitedMemoryBfgs(angles, trial, limits, effort, monitor);
     quality = measureCorners(mesh, trial, orientation, {}, monitor);
-    // The sum can fall while its greatest part grows; the next round, from there, mostly makes up
+    // The sum can decrease while its largest term grows; the next round mostly compensates for it.
     // for it.
     if (quality.minimum > least + significantGain(least))
     {

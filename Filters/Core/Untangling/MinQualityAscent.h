@@ -9,17 +9,17 @@
 
 namespace morph
 {
-/// How much higher than `least` a mesh's minimum scaled Jacobian has to be to count as a gain: 0.1
-/// % of it, or 1 % of the way to 1 where that is less, and 1e-6 anyway. Less than that is not worth
-/// what it costs the other cells.
+/// Returns the increase of a mesh's minimum scaled Jacobian `least` that counts as a gain. It is
+/// the smaller of 0.1 % of `least` and 1 % of 1 - `least`, but 1e-6 or more. A smaller gain is not
+/// worth its cost to the other cells.
 double significantGain(double least);
 
-/// Raises the minimum scaled Jacobian of a valid mesh: nodes within two rings of the worst cells
-/// move to lower their WorstCornerNorm (L-BFGS, 40 steps a round), for up to 16 rounds, until two
-/// in a row have not raised it by significantGain() or the worst cell has no free node, which no
-/// mesh betters. `free`: ids of nodes that may move, ascending; `points`: #nodes x 3, in and out:
-/// the best that was met. The mesh stays valid. Returns how many rounds have raised the least.
-/// Cost: a pass over the cells a round, and the patches'.
+/// Raises the minimum scaled Jacobian of a valid mesh, which stays valid. Nodes within two rings of
+/// the worst cells move to lower their WorstCornerNorm (L-BFGS, 40 steps a round). It ends after 16
+/// rounds, or two successive ones without significantGain(). It also ends if the worst cell has no
+/// free node, since no mesh is then better. `free`: ids of nodes that may move, ascending;
+/// `points`: #nodes x 3, start and best result. Returns the number of rounds with a gain. Cost: a
+/// pass over the cells a round, and the minimisation near the worst cells.
 int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, Monitor& monitor);
 }

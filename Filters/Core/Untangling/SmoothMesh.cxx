@@ -19,15 +19,15 @@ namespace morph
 namespace
 {
 constexpr double Margin = 0.05;     // of untangling
-constexpr Index StepsToValid = 100; // of untangling, before it looks whether that is enough
-constexpr int UntangleSteps = 20;   // for one of Newton's
+constexpr Index StepsToValid = 100; // of untangling, between checks whether the mesh is valid
+constexpr int UntangleSteps = 20;   // for one Newton step
 constexpr double Bad = 0.2;         // scaled Jacobian
-constexpr int Rings = 3;            // round bad cells
-constexpr double MostOfMesh = 0.25; // that is worth a patch, in free nodes
-constexpr int PatchSteps = 5;       // of Newton's method in a round
+constexpr int Rings = 3;            // around bad cells
+constexpr double MostOfMesh = 0.25; // maximum share of free nodes in a patch
+constexpr int PatchSteps = 5;       // Newton steps in a round
 constexpr int MostPatchRounds = 4;
-constexpr double LeastDecrease = 1e-6; // of the shape measure in a step
-constexpr double Barrier = 1e-10;      // regularisation: none, but for rounding
+constexpr double LeastDecrease = 1e-6; // of the shape measure in a step, relative
+constexpr double Barrier = 1e-10;      // regularisation: only for rounding
 
 double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
   Monitor& monitor)
@@ -48,7 +48,7 @@ double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, con
     });
 }
 
-/// Calls body(a, b) for the edges of each volume cell, once for each face on them.
+/// Calls body(a, b) for the edges of each volume cell, once for each adjacent face.
 template <typename Body>
 void forEdges(const Mesh& mesh, const Body& body)
 {
@@ -67,7 +67,7 @@ void forEdges(const Mesh& mesh, const Body& body)
   }
 }
 
-/// At each node the mean length of its edges; 0 where it has none.
+/// Returns the mean edge length at each node; 0 if it has none.
 std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
 {
   std::vector<double> sum(mesh.numberOfNodes(), 0);
@@ -89,8 +89,8 @@ std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
   return sum;
 }
 
-/// The power of two that brings edges to a length near 1, so that no number depends on the unit of
-/// length.
+/// Returns the power of two that scales edges to a length near 1. So no number depends on the unit
+/// of length.
 double unitScale(const std::vector<double>& edgeLength)
 {
   double sum = 0;
@@ -155,10 +155,10 @@ private:
     return energy.evaluate(points, this->monitor_).leastDeterminant > 0;
   }
 
-  /// Until `energy` is finite: what is left to the margin the shape measure does better.
+  /// Untangles until `energy` is finite: the shape measure does the rest to the margin better.
   void untangle(const MeshEnergy& energy, Points& points)
   {
-    // The boundary alone decides the volume: cells cannot be larger than it allows on average.
+    // The boundary determines the volume: cells cannot be larger on average than it allows.
     const double ratio =
       volume(this->mesh_, this->orientation_, points, this->monitor_) /
       volume(this->mesh_, this->orientation_, this->mesh_.points, this->monitor_);
@@ -175,15 +175,15 @@ private:
       limitedMemoryBfgs(tangle, points, limits, effort, this->monitor_);
       if (effort.steps < goal || this->isValid(energy, points))
       {
-        break; // as far as it goes, or as needed
+        break; // no more progress, or none needed
       }
     }
     this->report_.untangleSteps = effort.steps;
     this->report_.evaluations += effort.evaluations;
   }
 
-  /// Newton's steps until one moves no node far or lowers the measure little. Returns whether it
-  /// did lower it.
+  /// Takes Newton steps until one moves no node far or lowers the measure little. Returns whether
+  /// it lowered the measure.
   bool improve(const MeshEnergy& energy, int steps, Points& points)
   {
     BlockCsr3f matrix;
@@ -315,8 +315,8 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   monitor.check();
   result /= scale;
   Points smoothed = points;
-  // Scaling and back is exact but for coordinates that underflow: those of nodes that stay are left
-  // alone.
+  // Scaling back and forth is exact except for coordinates that underflow, so fixed nodes are left
+  // out.
   for (Index node : partition.free)
   {
     smoothed.row(node) = result.row(node);

@@ -7,29 +7,29 @@
 
 namespace morph
 {
-/// Smoothing as a morph. The boundary moves, the nodes inside follow by each body's nearest affine
-/// map (BodyMotion.h), and the mesh is smoothed from there, untangled first where cells are
-/// inverted (section 3.1 of Staten et al., Proc. 20th Int. Meshing Roundtable (2011) 293-311, which
-/// starts from the undeformed nodes). Where that map inverts more cells than leaving the nodes
-/// inside alone, they are left alone. See smoothMesh() for the stages, their sources and their
-/// cost. Of what is not affine in the motion nothing carries inside but the smoothing itself: more
-/// than a layer of cells tangles more than it can always undo. What it cannot untangle comes back
-/// with a warning.
+/// Smoothing as a morph: the boundary moves, free nodes follow by an affine map, and the mesh is
+/// smoothed. The map fits each body's motion (BodyMotion.h); if it inverts more cells than leaving
+/// free nodes in place, they stay. Inverted cells are untangled first. See smoothMesh() for the
+/// stages, their sources and their cost. Source: section 3.1 of Staten et al., Proc. 20th Int.
+/// Meshing Roundtable (2011) 293-311, which starts from the undeformed nodes.
 ///
-/// With the target Ideal, the paper's, the result for a boundary that does not move is the mesh
-/// smoothed, not the mesh: alone among the methods it is not the identity then. With the target
-/// Initial it is, bit for bit, for a mesh that is valid at rest, and affine motions are reproduced
-/// to the tolerance of the minimisation. Where the boundary stays or moves affinely, the minimum of
-/// the scaled Jacobian never falls below that of the affine image, if that is valid: nodes round
-/// cells that did fall below go back to it (KeepMinimum.h; count `NodesTakenBack`).
+/// Only smoothing carries the part of the motion that is not affine into the mesh. So a motion by
+/// more than a layer of cells may leave cells that cannot be untangled; a warning tells.
+///
+/// With the target Ideal, the paper's, a boundary that does not move gives the smoothed mesh. No
+/// other method differs from the identity there. With the target Initial a valid undeformed mesh
+/// then stays bit for bit. Affine motions are reproduced to the tolerance of the minimisation. If
+/// the boundary stays or moves affinely, the minimum scaled Jacobian never falls below that of a
+/// valid affine image. Nodes around cells that fell below it return to the image (KeepMinimum.h;
+/// count `NodesTakenBack`).
 ///
 /// Counts: `UntangleSteps`, `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`,
-/// `SmoothingPatches`, `NodesTakenBack`, `BoundaryDeterminedCells` (the boundary alone inverts
-/// them). Not linear in the boundary: no adjoint.
+/// `SmoothingPatches`, `NodesTakenBack`, `BoundaryDeterminedCells` (inverted by the boundary
+/// alone). The result is not linear in the boundary, so there is no adjoint.
 class Smoothing : public Morpher
 {
 public:
-  /// Before evaluate().
+  /// Call it before evaluate().
   void setOptions(const SmoothingOptions& options) { this->options_ = options; }
 
 protected:
@@ -38,14 +38,14 @@ protected:
 
 private:
   bool isIdentity(const Points& prescribed, Monitor& monitor) const;
-  /// Of `points`, whose followers it sets.
+  /// Measures `points` after setting their higher-order nodes.
   Quality measure(Points& points, Monitor& monitor) const;
-  /// `points`: #nodes x 3, the prescribed nodes moved, the others at rest; the free ones become the
-  /// start. Returns whether the boundary moves affinely, and the start does.
+  /// Sets the free nodes of `points` (#nodes x 3, undeformed, with the prescribed nodes moved) to
+  /// the start. Returns whether both the boundary and the start move affinely.
   bool start(const Points& prescribed, Points& points, Monitor& monitor) const;
 
   SmoothingOptions options_;
-  Mesh mesh_; ///< at rest
+  Mesh mesh_; ///< undeformed
   std::vector<std::int8_t> orientation_;
 };
 }

@@ -15,8 +15,8 @@ namespace
 {
 constexpr int Rounds = 3;
 constexpr int Rings = 5; // of cells
-// Beside folds: of the whole mesh, since after a few only single places are tangled; of these
-// places; and of what is round folded faces, whose cells come right soon or not at all.
+// Maximum numbers of stages with folds. The whole mesh needs few: then only single places are
+// tangled. Cells near folded faces become valid soon or never.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
 }
 
@@ -55,7 +55,7 @@ Untangling::InvertedCounts Untangling::countInverted(
   const std::vector<Index>& cellsBehind, const Points& points, Monitor& monitor) const
 {
   InvertedCounts result;
-  // By corners: nodes between them follow only in the end.
+  // By corners: nodes between them follow last.
   for (Index c :
     invertedCells(measureCorners(this->mesh_, points, this->orientation_, {}, monitor)))
   {

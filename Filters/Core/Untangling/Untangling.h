@@ -13,15 +13,15 @@
 
 namespace morph
 {
-/// Makes the cells of a mesh valid by a foldover-free energy, as far as its boundary allows. Where
-/// the boundary is folded (see foldedFaces()) either the cell behind a folded face is inverted or
-/// its neighbors are: then the mesh is untangled without the tetrahedra on folded faces, and around
-/// these faces with them again from there; of the two results that with fewer inverted cells
-/// besides those on folded faces is kept.
+/// Makes the cells of a mesh valid by a foldover-free energy, as far as its boundary allows. At a
+/// folded face of the boundary (see foldedFaces()) either its cell or the neighbors are inverted.
+/// The mesh is then first untangled without the tetrahedra on folded faces, and from there with
+/// them, only around these faces. Of the two results, the one with fewer inverted cells away from
+/// folded faces is kept.
 class Untangling
 {
 public:
-  /// `mesh`: the reference shapes; `orientation`: #cells, see Topology's cellSigns(); `faces`,
+  /// `mesh`: the reference shapes; `orientation`: #cells, see cellSigns() in Topology.h; `faces`,
   /// `geometry`: of the mesh's boundary, see boundaryFaces() and classify(). All but `partition`
   /// are held by reference.
   Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
@@ -32,8 +32,8 @@ public:
     bool valid = false;         ///< all tetrahedra are positive
     std::vector<Index> onFolds; ///< inverted cells on folded faces, ascending
   };
-  /// `targets`: of all cells, to which `energy` may be set to others in the end; `points`: #nodes x
-  /// 3, the start in, the result out.
+  /// Untangles `points`, #nodes x 3, start and result. `targets`: of all cells; `energy` may end
+  /// with other targets.
   Result run(const TargetMatrices& targets, MeshEnergy& energy, FoldoverContinuation& stages,
     Points& points, Monitor& monitor) const;
 
@@ -44,16 +44,16 @@ private:
     std::vector<Index> onFolds;
     bool operator<(const InvertedCounts& other) const;
   };
-  /// The inverted cells. `cellsBehind`: those behind folded faces.
+  /// Counts the inverted cells. `cellsBehind`: cells behind folded faces.
   InvertedCounts countInverted(
     const std::vector<Index>& cellsBehind, const Points& points, Monitor& monitor) const;
-  /// Ids of the cells behind faces, ascending.
+  /// Returns the cells behind faces, ascending.
   std::vector<Index> cellsBehind(const std::vector<Index>& folded) const;
-  /// Leaves out of `targets` what cannot be made positive at two or more prescribed nodes, for a
-  /// few rounds. Returns whether the rest is positive.
+  /// Excludes from `targets` the tetrahedra with two or more prescribed nodes that stay inverted,
+  /// for a few rounds. Returns whether the others are positive.
   bool untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& energy,
     FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
-  /// Moves the nodes near these cells alone; returns whether the tetrahedra there are positive.
+  /// Moves only the nodes near these cells. Returns whether the tetrahedra there are positive.
   bool untanglePatch(const std::vector<Index>& cells, const TargetMatrices& targets,
     FoldoverContinuation& stages, int most, Points& points, Monitor& monitor) const;
 
