@@ -17,20 +17,29 @@ END
 packages=(
   cmake g++ ninja-build ccache git dpkg-dev file python3-numpy
   paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
-  qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
-  libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev
   libutfcpp-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libtheora-dev libogg-dev
   libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev libgl2ps-dev libglew-dev
   libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
   libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
   libavutil-dev libswscale-dev libboost-dev python3-mpi4py
   libgtest-dev gmsh python3-gmsh python3-matplotlib xvfb xauth imagemagick)
+release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
+case "$release" in
+  "debian 12")
+    packages+=(
+      qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+      libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
+  "debian 13") packages+=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev) ;;
+  *) # Debian's unstable suite has no number; its paraview-dev stands on the system's VTK.
+    packages+=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev libvtk9-dev xsltproc) ;;
+esac
 
 for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev) ;;
     --developer) packages+=(clang-format clang-tidy doxygen) ;;
+    --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac
 done

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+set -euo pipefail
+here=$(cd "$(dirname "$0")/.." && pwd)
+
+usage() {
+  cat <<END
+Usage: other-debian.sh SUITE [test|demo|shell] [OPTION...]
+       other-debian.sh SUITE --clean
+Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
+root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
+the project's sources into it, and runs there
+  test    Utilities/test.sh (default; without the sanitizers, VTK 9.1 and the Debian package)
+  demo    Utilities/demo.sh
+  shell   bash, in the copy of the project
+with the options that follow. The root file system and its builds, some gigabytes, are kept for the
+next run; --clean removes them. Needs root, or mmdebstrap's unshare mode.
+Exits with 77 where the registry does not answer, or where no root file system can be made.
+END
+}
+
+case "${1:-}" in
+  -h | --help) usage; exit 0 ;;
+  trixie | sid) suite=$1; shift ;;
+  *) usage >&2; exit 2 ;;
+esac
+root=$here/build/$suite
+project=$root/MeshMorphing
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then as_root=(unshare --user --map-root-user --map-auto); fi
+if [ "${1:-}" = --clean ]; then
+  "${as_root[@]}" rm -rf "$root"
+  exit 0
+fi
+command=${1:-test}
+if [ $# -gt 0 ]; then shift; fi
+case "$command" in test | demo | shell) ;; *) usage >&2; exit 2 ;; esac
+unavailable() { echo "other-debian.sh: $suite is not available: $1" >&2; exit 77; }
+
+# The registry of this machine's own Debian holds the other suites too.
+registry() {
+  # shellcheck disable=SC2016 # apt's own variables
+  apt-get indextargets --format '$(REPO_URI) $(ORIGIN)' 'Created-By: Packages' |
+    awk '$2 == "Debian" && $1 !~ /security/ { print $1; exit }'
+}
+
+make_root() {
+  local mirror options=()
+  if ! command -v mmdebstrap > /dev/null; then "$here/Utilities/install-packages.sh" --other-debian; fi
+  mirror=$(registry)
+  if [ -z "$mirror" ]; then unavailable "apt has no registry of Debian here."; fi
+  # The index of sid may be older than it promises, where a registry keeps a copy.
+  if [ "$suite" = sid ]; then options+=(--aptopt='Acquire::Check-Valid-Until "false"'); fi
+  "${as_root[@]}" rm -rf "$root"
+  mkdir -p "$(dirname "$root")"
+  mmdebstrap --variant=apt --include=ca-certificates \
+    --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} "$suite" "$root" "$mirror" ||
+    { rm -rf "$root"; unavailable "mmdebstrap could not make it from $mirror"; }
+}
+
+# Times of files are kept, so that a second run builds what has changed only.
+copy_sources() {
+  "${as_root[@]}" mkdir -p "$project"
+  "${as_root[@]}" find "$project" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+  (
+    cd "$here"
+    if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
+      git ls-files -z --cached --others --exclude-standard |
+        while IFS= read -r -d '' file; do if [ -e "$file" ]; then printf '%s\0' "$file"; fi; done
+    else
+      find . -path ./build -prune -o -type f -print0
+    fi | tar --create --null --files-from=-
+  ) | "${as_root[@]}" tar --extract --directory "$project" --no-same-owner
+}
+
+# A private view of the machine with the other root: what is mounted goes with the process.
+inside() {
+  # shellcheck disable=SC2016 # expanded inside
+  "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -euc '
+    root=$1; shift
+    mount --rbind /dev "$root/dev"
+    mount -t proc proc "$root/proc"
+    mount --rbind /sys "$root/sys"
+    mount -t tmpfs tmpfs "$root/tmp"
+    cp --dereference /etc/resolv.conf "$root/etc/resolv.conf"
+    exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+      TERM="${TERM:-dumb}" bash -c "cd /MeshMorphing && exec \"\$@\"" bash "$@"
+  ' bash "$root" "$@"
+}
+
+if [ ! -e "$root/etc/debian_version" ]; then make_root; fi
+copy_sources
+case "$command" in
+  test) inside Utilities/test.sh --no-asan --no-plain-vtk --no-package "$@" ;;
+  demo) inside Utilities/demo.sh "$@" ;;
+  shell) if [ $# -gt 0 ]; then inside "$@"; else inside bash; fi ;;
+esac
