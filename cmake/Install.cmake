@@ -44,6 +44,10 @@ install(TARGETS morph_core
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
   # ParaView's build installs the plugin alone; with plain VTK vtk_module_build() does what follows.
   get_target_property(filter_headers FiltersMorphing INTERFACE_vtk_module_headers)
+  # VTK after 9.3 leaves the header with the export macro out of its list.
+  get_target_property(filter_folder FiltersMorphing BINARY_DIR)
+  list(APPEND filter_headers "${filter_folder}/vtkMeshMorphingFiltersMorphingModule.h")
+  list(REMOVE_DUPLICATES filter_headers)
   install(FILES ${filter_headers} DESTINATION "${headers_destination}" COMPONENT sdk)
   target_include_directories(FiltersMorphing PUBLIC $<INSTALL_INTERFACE:${headers_destination}>)
   install(TARGETS FiltersMorphing
@@ -67,6 +71,7 @@ write_basic_package_version_file(
 install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/DebianParaView.cmake"
   DESTINATION "${package_destination}"
   COMPONENT   sdk)
 install(FILES LICENSE README.md CHANGELOG.md
@@ -81,7 +86,7 @@ if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
   install(CODE "
     if (\"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\" STREQUAL \"${paraview_programs}\")
       set(link \"${paraview_programs}/plugins/MeshMorphing/MeshMorphing.so\")
-      set(plugin paraview-5.11/plugins/MeshMorphing/MeshMorphing.so)
+      set(plugin ${PARAVIEW_PLUGIN_SUBDIR}/MeshMorphing/MeshMorphing.so)
       file(RELATIVE_PATH target \"${paraview_programs}/plugins/MeshMorphing\"
         \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/\${plugin}\")
       message(STATUS \"Linking: \${link}\")

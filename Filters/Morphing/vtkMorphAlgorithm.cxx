@@ -20,7 +20,7 @@
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
-#include "Private/Pipeline/Version.h"
+#include "Private/Data/Version.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Untangling/InversionFree.h"

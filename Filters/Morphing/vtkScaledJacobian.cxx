@@ -6,13 +6,13 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
+#include "Private/Data/Version.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ranks.h"
 
 #include <vtkCellData.h>
-#include <vtkCellTypes.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkGenericCell.h>
@@ -60,7 +60,7 @@ DimensionOfType dimensions(const morph::Mesh& mesh)
 std::string typeName(std::uint8_t type)
 {
   const morph::CellShape* shape = morph::cellShape(type);
-  return shape ? shape->name : vtkCellTypes::GetClassNameFromTypeId(type);
+  return shape ? shape->name : filters::Version::CellClass(type);
 }
 }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin where it is installed: ParaView lists and loads it by itself, without LoadPlugin().
 
-Run: PV_PLUGIN_PATH=<prefix>/lib/paraview-5.11/plugins pvpython installed_plugin.py
+Run: PV_PLUGIN_PATH=<prefix>/lib/paraview-<version>/plugins pvpython installed_plugin.py
 """
 import os
 import unittest

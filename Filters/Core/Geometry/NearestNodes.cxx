@@ -53,9 +53,17 @@ struct Cloud
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
   3, std::uint32_t>;
 
+/// What nanoflann 1.5 and later ask of a result set besides; the order is not used.
+struct ResultSet
+{
+  using DistanceType = double;
+  using IndexType = std::uint32_t;
+  void sort() {}
+};
+
 /// A nanoflann result set that keeps the k smallest squared distances, unsorted. Its cost is linear
 /// in the points received; nanoflann's own sorted list is quadratic in k.
-class SmallestDistances
+class SmallestDistances : public ResultSet
 {
 public:
   explicit SmallestDistances(Index k)
@@ -99,7 +107,7 @@ private:
 };
 
 /// A nanoflann result set that receives every point within a radius.
-class WithinRadius
+class WithinRadius : public ResultSet
 {
 public:
   WithinRadius(double squaredRadius, std::vector<std::int32_t>& found)
@@ -248,7 +256,7 @@ struct NearestNodes::Implementation
   double squaredDistanceOfKth(const Place& x, Index k) const
   {
     SmallestDistances smallest(k);
-    this->tree.findNeighbors(smallest, x.data(), nanoflann::SearchParams());
+    this->tree.findNeighbors(smallest, x.data(), {});
     return smallest.largest();
   }
 
@@ -256,7 +264,7 @@ struct NearestNodes::Implementation
   {
     found.nodes.clear();
     WithinRadius all(squaredRadius, found.nodes);
-    this->tree.findNeighbors(all, x.data(), nanoflann::SearchParams());
+    this->tree.findNeighbors(all, x.data(), {});
     std::sort(found.nodes.begin(), found.nodes.end());
     found.count = static_cast<Index>(found.nodes.size());
     found.reserve(found.count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/DataCheck.h"
 
+#include "Private/Data/Version.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractArray.h>
@@ -14,7 +15,6 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ void requireCells(
 
 void requireTypes(vtkUnstructuredGrid* grid, const std::string& subject)
 {
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  vtkDataArray* types = Version::CellTypes(grid);
   const vtkIdType count = types ? types->GetNumberOfValues() : 0;
   if (grid->GetNumberOfCells() < 0)
   {

@@ -2,12 +2,14 @@
 #include "Private/Data/GridMesh.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Data/Version.h"
 
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -30,35 +32,41 @@ std::uint64_t bitsOf(double value)
   return bits;
 }
 
-/// Calls visit(values, count) with the array's memory, whatever integer type it has.
+/// Calls visit(values, count) with the array's values in memory, 64 or 32 bits wide. Arrays of other
+/// classes are copied: since VTK 9.6 offsets may be a formula and ids any array.
 template <typename Visitor>
-void visitOffsets(vtkCellArray* cells, Visitor&& visit)
+void visitIntegers(vtkDataArray* array, Visitor&& visit)
 {
-  if (cells->IsStorage64Bit())
+  if (auto* wide = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(array))
   {
-    auto* array = cells->GetOffsetsArray64();
-    visit(array->GetPointer(0), array->GetNumberOfValues());
+    visit(wide->GetPointer(0), wide->GetNumberOfValues());
+  }
+  else if (auto* narrow = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(array))
+  {
+    visit(narrow->GetPointer(0), narrow->GetNumberOfValues());
   }
   else
   {
-    auto* array = cells->GetOffsetsArray32();
-    visit(array->GetPointer(0), array->GetNumberOfValues());
+    vtkNew<vtkTypeInt64Array> copy;
+    copy->DeepCopy(array);
+    visit(copy->GetPointer(0), copy->GetNumberOfValues());
   }
 }
 
-template <typename Visitor>
-void visitConnectivity(vtkCellArray* cells, Visitor&& visit)
+std::vector<std::uint8_t> typesOf(vtkUnstructuredGrid* grid)
 {
-  if (cells->IsStorage64Bit())
+  std::vector<std::uint8_t> types(grid->GetNumberOfCells());
+  vtkDataArray* array = Version::CellTypes(grid);
+  if (auto* bytes = vtkUnsignedCharArray::FastDownCast(array))
   {
-    auto* array = cells->GetConnectivityArray64();
-    visit(array->GetPointer(0), array->GetNumberOfValues());
+    std::copy_n(bytes->GetPointer(0), types.size(), types.data());
+    return types;
   }
-  else
+  for (std::size_t c = 0; c < types.size(); ++c)
   {
-    auto* array = cells->GetConnectivityArray32();
-    visit(array->GetPointer(0), array->GetNumberOfValues());
+    types[c] = static_cast<std::uint8_t>(array->GetComponent(static_cast<vtkIdType>(c), 0));
   }
+  return types;
 }
 
 template <typename Value>
@@ -95,11 +103,11 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown)
   mesh.offsets = { 0 };
   if (grid->GetNumberOfCells() > 0)
   {
-    const unsigned char* types = grid->GetCellTypesArray()->GetPointer(0);
-    mesh.types.assign(types, types + grid->GetNumberOfCells());
-    visitOffsets(grid->GetCells(), [&mesh](const auto* values, vtkIdType count)
+    mesh.types = typesOf(grid);
+    visitIntegers(grid->GetCells()->GetOffsetsArray(), [&mesh](const auto* values, vtkIdType count)
       { mesh.offsets.assign(values, values + count); });
-    visitConnectivity(grid->GetCells(), [&mesh](const auto* values, vtkIdType count)
+    visitIntegers(grid->GetCells()->GetConnectivityArray(),
+      [&mesh](const auto* values, vtkIdType count)
       { mesh.connectivity.assign(values, values + count); });
   }
   if (unknown == UnknownCells::Keep)
@@ -168,16 +176,16 @@ bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   {
     return true;
   }
-  if (!std::equal(mesh.types.begin(), mesh.types.end(), grid->GetCellTypesArray()->GetPointer(0)))
+  if (typesOf(grid) != mesh.types)
   {
     return false;
   }
   bool same = true;
-  visitOffsets(grid->GetCells(),
+  visitIntegers(grid->GetCells()->GetOffsetsArray(),
     [&](const auto* values, vtkIdType count) { same = equals(values, count, mesh.offsets); });
   if (same)
   {
-    visitConnectivity(grid->GetCells(), [&](const auto* values, vtkIdType count)
+    visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
       { same = equals(values, count, mesh.connectivity); });
   }
   return same;

@@ -31,8 +31,8 @@ morph::Points FromVectors(vtkDataArray* vectors);
 /// Diagonal of the bounding box of the nodes that volume cells use.
 double Size(const morph::Mesh& mesh);
 
-/// Whether the grid's cells (points) are, number by number, those `mesh` was copied from. Nothing
-/// is allocated; ends at the first difference.
+/// Whether the grid's cells (points) are, number by number, those `mesh` was copied from. Ends
+/// at the first difference; allocates a byte a cell.
 bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
 bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
 }

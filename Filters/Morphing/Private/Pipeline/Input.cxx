@@ -4,13 +4,14 @@
 #include "Mesh/CellShape.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Version.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -41,12 +42,13 @@ namespace
 bool hasVolumeCells(vtkDataObject* data)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-  vtkUnsignedCharArray* types = grid ? grid->GetCellTypesArray() : nullptr;
+  vtkDataArray* types = grid ? Version::CellTypes(grid) : nullptr;
   const vtkIdType cells =
     types ? std::min(types->GetNumberOfValues(), grid->GetNumberOfCells()) : 0;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
-    const morph::CellShape* shape = morph::cellShape(types->GetValue(cell));
+    const morph::CellShape* shape =
+      morph::cellShape(static_cast<std::uint8_t>(types->GetComponent(cell, 0)));
     if (shape && shape->dimension == 3)
     {
       return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Pipeline/Monitor.h"
 
-#include "Private/Pipeline/Version.h"
+#include "Private/Data/Version.h"
 
 #include <vtkSMPTools.h>
 

@@ -2,7 +2,15 @@
 #pragma once
 
 #include <vtkAlgorithm.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVersionMacros.h>
+
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+#include <vtkCellTypeUtilities.h>
+#else
+#include <vtkCellTypes.h>
+#include <vtkUnsignedCharArray.h>
+#endif
 
 /// What differs between the VTK releases this module builds with: every test of VTK_VERSION_NUMBER
 /// is here.
@@ -23,6 +31,26 @@ inline void KeepAbortedOutput([[maybe_unused]] vtkAlgorithm* algorithm)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220817)
   algorithm->SetAbortOutput(false);
+#endif
+}
+
+/// One value a cell, or null; since VTK 9.6 in an array of any class, such as a constant one.
+inline vtkDataArray* CellTypes(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
+#endif
+}
+
+/// The name of VTK's class of cells of this type.
+inline const char* CellClass(int type)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
+#else
+  return vtkCellTypes::GetClassNameFromTypeId(type);
 #endif
 }
 }
