@@ -93,12 +93,17 @@ def _extract(panel):
     return producer(extract.GetOutput())
 
 
+def move(shown, shift):
+    """Shows a representation elsewhere: since ParaView 5.12 its Position is its Translation."""
+    setattr(shown, "Translation" if hasattr(shown, "Translation") else "Position", list(shift))
+
+
 def _show(view, source, shift):
     shown = simple.Show(source, view, "UnstructuredGridRepresentation")
     # The active cell scalars color the mesh. simple.ColorBy would fit the colors' range to the data
     # and so move their break away from 0.
     shown.SetRepresentationType("Surface With Edges")
-    shown.Position = [shift, 0, 0]
+    move(shown, [shift, 0, 0])
     shown.EdgeColor = INK
     shown.LineWidth = 0.6
     shown.Ambient, shown.Diffuse, shown.Specular = 0.45, 0.6, 0.0

@@ -25,7 +25,7 @@ from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from demo_picture import INK, OVERSAMPLING, average_pixels, producer, text  # noqa: E402
+from demo_picture import INK, OVERSAMPLING, average_pixels, move, producer, text  # noqa: E402
 import Models  # noqa: E402  (needs the path above)
 from Models.model_mesh import add_array  # noqa: E402
 
@@ -168,7 +168,7 @@ def _show(view, panel, shift):
     curves.PointSize = 12
     curves.RenderPointsAsSpheres = 1
     for shown in (faces, curves):
-        shown.Position = list(shift)
+        move(shown, shift)
 
 
 def parse_arguments():

@@ -15,6 +15,8 @@ import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from versions import number_points
+
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
@@ -73,7 +75,7 @@ class FileFormats(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         part = simple.OpenDataFile(str(MESH))
-        ids = simple.GenerateIds(Input=part, PointIdsArrayName="Node", CellIdsArrayName="Element")
+        ids = number_points(Input=part, PointIdsArrayName="Node", CellIdsArrayName="Element")
         cls.part = ids
         cls.morph = bent(ids)
         cls.moved = points(fetched(cls.morph))

@@ -8,11 +8,13 @@ import unittest
 
 import numpy as np
 from paraview import servermanager, simple
-from paraview.simple import (AppendDatasets, Calculator, ExtractSurface, GenerateIds,
-                             GroupDatasets, LoadPlugin, MergeBlocks, Tetrahedralize, Transform,
-                             WarpByVector, Wavelet)
+from paraview.simple import (AppendDatasets, Calculator, ExtractSurface, GroupDatasets,
+                             LoadPlugin, MergeBlocks, Tetrahedralize, Transform, WarpByVector,
+                             Wavelet)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+
+from versions import number_points
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -170,7 +172,7 @@ class Routes(unittest.TestCase):
         self.assertMoved(MorphFEMWARP(Input=self.grid, Boundary=warp), expected)
 
     def test_generate_ids_then_extract_surface(self):
-        numbered = GenerateIds(Input=self.grid)
+        numbered = number_points(Input=self.grid)
         numbered.UpdatePipeline()
         moved = Transform(Input=ExtractSurface(Input=numbered))
         moved.Transform.Rotate = [0, 0, 20]

@@ -14,6 +14,8 @@ import xml.etree.ElementTree as ElementTree
 
 from paraview import simple
 
+from versions import number_points
+
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 
@@ -68,7 +70,7 @@ class Properties(unittest.TestCase):
     def setUpClass(cls):
         wavelet = simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])
         # Some properties choose among cell arrays, and among point vectors.
-        numbered = simple.GenerateIds(Input=simple.AppendDatasets(Input=[wavelet]))
+        numbered = number_points(Input=simple.AppendDatasets(Input=[wavelet]))
         grid = simple.Calculator(Input=numbered, Function="jHat*coordsX", ResultArrayName="Vectors")
         boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid),
                                      Function="iHat*coordsX*0.1", ResultArrayName="Shift")

@@ -5,6 +5,8 @@ import os
 import subprocess
 from xml.sax.saxutils import quoteattr
 
+from versions import PLUGIN_FILE_DIALOG, SETTINGS
+
 MAIN = "pqClientMainWindow/"
 PROPERTIES = MAIN + "propertiesDock/propertiesPanel/"
 PANEL = (PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/"
@@ -13,7 +15,7 @@ BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
 class Events:
-    """What a user does, in order. Names are those of ParaView 5.11's widgets."""
+    """What a user does, in order, by the names of ParaView's widgets."""
 
     def __init__(self):
         self.lines = []
@@ -35,7 +37,7 @@ class Events:
         manager = MAIN + "PluginManagerDialog/"
         self.menu("menuTools", "actionManage_Plugins")
         self.do(manager + "splitter/localGroup/loadLocal", "activate")
-        self.do(manager + "pqFileDialog", "filesSelected", path)
+        self.do(manager + PLUGIN_FILE_DIALOG, "filesSelected", path)
         self.do(manager + "buttonBox/1QPushButton0", "activate")
 
     def open(self, path):
@@ -67,7 +69,7 @@ class Events:
     def play(self, folder, seconds=500):
         """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
         messages."""
-        settings = folder / ".config/ParaView/ParaView5.11.0.ini"
+        settings = folder / ".config/ParaView" / SETTINGS
         settings.parent.mkdir(parents=True)
         settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
                             "[MainWindow]\nSize=@Size(800 700)\nPosition=@Point(0 0)\n",
