@@ -10,7 +10,6 @@ namespace morph
 {
 namespace
 {
-/// Sums the faces' areas at each of faces.nodes.
 class NodeSums
 {
 public:
@@ -110,7 +109,7 @@ Points nodeNormals(const Points& areas, const BoundaryFaces& faces,
   if (!without.empty())
   {
     throw Error("The boundary has no normal at node ids " + listIds(without) +
-                ": the areas of the faces round them cancel out or are zero. Move them by a "
+                ": the areas of the faces around them cancel out or are zero. Move them by a "
                 "vector, or leave them out.");
   }
   return normals;

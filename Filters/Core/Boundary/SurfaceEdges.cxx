@@ -13,7 +13,6 @@ namespace morph
 {
 namespace
 {
-/// One side of a face.
 struct Side
 {
   Index low, high, face, place;
