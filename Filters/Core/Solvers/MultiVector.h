@@ -10,9 +10,11 @@
 
 namespace morph
 {
-/// One row of three right-hand sides, and a zero: one matrix entry serves all three.
+/// One row of three right-hand sides, and a zero: a matrix entry multiplies all three at once.
 using MultiVectorRow = Eigen::Vector4d;
 using MultiVector = std::vector<MultiVectorRow>;
+/// A MultiVector in single precision: one SSE register a row.
+using FloatMultiVector = std::vector<Eigen::Vector4f>;
 
 template <typename Values>
 MultiVectorRow toRow(const Values& row)
@@ -20,7 +22,7 @@ MultiVectorRow toRow(const Values& row)
   return MultiVectorRow(row[0], row[1], row[2], 0);
 }
 
-/// a / b per column, 0 for the columns that have stopped.
+/// Returns a / b per column, 0 for columns that have stopped.
 inline MultiVectorRow ratio(
   const MultiVectorRow& a, const MultiVectorRow& b, const Eigen::Array4i& running)
 {
@@ -35,13 +37,13 @@ inline MultiVectorRow ratio(
   return result;
 }
 
-/// Largest sqrt(a / b) over the three columns.
+/// Returns the maximum of sqrt(a / b) over the three columns.
 inline double largestRatio(const MultiVectorRow& a, const MultiVectorRow& b)
 {
   return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
 }
 
-/// (A x)_i for x in double or single precision.
+/// Computes (A x)_i for x in double or single precision.
 template <typename Vectors>
 MultiVectorRow rowProduct(const CsrMatrix& A, Index i, const Vectors& x)
 {

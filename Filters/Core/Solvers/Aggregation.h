@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/CsrRows.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// Returns for each entry of A whether its column is a near neighbor of its row. Near means within
+/// sqrt(10) times the distance of the nearest one. `coordinates`: #rows x 3.
+///
+/// Nearness replaces the size of the entries: a trilinear hexahedron has no entry between nodes
+/// that share an edge, and stretched cells must coarsen along their short side first.
+std::vector<std::uint8_t> nearNeighbors(
+  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor);
+
+/// Groups the rows of A into aggregates of near neighbors. `near`: #entries, see nearNeighbors().
+/// `group` becomes the aggregate of each row. Returns their number. Cost: three serial passes.
+int aggregate(const CsrRows<float>& A, const Points& coordinates,
+  const std::vector<std::uint8_t>& near, std::vector<int>& group);
+
+/// Returns the smoothed prolongation from `groups` aggregates, P = (I - omega D^-1 A_F) T. T is
+/// constant on each aggregate. A_F keeps the near neighbors and adds the other entries to its
+/// diagonal. `eigenvalue`: the largest one of D^-1 A. Source: Vanek, Mandel, Brezina, Computing 56
+/// (1996) 179-196.
+CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
+  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
+  Monitor& monitor);
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/CsrMatrix.h"
+#include "Solvers/CsrRows.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace morph
+{
+/// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
+/// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
+/// have the order of their first call. Cost: each of at most 128 ranges of chunks takes one int a
+/// column.
+template <typename Scalar, typename MakeRow>
+CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
+{
+  constexpr Index Grain = 4096, MostRanges = 128;
+  struct Chunk
+  {
+    std::vector<int> size, column;
+    std::vector<Scalar> value;
+  };
+  const Index chunks = (rows + Grain - 1) / Grain;
+  std::vector<Chunk> parts(chunks);
+  monitor.parallelFor(chunks, 1 + chunks / MostRanges,
+    [&](Index firstChunk, Index lastChunk)
+    {
+      // The index of each column in the row, valid if the entry there has this column.
+      std::vector<int> index(columns, 0);
+      Chunk scratch; // keeps its capacity between chunks
+      for (Index c = firstChunk; c < lastChunk; ++c)
+      {
+        scratch.size.clear();
+        scratch.column.clear();
+        scratch.value.clear();
+        const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
+        for (int i = static_cast<int>(c * Grain); i < last; ++i)
+        {
+          const std::size_t start = scratch.column.size();
+          makeRow(i,
+            [&](int column, Scalar value)
+            {
+              const std::size_t at = start + index[column];
+              if (at < scratch.column.size() && scratch.column[at] == column)
+              {
+                scratch.value[at] += value;
+                return;
+              }
+              index[column] = static_cast<int>(scratch.column.size() - start);
+              scratch.column.push_back(column);
+              scratch.value.push_back(value);
+            });
+          scratch.size.push_back(static_cast<int>(scratch.column.size() - start));
+        }
+        parts[c] = scratch;
+      }
+    });
+
+  CsrRows<Scalar> result;
+  result.rows = rows;
+  result.ownStart.reserve(rows + 1);
+  result.ownStart.push_back(0);
+  std::vector<std::size_t> at(chunks + 1, 0);
+  for (Index c = 0; c < chunks; ++c)
+  {
+    at[c + 1] = at[c] + parts[c].value.size();
+    requireEntries(static_cast<Index>(at[c + 1]));
+    for (int size : parts[c].size)
+    {
+      result.ownStart.push_back(result.ownStart.back() + size);
+    }
+  }
+  result.ownColumn.resize(at[chunks]);
+  result.ownValue.resize(at[chunks]);
+  monitor.parallelFor(chunks, 1,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        std::copy(parts[c].column.begin(), parts[c].column.end(), result.ownColumn.data() + at[c]);
+        std::copy(parts[c].value.begin(), parts[c].value.end(), result.ownValue.data() + at[c]);
+        parts[c] = {};
+      }
+    });
+  result.adopt();
+  return result;
+}
+}
