@@ -65,7 +65,7 @@ void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
       this->InitialGuess == INITIAL_GUESS_REST ? Morpher::Start::Rest : Morpher::Start::FemWarp);
   }
   own.setTarget(this->TargetShape == TARGET_SHAPE_INITIAL ? morph::TargetConstruction::Initial
-                : this->TargetShape == TARGET_SHAPE_IDEAL ? morph::TargetConstruction::Ideal
+                : this->TargetShape == TARGET_SHAPE_IDEAL ? morph::TargetConstruction::IdealSkew
                                                           : morph::TargetConstruction::Stretched);
   own.setStiffening(this->ImproveWorst);
   own.setMinimizer(this->LowMemory ? morph::FoldoverContinuation::Minimizer::LimitedMemoryBfgs

@@ -60,7 +60,7 @@ morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::in
   morph::Monitor& monitor)
 {
   morph::SmoothingOptions options;
-  options.target = morph::TargetConstruction::Initial;
+  options.target = morph::SmoothingTarget::Initial;
   options.iterationLimit = iterationLimit;
   options.neverWorse = true;
   const morph::SmoothingReport report =

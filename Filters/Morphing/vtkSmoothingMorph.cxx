@@ -21,8 +21,8 @@ std::unique_ptr<morph::Morpher> vtkSmoothingMorph::CreateMorpher()
 void vtkSmoothingMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
   morph::SmoothingOptions options;
-  options.target = this->TargetShape == TARGET_SHAPE_INITIAL ? morph::TargetConstruction::Initial
-                                                             : morph::TargetConstruction::Ideal;
+  options.target = this->TargetShape == TARGET_SHAPE_INITIAL ? morph::SmoothingTarget::Initial
+                                                             : morph::SmoothingTarget::Ideal;
   options.iterationLimit = this->IterationLimit;
   options.stopMove = this->StopMove;
   static_cast<morph::Smoothing&>(morpher).setOptions(options);

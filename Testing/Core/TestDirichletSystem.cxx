@@ -7,8 +7,8 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Solvers/GeneralSolver.h"
+#include "Solvers/LocalColumnMap.h"
 #include "Solvers/RowComponents.h"
-#include "Solvers/RowPlaces.h"
 #include "Solvers/SpdSolver.h"
 #include "Untangling/InversionFree.h"
 #include "WatchingMonitor.h"
@@ -314,22 +314,22 @@ TYPED_TEST(GuessOf, TheSolverIsOfAnySize)
   }
 }
 
-TEST(RowPlaces, NumberColumnsInTheOrderOfTheirFirstMention)
+TEST(LocalColumnMap, NumbersColumnsInTheOrderOfInsertion)
 {
   std::mt19937 random(meshes::seed());
-  RowPlaces places;
+  LocalColumnMap local;
   for (int length : { 0, 1, 40, 5000, 3, 63, 64, 65, 700 })
   {
     std::uniform_int_distribution<int> column(0, 2 * length);
     std::map<int, int> expected;
-    places.clear();
+    local.clear();
     for (int k = 0; k < length; ++k)
     {
       const int one = column(random) * 4096; // far apart, as in a large matrix
-      const int place = expected.emplace(one, static_cast<int>(expected.size())).first->second;
-      ASSERT_EQ(places.find(one), place) << length;
-      ASSERT_EQ(places.size(), static_cast<int>(expected.size()));
-      ASSERT_EQ(places.column(place), one);
+      const int index = expected.emplace(one, static_cast<int>(expected.size())).first->second;
+      ASSERT_EQ(local.localIndex(one), index) << length;
+      ASSERT_EQ(local.size(), static_cast<int>(expected.size()));
+      ASSERT_EQ(local.column(index), one);
     }
   }
 }

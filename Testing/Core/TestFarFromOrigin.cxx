@@ -40,7 +40,7 @@ std::vector<Method> methods()
     {
       auto method = std::make_unique<Smoothing>();
       SmoothingOptions options;
-      options.target = TargetConstruction::Initial;
+      options.target = SmoothingTarget::Initial;
       options.stopMove = 1e-12;
       method->setOptions(options);
       return method;

@@ -94,7 +94,7 @@ TEST(InversionFree, IdealTargetsChangeAMeshWithoutAnyMotion)
     const double atRest =
       morph::measureCorners(mesh, mesh.points, orientation, {}, monitor).minimum;
     InversionFree method;
-    method.setTarget(morph::TargetConstruction::Ideal);
+    method.setTarget(morph::TargetConstruction::IdealSkew);
     const Morphed result = run(method, mesh, target(mesh, [](const motions::Row& x) { return x; }));
     EXPECT_FALSE(motions::identical(result.moved, mesh.points));
     EXPECT_GT(result.minimum, atRest);

@@ -56,7 +56,7 @@ Points morphed(
   return result;
 }
 
-SmoothingOptions toTarget(TargetConstruction target)
+SmoothingOptions toTarget(SmoothingTarget target)
 {
   SmoothingOptions options;
   options.target = target;
@@ -77,7 +77,7 @@ Points scrambled(const Mesh& mesh, double amount)
 }
 
 /// The mean inverse mean ratio.
-double measure(const Mesh& mesh, const Points& points, TargetConstruction target)
+double measure(const Mesh& mesh, const Points& points, SmoothingTarget target)
 {
   Monitor monitor;
   MeshEnergy energy(mesh, outerPartition(mesh).free);
@@ -96,8 +96,7 @@ TEST(UntangleEnergy, GradientIsTheSlope)
 {
   for (const auto& [name, mesh] : jittered())
   {
-    for (const TargetConstruction target :
-      { TargetConstruction::Ideal, TargetConstruction::Initial })
+    for (const SmoothingTarget target : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
     {
       Monitor monitor;
       const std::vector<Index> free = outerPartition(mesh).free;
@@ -131,7 +130,7 @@ TEST(UntangleEnergy, IsKnuppsMeasureAndZeroWhereNothingIsTangled)
   const Mesh mesh = hexes(4, 4, 4);
   const std::vector<Index> free = outerPartition(mesh).free;
   const TargetMatrices targets =
-    smoothingTargets(mesh, orientationOf(mesh), TargetConstruction::Ideal, monitor);
+    smoothingTargets(mesh, orientationOf(mesh), SmoothingTarget::Ideal, monitor);
   EXPECT_EQ(UntangleEnergy(mesh, free, targets, .9).value(mesh.points, monitor).energy, 0);
   // Every corner of the unit cubes lacks a tenth.
   EXPECT_NEAR(
@@ -152,8 +151,7 @@ TEST(SmoothMesh, ValidStaysValidAndGetsBetter)
 {
   for (const auto& [name, mesh] : jittered())
   {
-    for (const TargetConstruction target :
-      { TargetConstruction::Ideal, TargetConstruction::Initial })
+    for (const SmoothingTarget target : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
     {
       Points points = scrambled(mesh, .05);
       const Points start = points;
@@ -254,8 +252,7 @@ TEST(Smoothing, PrescribedNodesAreExactAndGentleMotionsStayValid)
   {
     const NodePartition partition = outerPartition(mesh);
     const Points target = targets(mesh, partition, gentle);
-    for (const TargetConstruction shape :
-      { TargetConstruction::Ideal, TargetConstruction::Initial })
+    for (const SmoothingTarget shape : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
     {
       const Points result = morphed(mesh, target, toTarget(shape));
       EXPECT_TRUE(identical(rows(result, partition.prescribed), target)) << name;
@@ -269,8 +266,7 @@ TEST(Smoothing, NoMotionIsTheIdentityForTheInitialShapesOnly)
   for (const auto& [name, mesh] : jittered())
   {
     const Points target = rows(mesh.points, outerPartition(mesh).prescribed);
-    EXPECT_TRUE(
-      identical(morphed(mesh, target, toTarget(TargetConstruction::Initial)), mesh.points))
+    EXPECT_TRUE(identical(morphed(mesh, target, toTarget(SmoothingTarget::Initial)), mesh.points))
       << name;
     EXPECT_GT(difference(morphed(mesh, target), mesh.points), 1e-3) << name;
   }
@@ -278,7 +274,7 @@ TEST(Smoothing, NoMotionIsTheIdentityForTheInitialShapesOnly)
 
 TEST(Smoothing, AffineMotionsComeOutForTheInitialShapes)
 {
-  SmoothingOptions options = toTarget(TargetConstruction::Initial);
+  SmoothingOptions options = toTarget(SmoothingTarget::Initial);
   for (const auto& [name, mesh] : jittered())
   {
     const auto map = [](const Row& x) -> Row { return x + .4 * (affine(x) - x); };
@@ -300,12 +296,11 @@ TEST(Smoothing, RigidMotionsKeepTheMinimum)
           .toRotationMatrix();
       const auto move = [&](const Row& x) -> Row { return x * turn + Row(4, 0, 1) * degrees; };
       const Points target = targets(mesh, outerPartition(mesh), move);
-      for (const TargetConstruction shape :
-        { TargetConstruction::Ideal, TargetConstruction::Initial })
+      for (const SmoothingTarget shape : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
       {
         const Points result = morphed(mesh, target, toTarget(shape));
         EXPECT_GE(qualityOf(mesh, result).minimum, minimum - 1e-12) << name << ' ' << degrees;
-        if (shape == TargetConstruction::Initial)
+        if (shape == SmoothingTarget::Initial)
         {
           EXPECT_LT(difference(result, mapped(mesh.points, move)), 1e-9 * (1 + degrees)) << name;
         }
@@ -335,7 +330,7 @@ TEST(Smoothing, ABodyHeldByAPlaneOrALineTurnsWithIt)
   {
     const NodePartition partition = held(planes);
     Smoothing method;
-    method.setOptions(toTarget(TargetConstruction::Initial));
+    method.setOptions(toTarget(SmoothingTarget::Initial));
     ThreadedMonitor monitor;
     method.prepare(mesh, partition, monitor);
     Points result;
@@ -364,7 +359,7 @@ TEST(Smoothing, EveryBodyFollowsItsOwnBoundary)
   const auto move = [](const Row& x) -> Row
   { return x[0] < 5 ? x : Row(30 - x[0], 3 - x[1], x[2]); };
   const Points result =
-    morphed(two, targets(two, outerPartition(two), move), toTarget(TargetConstruction::Initial));
+    morphed(two, targets(two, outerPartition(two), move), toTarget(SmoothingTarget::Initial));
   EXPECT_LT(difference(result, mapped(two.points, move)), 1e-9);
 }
 

@@ -21,7 +21,7 @@ std::vector<Index> allCells(const Mesh& mesh)
 }
 
 /// Returns the minimum row of a volume cell's corners; negative if none is free.
-Index leastRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
+Index minimumRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
   Index least = -1;
@@ -55,8 +55,8 @@ CellBatches::CellBatches(
     }
   };
   // In the order of their minimum rows, so that a row's contributions are near in memory.
-  const Adjacency order = gatherMap(
-    static_cast<Index>(cells.size()), rows, [&](Index i) { return leastRow(mesh, cells[i], row); });
+  const Adjacency order = gatherMap(static_cast<Index>(cells.size()), rows,
+    [&](Index i) { return minimumRow(mesh, cells[i], row); });
   for (Index i : order.values)
   {
     const Shape shape = cellShape(mesh.types[cells[i]])->shape;

@@ -80,7 +80,6 @@ MORPH_SIMD_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
   }
 }
 
-/// The parameters of the density.
 template <typename T>
 struct Parameters
 {

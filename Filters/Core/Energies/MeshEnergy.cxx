@@ -136,7 +136,7 @@ MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) c
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 {
   const State state = this->evaluate(points, monitor);
-  return { state.energy, this->density_.epsilon > Barrier || state.leastDeterminant > 0 };
+  return { state.energy, this->density_.epsilon > Barrier || state.minimumDeterminant > 0 };
 }
 
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const

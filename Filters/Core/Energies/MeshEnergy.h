@@ -31,9 +31,9 @@ public:
   {
     double energy = 0;
     /// minimum, relative to the targets; positive: no tetrahedron is inverted
-    double leastDeterminant = 0;
-    Index inverted = 0;        ///< tetrahedra whose determinant is not positive
-    double mostDistortion = 0; ///< maximum of phi over stiffened tetrahedra
+    double minimumDeterminant = 0;
+    Index inverted = 0;           ///< tetrahedra whose determinant is not positive
+    double maximumDistortion = 0; ///< maximum of phi over stiffened tetrahedra
   };
   State evaluate(const Points& points, Monitor& monitor) const;
 

@@ -112,9 +112,9 @@ TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& or
 }
 
 TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  TargetConstruction target, Monitor& monitor)
+  SmoothingTarget target, Monitor& monitor)
 {
-  if (target == TargetConstruction::Ideal)
+  if (target == SmoothingTarget::Ideal)
   {
     return idealTargets(rest, orientation);
   }

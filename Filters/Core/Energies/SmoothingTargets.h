@@ -5,13 +5,18 @@
 
 namespace morph
 {
-/// Targets for the inverse mean ratio: theta is 0, so only the shape counts.
-///
-/// Initial: targetMatrices(), a cell's weight its volume. Ideal, other than there, takes no lengths
-/// from a guide: one tetrahedron at each corner (but a pyramid's apex) of a cube, a regular
-/// tetrahedron, a wedge or pyramid with all edges alike; every cell has the same weight, its
-/// corners share it. Their size is that of the cell at rest, or of the mean cell where it has next
-/// to no volume.
+/// The shapes that smoothing aims for.
+enum class SmoothingTarget
+{
+  Initial, ///< the undeformed cell: targetMatrices(), weighted by volume
+  /// a cube, a regular tetrahedron, or a wedge or pyramid with equal edges, all cells of equal
+  /// weight; one tetrahedron at each corner except a pyramid's apex
+  Ideal
+};
+
+/// Computes target matrices for the inverse mean ratio: theta is 0, so only the shape counts. An
+/// Ideal cell has the undeformed cell's volume, or the mean volume if that is nearly 0.
+/// `orientation`: #cells, see cellSigns() in Topology.h. Cost: as targetMatrices().
 TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  TargetConstruction target, Monitor& monitor);
+  SmoothingTarget target, Monitor& monitor);
 }

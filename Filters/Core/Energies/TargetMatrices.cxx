@@ -161,7 +161,6 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
   return D;
 }
 
-/// Returns the nodes of a tetrahedron of the cell's decomposition.
 std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
@@ -227,7 +226,7 @@ Lengths lengthsAround(
 Corners targetOf(
   Shape shape, const Corners& rest, const Corners& guide, double sign, TargetConstruction target)
 {
-  if (target == TargetConstruction::Ideal)
+  if (target == TargetConstruction::IdealSkew)
   {
     Corners x = idealShape(shape, lengths(shape, guide));
     x.row(0) *= sign;

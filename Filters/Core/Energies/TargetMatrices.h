@@ -10,16 +10,14 @@
 
 namespace morph
 {
-/// What a cell should look like in the morphed mesh, up to a rotation.
+/// How the target of a cell is constructed. Targets are independent of rotation.
 enum class TargetConstruction
 {
-  Initial, ///< the cell at rest
-  /// the cell at rest, stretched along its own axes to the edge lengths of a guide: keeps angles,
-  /// accepts sizes
+  Initial, ///< the undeformed cell
+  /// the undeformed cell's angles: stretched along its axes to the edge lengths of a guide
   Stretched,
-  /// right angles, or a regular tetrahedron, with the mean edge lengths along each axis of the
-  /// guide
-  Ideal
+  /// right angles, or a regular tetrahedron, with the guide's mean edge length along each axis
+  IdealSkew
 };
 
 /// Target matrices of all cells: for each tetrahedron of the averaged simplicial decompositions,
@@ -40,13 +38,13 @@ struct TargetMatrices
   std::vector<Tetrahedron> tetrahedra;
 };
 
-/// `guide`: #nodes x 3, whose edge lengths Stretched and Ideal take; `orientation`: #cells, see
-/// Topology's cellSigns().
-/// Stretched: ratios of the sums of parallel edges, within [1/20, 20]; for tetrahedra as Initial. A
-/// cell at rest whose scaled Jacobian is 1e-3 or less, which Initial and Stretched would divide by,
-/// takes the Ideal shape with the edge lengths of its valid neighbors at rest. Tetrahedra inside a
-/// valid cell that are not positive there have weight 0. Cost: one pass, 96 bytes a tetrahedron
-/// (ten a hexahedron).
+/// Computes the target matrices of a mesh. `orientation`: #cells, see cellSigns() in Topology.h;
+/// `guide`: #nodes x 3, gives the edge lengths of Stretched and IdealSkew. Stretched uses ratios of
+/// the sums of parallel edges, within [1/20, 20]; tetrahedra are as for Initial. Initial and
+/// Stretched cannot use an undeformed cell with a scaled Jacobian of 1e-3 or less. It takes
+/// IdealSkew with the edge lengths of its valid undeformed neighbors. Inner tetrahedra of a valid
+/// cell that are not positive have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a
+/// hexahedron).
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, TargetConstruction target, Monitor& monitor);
 

@@ -44,7 +44,6 @@ double scaleOf(Shape shape)
   }
 }
 
-/// One corner of each cell of a batch.
 struct Corner
 {
   SimdMatrix edges, normals; ///< the normals of pairs of edges are the determinant's gradient

@@ -60,7 +60,6 @@ std::vector<std::vector<Index>> prescribedOfBodies(
   return result;
 }
 
-/// An affine displacement field.
 struct Motion
 {
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero(), mean = Eigen::RowVector3d::Zero();

@@ -8,7 +8,7 @@
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Quality/ScaledJacobian.h"
-#include "Solvers/RowPlaces.h"
+#include "Solvers/LocalColumnMap.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -260,33 +260,33 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& b
   return splitRows(rows, monitor,
     [&]
     {
-      return [&, places = RowPlaces(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
+      return [&, local = LocalColumnMap(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
                values = std::vector<double>()](Index row, SplitRows& chunk) mutable
       {
         values.clear();
-        places.clear();
+        local.clear();
         visit(row,
           [&](const Index* nodes, const int* cornerNode, int n, const double* K,
             const std::uint8_t* entry)
           {
-            int place[8];
+            int index[8];
             for (int a = 0; a < n; ++a)
             {
-              place[a] = places.find(column[nodes[cornerNode[a]]]);
+              index[a] = local.localIndex(column[nodes[cornerNode[a]]]);
             }
             // adding any number to -0 gives this number, also for zeros
-            values.resize(places.size(), -0.);
+            values.resize(local.size(), -0.);
             double* sums = values.data();
             for (int a = 0; a < n; ++a)
             {
-              sums[place[a]] += K[entry[a]];
+              sums[index[a]] += K[entry[a]];
             }
           });
         columnsHere.resize(values.size());
         int inside = 0;
         for (std::size_t k = 0; k < values.size(); ++k)
         {
-          columnsHere[k] = places.column(static_cast<int>(k));
+          columnsHere[k] = local.column(static_cast<int>(k));
           inside += columnsHere[k] < rows;
         }
         const int outside = static_cast<int>(values.size()) - inside;

@@ -10,7 +10,6 @@ namespace morph
 {
 namespace
 {
-/// Statistics of one chunk's rows.
 struct Tally
 {
   std::vector<Index> outside, empty;

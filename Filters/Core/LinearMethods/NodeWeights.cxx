@@ -45,7 +45,7 @@ void NodeWeights::gather(Index node)
     {
       const int column = this->numbers_->ofNode[nodes[k]];
       const int known = this->met_.size();
-      if (this->met_.find(column) == known)
+      if (this->met_.localIndex(column) == known)
       {
         this->columns_.push_back(column);
       }
@@ -53,7 +53,6 @@ void NodeWeights::gather(Index node)
   }
 }
 
-/// Adds the neighbors' neighbors.
 void NodeWeights::widen()
 {
   const std::vector<int> ring = this->columns_;
@@ -164,7 +163,7 @@ NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
   {
     this->columns_.clear();
     this->met_.clear();
-    this->met_.find(this->numbers_->ofNode[node]);
+    this->met_.localIndex(this->numbers_->ofNode[node]);
     this->gather(node);
     std::sort(this->columns_.begin(), this->columns_.end());
     this->takeOffsets(node);

@@ -4,7 +4,7 @@
 #include "LinearMethods/LogBarrierWeights.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
-#include "Solvers/RowPlaces.h"
+#include "Solvers/LocalColumnMap.h"
 
 #include <array>
 #include <vector>
@@ -66,6 +66,6 @@ private:
   std::vector<double> weights_;
   std::vector<std::array<double, 3>> offsets_;
   int iterations_ = 0;
-  RowPlaces met_; ///< the node's own column and those gathered
+  LocalColumnMap met_; ///< the node's own column and those gathered
 };
 }

@@ -131,7 +131,7 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
     text.precision(3);
     text << "The natural-neighbor weights would take about " << estimate / 1e9
          << " GB, more than the memory limit of " << static_cast<double>(this->memoryLimit_) / 1e9
-         << " GB: they are computed anew for each motion, which is slow. Raise the limit if the "
+         << " GB: each motion recomputes them, which is slow. Raise the limit if the "
             "memory is there.";
     monitor.warn(text.str());
   }

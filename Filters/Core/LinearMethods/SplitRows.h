@@ -16,7 +16,6 @@ struct SplitRows
   static constexpr Index ChunkRows = 4096;
   static Index chunksOf(Index rows) { return (rows + ChunkRows - 1) / ChunkRows; }
 
-  /// The part of one of the two matrices.
   struct Part
   {
     std::vector<int> size;   ///< entries per row

@@ -23,7 +23,6 @@ double dot(const Points& a, const Points& b, Monitor& monitor)
   return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
-/// Computes to += factor * from.
 void add(double factor, const Points& from, Points& to, Monitor& monitor)
 {
   monitor.parallelFor(to.rows(), Grain,

@@ -27,7 +27,7 @@ struct Box
 
   double least() const { return *std::min_element(this->c.begin(), this->c.end()); }
   /// Returns the minimum determinant at the box's corners, which are coefficients.
-  double leastCorner() const
+  double minimumCorner() const
   {
     double least = this->c[0];
     for (int corner = 1; corner < 8; ++corner)
@@ -150,7 +150,7 @@ Certificate certifyTrilinear(const Vector* x)
     const Box box = stack.back();
     stack.pop_back();
     ++examined;
-    const double corner = box.leastCorner();
+    const double corner = box.minimumCorner();
     if (corner < -error)
     {
       return Certificate::Inverted;

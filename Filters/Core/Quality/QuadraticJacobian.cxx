@@ -21,7 +21,6 @@ using Part = BernsteinHalving::Part;
 constexpr int MostHalvings = 36, MostHalvingsNextToZero = 9;
 constexpr int MostParts = 2048;
 
-/// A cell's scaled nodes and derivatives.
 struct Cell
 {
   const QuadraticMap& map;

@@ -36,15 +36,11 @@ struct QuadraticProof
 QuadraticProof proveQuadratic(std::uint8_t type, const Eigen::Vector3d* x);
 
 /// Returns the scaled Jacobian of a quadratic cell whose corner cell has the value `ofCorners`:
-///
 /// - Inverted inside: the minimum, never positive, of `ofCorners` and the determinants with
-/// normalised columns at the nodes and at the proof's point.
-///
+///   normalised columns at the nodes and at the proof's point.
 /// - Positive everywhere: `ofCorners` if positive, otherwise the minimum of the determinants at the
-/// nodes.
-///
+///   nodes.
 /// - Undecided: `ofCorners`.
-///
 /// The normalised determinants have the factor of the shape's corners (ScaledJacobian.h).
 double quadraticScaledJacobian(std::uint8_t type, const Eigen::Vector3d* x, double ofCorners);
 

@@ -9,13 +9,13 @@
 
 namespace morph
 {
-/// Compressed rows, 12 bytes an entry.
+/// A sparse matrix in compressed rows, 12 bytes an entry.
 using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-/// Throws Error for more entries than an int can number.
+/// Throws Error if an int cannot number the entries.
 void requireEntries(Index entries);
 
-/// Gives `matrix` the size (#sizes - 1) x width with room for sizes[i + 1] entries in row i,
-/// columns and values not set; sizes[0] is 0. Throws Error as requireEntries().
+/// Gives `matrix` the size (#sizes - 1) x width and allocates sizes[i + 1] entries in row i;
+/// sizes[0] is 0. Columns and values are not set. Throws Error as requireEntries().
 void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes);
 }

@@ -21,8 +21,8 @@ constexpr Index Grain = 4096;
 constexpr double Rounding = 1e-14;
 constexpr double BreakdownCosine = 1e-13;
 constexpr int StagnationWindow = 24;     // iterations
-constexpr double StagnationFactor = 0.1; // that they must gain
-constexpr int Warm = 8;                  // iterations that a first run may take to find its way
+constexpr double StagnationFactor = 0.1; // by which they must reduce the residual
+constexpr int Warm = 8;                  // iterations that a first run may take before it converges
 
 using Row = MultiVectorRow;
 using Rows = MultiVector;
@@ -45,13 +45,14 @@ struct Workspace
   }
 
   Rows solution, residual, shadow, direction;
-  Rows image, second; ///< A times the preconditioned direction, and residual
+  /// A times the preconditioned direction, and times the preconditioned residual
+  Rows image, second;
   Multigrid::Vector scaled, step,
     secondStep; ///< to the preconditioner and from it, in units of `scale`
   Multigrid::Workspace multigrid;
 };
 
-/// Columns above their goals.
+/// Selects the columns above their goals.
 Eigen::Array4i above(const Row& norm2, const Row& goal2)
 {
   Eigen::Array4i running = Eigen::Array4i::Zero();
@@ -63,7 +64,7 @@ Eigen::Array4i above(const Row& norm2, const Row& goal2)
 }
 }
 
-/// A or its transpose, with the hierarchy that goes with it.
+/// A or its transpose, with its hierarchy.
 struct GeneralSolver::System
 {
   CsrMatrix A;
@@ -71,8 +72,8 @@ struct GeneralSolver::System
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
 
-  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they
-  // hold never matters.
+  // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
+  // has no effect.
   mutable std::mutex mutex;
   mutable std::unique_ptr<Workspace> spare;
 
@@ -113,9 +114,8 @@ struct GeneralSolver::System
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
   void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
     Monitor& monitor) const;
-  /// One run of BiCGSTAB from the solution at hand, up to the goal, or to where it stagnates or
-  /// breaks down. `norm2` becomes that of the residual it carries along: the true one is the
-  /// caller's to find.
+  /// Runs BiCGSTAB from the current solution until it reaches the goal, stagnates or breaks down.
+  /// `norm2` becomes that of the recurrence's residual: the caller has to compute the true one.
   void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
   Report solve(
@@ -132,7 +132,7 @@ Row GeneralSolver::System::trueResidual(const Points& b, Workspace& work, Monito
     });
 }
 
-/// step = B (scale v).
+/// Computes step = B (scale v).
 void GeneralSolver::System::precondition(
   const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const
 {
@@ -156,7 +156,7 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
   Rows &residual = work.residual, &direction = work.direction, &image = work.image,
        &second = work.second;
 
-  // The preconditioner works in single precision: bring each column's residual to about 1.
+  // The preconditioner has single precision: scales each column's residual to about 1.
   Row scale = zero, unscale = zero;
   const auto rescale = [&]
   {
@@ -323,7 +323,7 @@ GeneralSolver::Report GeneralSolver::System::solve(
       monitor.progress(std::clamp(1 - std::log(left) / std::log(atStart), 0., 1.));
     }
   };
-  // The residual that rounding leaves in b - A x for such an x.
+  // Bounds the rounding error of b - A x for such an x.
   const auto reachable2 = [&]
   {
     const Row xNorm2 = reproducibleSum(
@@ -339,8 +339,8 @@ GeneralSolver::Report GeneralSolver::System::solve(
 
   Report report;
   int runs = 0;
-  // The residual that the iteration carries along drifts from b - A x: after each run x is checked,
-  // and taken further.
+  // The recurrence's residual drifts from b - A x, so each run ends with a check of x and perhaps a
+  // restart.
   bool stuck = false;
   while (!stuck && above(norm2, goal2).any() && report.iterations < maxIterations)
   {
@@ -358,9 +358,9 @@ GeneralSolver::Report GeneralSolver::System::solve(
     }
     const auto fail = [&](const std::string& reached)
     {
-      throw Error(Error::Kind::NoConvergence,
-        "The linear solver did not converge: " + reached +
-          " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+      throw Error(Error::Kind::NoConvergence, "The linear solver did not converge: " + reached +
+                                                " Look for inverted or nearly flat cells in the "
+                                                "undeformed mesh, or raise the tolerance.");
     };
     Gmres gmres(this->A);
     // Each run of GMRES ends with the true residual.
@@ -391,7 +391,7 @@ GeneralSolver::Report GeneralSolver::System::solve(
     }
     std::ostringstream text;
     text << "BiCGSTAB stagnated; GMRES finished the solution in " << report.fallBackIterations
-         << " iterations. Look for inverted or nearly flat cells in the rest mesh.";
+         << " iterations. Look for inverted or nearly flat cells in the undeformed mesh.";
     monitor.warn(text.str());
   }
 
@@ -418,7 +418,7 @@ struct GeneralSolver::Implementation
 {
   System forward;
   std::mutex mutex;
-  std::unique_ptr<System> transposed; ///< made when it is first asked for
+  std::unique_ptr<System> transposed; ///< made at the first use
 
   const System& transposedSystem()
   {

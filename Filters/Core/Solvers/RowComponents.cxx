@@ -28,7 +28,7 @@ RowComponents rowComponents(const CsrMatrix& matrix)
     for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
     {
       const int column = matrix.innerIndexPtr()[k];
-      if (parent[column] == low) // nearly always, in an order that keeps neighbors near
+      if (parent[column] == low) // nearly always true, in an order that keeps neighbors near
       {
         continue;
       }
@@ -43,7 +43,7 @@ RowComponents rowComponents(const CsrMatrix& matrix)
   number.resize(rows);
   for (int row = 0; row < rows; ++row)
   {
-    const int first = root(row); // the lowest row of its component
+    const int first = root(row); // the minimum row of its component
     number[row] = first == row ? static_cast<int>(result.count++) : number[first];
   }
   if (result.count < 2)
@@ -77,7 +77,7 @@ MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
   {
     for (int j = 0; j < 4; ++j)
     {
-      drop[c][j] = !(ofResidual[c][j] <= ofB[c][j]); // also where the residual is not finite
+      drop[c][j] = !(ofResidual[c][j] <= ofB[c][j]); // also if the residual is not finite
       any = any || drop[c][j];
     }
   }

@@ -8,7 +8,7 @@
 
 namespace morph
 {
-/// The connected components of a square matrix's graph: its blocks, which can be solved one by one.
+/// The connected components of a square matrix's graph: blocks that can be solved separately.
 struct RowComponents
 {
   Index count = 0;
@@ -17,15 +17,15 @@ struct RowComponents
   int of(Index row) const { return this->ofRow.empty() ? 0 : this->ofRow[row]; }
 };
 
-/// Two rows are connected where either has an entry in the other's column. Cost: one pass over the
-/// matrix.
+/// Finds the components: rows are connected if either has an entry in the other's column. Cost: one
+/// pass over the matrix.
 RowComponents rowComponents(const CsrMatrix& matrix);
 
-/// Replaces the first guess `solution` of A x = b by 0, and its residual by b, in each column of
-/// each component where the residual's norm is larger than that of b. Where b is exactly 0 the
-/// solution then is so too, without an iteration. `bNorm2`, `norm2`: squared norms of b and of the
-/// residual per column. Returns the latter's new value. Cost: a comparison, and a pass over the
-/// vectors where there are several components.
+/// Replaces a first guess of A x = b by 0, and its residual by b, if the residual's norm exceeds
+/// that of b. This applies to each column of each component. Where b is exactly 0, so is then the
+/// solution, without an iteration. `solution`, `residual`: of the guess. `bNorm2`, `norm2`: squared
+/// norms of b and of the residual per column. Returns the new squared norm of the residual. Cost: a
+/// comparison, and a pass over the vectors if there are several components.
 MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
   const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
   MultiVector& residual, Monitor& monitor);

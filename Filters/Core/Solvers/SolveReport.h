@@ -5,15 +5,15 @@
 
 namespace morph
 {
-/// What an iterative solution took.
+/// The effort of an iterative solution.
 struct SolveReport
 {
   int iterations = 0; ///< of all right-hand sides together
-  /// largest over the right-hand sides, |b - A x| / |b|, computed from x
+  /// maximum of |b - A x| / |b| over the right-hand sides, computed from x
   double relativeResidual = 0;
-  double bytesMoved = 0; ///< estimate of the memory traffic, for benchmarks
+  double bytesMoved = 0; ///< estimated memory traffic, for benchmarks
 };
 
-/// Warns where rounding kept the residual above what `tolerance` asks for.
+/// Warns if rounding kept the residual above the `tolerance`.
 void reportRounding(const SolveReport& report, double tolerance, Monitor& monitor);
 }

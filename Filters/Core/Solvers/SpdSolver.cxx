@@ -21,7 +21,6 @@ constexpr Index Grain = 4096;
 using Row = MultiVectorRow;
 using Rows = MultiVector;
 
-/// The vectors of one solve.
 struct Workspace
 {
   explicit Workspace(const Multigrid& multigrid, std::size_t n)
@@ -40,12 +39,12 @@ struct Workspace
   Multigrid::Workspace multigrid;
 };
 
-/// `reached`: what came of the iteration.
+/// `reached`: the state of the iteration.
 [[noreturn]] void throwNoConvergence(const std::string& reached)
 {
   throw Error(Error::Kind::NoConvergence,
     "The conjugate gradients did not converge: " + reached +
-      " Look for inverted or nearly flat cells in the rest mesh, or raise the tolerance.");
+      " Look for inverted or nearly flat cells in the undeformed mesh, or raise the tolerance.");
 }
 
 void requireFinite(const Row& norm2, int iterations)
@@ -64,8 +63,8 @@ struct SpdSolver::Implementation
   RowComponents components;
   Multigrid preconditioner;
 
-  // Fresh pages cost as much as a tenth of a solve: keep one set of vectors for the next. What they
-  // hold never matters.
+  // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
+  // has no effect.
   std::mutex mutex;
   std::unique_ptr<Workspace> spare;
 
@@ -159,8 +158,8 @@ SolveReport SpdSolver::Implementation::iterate(
 
   SolveReport report;
   int restarts = 0;
-  // The residual that the iteration carries along drifts from b - A x: after each run x is checked,
-  // and where rounding lets it, taken further.
+  // The recurrence's residual drifts from b - A x, so each run ends with a check of x and a restart
+  // if rounding allows.
   for (double before = HUGE_VAL; largestRatio(norm2, goal2) > 1; ++restarts)
   {
     const double now = largestRatio(norm2, goal2);
@@ -170,7 +169,7 @@ SolveReport SpdSolver::Implementation::iterate(
     }
     before = now;
 
-    // The preconditioner works in single precision: bring each column's residual to about 1.
+    // The preconditioner has single precision: scales each column's residual to about 1.
     Row scale = zero, unscale = zero;
     for (int c = 0; c < 3; ++c)
     {

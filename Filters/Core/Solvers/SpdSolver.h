@@ -11,10 +11,9 @@
 
 namespace morph
 {
-/// Solves A X = B, A symmetric positive definite and sparse, B with three columns at once:
-/// preconditioned conjugate gradients in which one pass over the matrix serves the three columns,
-/// with a smoothed-aggregation multigrid preconditioner (Vanek, Mandel, Brezina, Computing 56
-/// (1996) 179-196).
+/// Solves A X = B by conjugate gradients, with A sparse, symmetric positive definite. B has three
+/// columns; one pass over the matrix serves all three. The preconditioner is a smoothed-aggregation
+/// multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
 class SpdSolver
 {
 public:
@@ -23,23 +22,22 @@ public:
   SpdSolver(SpdSolver&&) noexcept;
   SpdSolver& operator=(SpdSolver&&) noexcept;
 
-  /// Takes the matrix over and leaves an empty one. `coordinates`: #rows x 3, the nodes' positions:
-  /// the multigrid groups near neighbors. Throws SingularRows where a diagonal entry is not
-  /// positive.
+  /// Takes over `matrix` and leaves it empty. `coordinates`: #rows x 3, positions of the nodes, as
+  /// the multigrid groups near neighbors. Throws SingularRows if a diagonal entry is not positive.
   void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
 
-  /// `x`: the first guess in, the solution out (#rows x 3). The guess is used where its residual is
-  /// not larger than that of 0, see keepBetterGuess(). Each column stops at |b - A x| <=
-  /// max(tolerance |b_column|, 1e-14 |b_all|): the second term ends columns that are pure roundoff.
-  /// The norms are over all rows. Where rounding keeps the residual above that, the best x is
-  /// returned and the residual reported. Throws Error of kind NoConvergence, with the residual
-  /// reached, after `maxIterations` or where the numbers overflow.
+  /// Solves A x = b. `x`: #rows x 3, the first guess, then the solution. A guess with a larger
+  /// residual than 0 is not used, see keepBetterGuess(). Each column stops at |b - A x| <=
+  /// max(tolerance |b_column|, 1e-14 |b_all|); the second term ends columns that are pure rounding.
+  /// Norms are over all rows. If rounding keeps the residual above this, the best x is returned and
+  /// the residual reported. Throws Error of kind NoConvergence, with the residual, after
+  /// `maxIterations` or on overflow.
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 
   const CsrMatrix& matrix() const;
   const RowComponents& components() const;
-  /// Bytes that prepare() keeps: matrix, hierarchy, work vectors.
+  /// Returns the bytes that prepare() keeps: matrix, hierarchy, work vectors.
   std::size_t memory() const;
 
 private:

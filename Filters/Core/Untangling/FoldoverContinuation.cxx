@@ -63,24 +63,23 @@ private:
   bool careful_ = false;
 };
 
-/// Detects stages without progress.
 class Stagnation
 {
 public:
   explicit Stagnation(const MeshEnergy::State& start)
     : inverted_(start.inverted)
-    , least_(start.leastDeterminant)
+    , least_(start.minimumDeterminant)
   {
   }
 
   /// Call it after each stage.
   bool gaveUp(const MeshEnergy::State& state)
   {
-    const bool isProgress = state.leastDeterminant > 0 || state.inverted < this->inverted_ ||
-                            state.leastDeterminant > this->least_ + Gain * std::abs(this->least_);
+    const bool isProgress = state.minimumDeterminant > 0 || state.inverted < this->inverted_ ||
+                            state.minimumDeterminant > this->least_ + Gain * std::abs(this->least_);
     this->idle_ = isProgress ? 0 : this->idle_ + 1;
     this->inverted_ = std::min(this->inverted_, state.inverted);
-    this->least_ = std::max(this->least_, state.leastDeterminant);
+    this->least_ = std::max(this->least_, state.minimumDeterminant);
     return this->idle_ >= Patience;
   }
 
@@ -133,7 +132,7 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
   this->setDensity(Valid);
   MeshEnergy::State state = this->evaluate(points, monitor);
   Regularisation regularisation;
-  double epsilon = regularisation.first(state.leastDeterminant);
+  double epsilon = regularisation.first(state.minimumDeterminant);
   double settled = std::numeric_limits<double>::infinity();
   Stagnation stagnation(state);
   for (int stage = 0; stage < stages; ++stage)
@@ -159,9 +158,9 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
     {
       break;
     }
-    epsilon = regularisation.next(state.leastDeterminant, 1 - state.energy / start, epsilon);
+    epsilon = regularisation.next(state.minimumDeterminant, 1 - state.energy / start, epsilon);
   }
-  return state.leastDeterminant > 0;
+  return state.minimumDeterminant > 0;
 }
 
 void FoldoverContinuation::improve(Points& points, int steps, Monitor& monitor)
@@ -175,23 +174,23 @@ void FoldoverContinuation::stiffen(Points& points, Monitor& monitor)
   constexpr int Rounds = 12, Steps = 2;
   this->setDensity(Valid);
   MeshEnergy::State state = this->evaluate(points, monitor);
-  if (!(state.leastDeterminant > 0 && state.mostDistortion > 0))
+  if (!(state.minimumDeterminant > 0 && state.maximumDistortion > 0))
   {
     return;
   }
-  double stiffness = (1 - 1e-3) / state.mostDistortion;
+  double stiffness = (1 - 1e-3) / state.maximumDistortion;
   for (int round = 0; round < Rounds; ++round)
   {
     this->setDensity(Valid, stiffness);
     const double start = this->evaluate(points, monitor).energy;
-    const double worst = state.mostDistortion;
+    const double worst = state.maximumDistortion;
     state = this->minimize(points, Steps, monitor);
-    if (std::abs(worst - state.mostDistortion) < 1e-3 * worst)
+    if (std::abs(worst - state.maximumDistortion) < 1e-3 * worst)
     {
       break;
     }
     const double sigma = std::max(1 - state.energy / start, 0.1);
-    stiffness += sigma * (1 - stiffness * state.mostDistortion) / state.mostDistortion;
+    stiffness += sigma * (1 - stiffness * state.maximumDistortion) / state.maximumDistortion;
   }
 }
 }

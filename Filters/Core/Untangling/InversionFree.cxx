@@ -89,7 +89,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   energy.setTargets(targetMatrices(
     this->referenceMesh_, this->orientation_, atRest, TargetConstruction::Initial, monitor));
-  this->validAtRest_ = energy.evaluate(atRest, monitor).leastDeterminant > 0;
+  this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
 }
 
 Points InversionFree::moved(
@@ -108,7 +108,8 @@ Points InversionFree::betterGuess(
   {
     EvaluateReport ignored;
     Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
-    if (this->leastScaledJacobian(simplex, monitor) > this->leastScaledJacobian(warped, monitor))
+    if (this->minimumScaledJacobian(simplex, monitor) >
+        this->minimumScaledJacobian(warped, monitor))
     {
       return simplex;
     }
@@ -134,8 +135,8 @@ void InversionFree::raiseQuality(
     const Points before = points;
     stages.stiffen(points, monitor);
     // Stiffening worsens the average cell: it is only kept if the worst cell gains.
-    const double least = this->leastScaledJacobian(before, monitor);
-    if (!(this->leastScaledJacobian(points, monitor) > least + significantGain(least)))
+    const double least = this->minimumScaledJacobian(before, monitor);
+    if (!(this->minimumScaledJacobian(points, monitor) > least + significantGain(least)))
     {
       points = before;
     }
@@ -150,7 +151,7 @@ void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
     this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
 }
 
-double InversionFree::leastScaledJacobian(const Points& points, Monitor& monitor) const
+double InversionFree::minimumScaledJacobian(const Points& points, Monitor& monitor) const
 {
   // Nodes between corners follow last.
   return measureCorners(this->referenceMesh_, points, this->orientation_, {}, monitor).minimum;
@@ -178,8 +179,8 @@ InversionFree::Outcome InversionFree::improve(
   }
   outcome.effort = stages.effort();
 
-  const double known = this->leastScaledJacobian(alternative, monitor);
-  const double least = this->leastScaledJacobian(points, monitor);
+  const double known = this->minimumScaledJacobian(alternative, monitor);
+  const double least = this->minimumScaledJacobian(points, monitor);
   if (known > 0 && !(least >= known))
   {
     points = alternative;
@@ -223,7 +224,7 @@ EvaluateReport InversionFree::displace(
 {
   const NodePartition& partition = this->partition();
   // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
-  if (this->validAtRest_ && this->target_ != TargetConstruction::Ideal &&
+  if (this->validAtRest_ && this->target_ != TargetConstruction::IdealSkew &&
       (prescribed.array() == 0).all())
   {
     free.setZero();

@@ -15,7 +15,7 @@ namespace morph
 {
 /// The inversion-free morph: minimises a foldover-free energy, which removes inverted cells and
 /// improves the worst ones. It starts from FEMWARP's mesh or another first guess. The energy
-/// (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is summed over the averaged
+/// (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is a mean over the averaged
 /// simplicial decompositions of all cells. So a valid minimum passes the scaled Jacobian's corner
 /// test. Hexahedra, wedges and pyramids aim for their undeformed shape, stretched to FEMWARP's edge
 /// lengths; tetrahedra for their undeformed shape.
@@ -100,7 +100,7 @@ private:
   EvaluateReport report(
     const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const;
   void raiseWorst(Points& points, Monitor& monitor) const;
-  double leastScaledJacobian(const Points& points, Monitor& monitor) const;
+  double minimumScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
   TargetConstruction target_ = TargetConstruction::Stretched;

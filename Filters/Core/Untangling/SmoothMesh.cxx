@@ -2,7 +2,6 @@
 #include "Untangling/SmoothMesh.h"
 
 #include "Energies/MeshEnergy.h"
-#include "Energies/SmoothingTargets.h"
 #include "Energies/UntangleEnergy.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/KRing.h"
@@ -152,7 +151,7 @@ private:
   bool isValid(const MeshEnergy& energy, const Points& points)
   {
     ++this->report_.evaluations;
-    return energy.evaluate(points, this->monitor_).leastDeterminant > 0;
+    return energy.evaluate(points, this->monitor_).minimumDeterminant > 0;
   }
 
   /// Untangles until `energy` is finite: the shape measure does the rest to the margin better.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Energies/TargetMatrices.h"
+#include "Energies/SmoothingTargets.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Support/Monitor.h"
@@ -13,9 +13,7 @@ namespace morph
 {
 struct SmoothingOptions
 {
-  /// Ideal: regular tetrahedra, cubes, ... whatever the mesh looked like at rest. Initial: each
-  /// cell's shape at rest.
-  TargetConstruction target = TargetConstruction::Ideal;
+  SmoothingTarget target = SmoothingTarget::Ideal;
   /// Maximum number of Newton steps, each of which moves every node once; at least 1. Untangling
   /// takes at most twenty L-BFGS steps for each.
   int iterationLimit = 50;

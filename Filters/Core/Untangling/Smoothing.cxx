@@ -21,14 +21,14 @@ void Smoothing::doPrepare(const Mesh& rest, Monitor&)
 
 bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
 {
-  if (this->options_.target != TargetConstruction::Initial || !(prescribed.array() == 0).all())
+  if (this->options_.target != SmoothingTarget::Initial || !(prescribed.array() == 0).all())
   {
     return false;
   }
   MeshEnergy energy(this->mesh_, this->partition().free);
   energy.setTargets(
     smoothingTargets(this->mesh_, this->orientation_, this->options_.target, monitor));
-  return energy.evaluate(this->mesh_.points, monitor).leastDeterminant > 0;
+  return energy.evaluate(this->mesh_.points, monitor).minimumDeterminant > 0;
 }
 
 Quality Smoothing::measure(Points& points, Monitor& monitor) const

@@ -7,14 +7,14 @@
 
 namespace morph
 {
-/// Numbers the different columns of one matrix row in the order of their first mention: a hash
-/// table whose size is that of the longest row, not that of the matrix. One object per thread.
-class RowPlaces
+/// A hash map from the columns of one matrix row to local indices, in the order of insertion. Its
+/// memory is that of the longest row, not of the matrix. Use one object a thread.
+class LocalColumnMap
 {
 public:
-  RowPlaces() { this->resize(LeastBits); }
+  LocalColumnMap() { this->resize(LeastBits); }
 
-  /// For the next row. Cost: that of the present row's columns.
+  /// Removes all columns. Cost: their number.
   void clear()
   {
     for (const std::uint32_t at : this->used_)
@@ -23,14 +23,14 @@ public:
     }
     this->used_.clear();
   }
-  /// How many different columns this row has.
+  /// Returns the number of distinct columns.
   int size() const { return static_cast<int>(this->used_.size()); }
 
-  /// The column that has the number `place`.
-  int column(int place) const { return this->slots_[this->used_[place]].column; }
+  /// Returns the column with the local index `index`.
+  int column(int index) const { return this->slots_[this->used_[index]].column; }
 
-  /// The number of `column`, which becomes size() - 1 where it is new.
-  int find(int column)
+  /// Returns the local index of `column`; a new column gets size() before the call.
+  int localIndex(int column)
   {
     std::uint32_t at = this->home(column);
     while (this->slots_[at].column != column)
@@ -41,18 +41,18 @@ public:
       }
       at = (at + 1) & this->mask_;
     }
-    return this->slots_[at].place;
+    return this->slots_[at].index;
   }
 
 private:
   static constexpr int None = std::numeric_limits<int>::min();
-  static constexpr int LeastBits = 9; // three quarters stay empty: columns seldom meet in a slot
+  static constexpr int LeastBits = 9; // three quarters stay empty, so collisions are rare
   static constexpr std::uint32_t Fill = 4;
 
   struct Slot
   {
     int column = None;
-    int place = 0;
+    int index = 0;
   };
 
   std::uint32_t home(int column) const
@@ -69,14 +69,14 @@ private:
 
   int insert(std::uint32_t at, int column)
   {
-    const int place = this->size();
-    this->slots_[at] = { column, place };
+    const int index = this->size();
+    this->slots_[at] = { column, index };
     this->used_.push_back(at);
     if (Fill * this->used_.size() > this->mask_)
     {
       this->grow();
     }
-    return place;
+    return index;
   }
 
   void grow()
@@ -97,7 +97,7 @@ private:
   }
 
   std::vector<Slot> slots_;
-  std::vector<std::uint32_t> used_; ///< the slot of each place
+  std::vector<std::uint32_t> used_; ///< slot of each local index
   std::uint32_t mask_ = 0;
   int shift_ = 0;
 };
