@@ -7,7 +7,7 @@ It fails, and names file and line, for an include that no arrow allows, a file i
 table does not have, a header that does not exist, a folder without a README.md of at most ten
 lines, and arrows in a circle. It also fails where the picture in CONTRIBUTING.md, or a README's
 last line, is not what the table says, and where the headers at the top of Filters/Morphing are not
-those of its public classes.
+those of its public classes, or name what is private.
   --source FOLDER        the project (default: where this script lies)
   --write                writes the picture into CONTRIBUTING.md, and each README.md's last line
   --try-wrong-includes   shows that each kind of wrong include is found, in a copy of Filters
@@ -165,7 +165,7 @@ def check_readmes(table, write):
 
 def check_classes(table):
     """Checks that the headers at the top of Filters/Morphing are those of the classes that its
-    CMakeLists.txt lists."""
+    CMakeLists.txt lists, and that they name nothing of namespace morph::filters."""
     folder = os.path.join(table.filters, "Morphing")
     with open(os.path.join(folder, "CMakeLists.txt"), encoding="utf-8") as f:
         classes = set(re.search(r"set\(classes\s([^)]*)\)", f.read()).group(1).split())
@@ -174,6 +174,12 @@ def check_classes(table):
         table.problems.append("Filters/Morphing/%s.h: %s" % (
             name, "no public class of CMakeLists.txt: move it to Private" if name in headers
             else "it is listed, but not there"))
+    for name in sorted(headers):
+        with open(os.path.join(folder, name + ".h"), encoding="utf-8") as lines:
+            for number, line in enumerate(lines, 1):
+                if re.search(r"\bfilters::|\bnamespace (morph::)?filters\b", line):
+                    table.problems.append("Filters/Morphing/%s.h:%d: a public header names what "
+                                          "is private" % (name, number))
 
 
 def picture(table):
@@ -240,6 +246,8 @@ def try_wrong_includes(source):
                                         "Morphing/Private/Data may not include "
                                         "Morphing/Private/Morph"),
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
+        "a private name at the top": ("Morphing/vtkMorphAdjoint.h", "namespace morph::filters {}",
+                                      "names what is private"),
         "a file in no folder": ("Core/Stray.h", "#pragma once", "its folder is no row"),
     }
     missed = []

@@ -131,6 +131,12 @@ struct vtkBoundaryDisplacement::vtkInternals
   ChoiceKey ChosenFrom;
   filters::Choice::Result Choice;
   filters::Surroundings Spread;
+
+  /// Finds the boundary and its geometry, and its patches' names.
+  void Classify(
+    const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor);
+  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
+    vtkPolyData* output, filters::Monitor& monitor);
 };
 
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
@@ -281,7 +287,8 @@ int vtkBoundaryDisplacement::RequestInformation(
   filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
-    this->Classify(filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
+    this->Internals->Classify(
+      this, filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
   }
   catch (const std::exception&)
   {
@@ -305,7 +312,7 @@ int vtkBoundaryDisplacement::RequestData(
     vtkPointSet* input = filters::Input::RequireGridOrPolyData(data, "The input");
     if (ranks == 0 || input->GetNumberOfCells() > 0)
     {
-      this->Displace(input, selection, output, monitor);
+      this->Internals->Displace(this, input, selection, output, monitor);
     }
   };
   const auto clear = [&]
@@ -321,23 +328,23 @@ int vtkBoundaryDisplacement::RequestData(
   return 1;
 }
 
-void vtkBoundaryDisplacement::Classify(vtkPointSet* input, filters::Monitor& monitor)
+void vtkBoundaryDisplacement::vtkInternals::Classify(
+  const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor)
 {
-  vtkInternals& own = *this->Internals;
   filters::Geometry::Options options;
-  options.FeatureAngle = this->FeatureAngle;
-  options.CornerAngle = this->CornerAngle;
-  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
-  options.UseGeometryArrays = this->UseGeometryArrays;
-  const int before = own.Model.ClassifyCount();
-  own.Model.Update(input, options, monitor);
-  if (own.Model.ClassifyCount() != before || own.PatchList->GetNumberOfArrays() == 0)
+  options.FeatureAngle = filter->FeatureAngle;
+  options.CornerAngle = filter->CornerAngle;
+  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
+  options.UseGeometryArrays = filter->UseGeometryArrays;
+  const int before = this->Model.ClassifyCount();
+  this->Model.Update(input, options, monitor);
+  if (this->Model.ClassifyCount() != before || this->PatchList->GetNumberOfArrays() == 0)
   {
-    own.Warnings = monitor.TakeWarnings();
-    own.PatchList->RemoveAllArrays();
-    for (const std::string& name : filters::Patches::Names(own.Model.Geometry()))
+    this->Warnings = monitor.TakeWarnings();
+    this->PatchList->RemoveAllArrays();
+    for (const std::string& name : filters::Patches::Names(this->Model.Geometry()))
     {
-      own.PatchList->AddArray(name.c_str(), false);
+      this->PatchList->AddArray(name.c_str(), false);
     }
   }
 }
@@ -381,52 +388,51 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   }
 }
 
-void vtkBoundaryDisplacement::Displace(
+void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
   vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, filters::Monitor& monitor)
 {
-  vtkInternals& own = *this->Internals;
   try
   {
     monitor.SetRange(0, 0.5);
-    this->Classify(input, monitor);
+    this->Classify(filter, input, monitor);
   }
   catch (...)
   {
-    own.PatchList->RemoveAllArrays();
+    this->PatchList->RemoveAllArrays();
     throw;
   }
-  for (const std::string& warning : own.Warnings)
+  for (const std::string& warning : this->Warnings)
   {
     monitor.warn(warning);
   }
-  own.Warnings.clear();
-  filters::Surface::WarnOfNone(own.Model.Faces(), monitor);
-  if (own.Model.Faces().nodes.empty())
+  this->Warnings.clear();
+  filters::Surface::WarnOfNone(this->Model.Faces(), monitor);
+  if (this->Model.Faces().nodes.empty())
   {
     return;
   }
-  this->Choose(input, selection);
+  filter->Choose(input, selection);
   monitor.check();
 
   filters::Motion::Options motion;
-  motion.How = static_cast<filters::Motion::Kind>(this->Motion);
-  motion.Transform = own.Transform;
-  motion.Vector = { this->Vector[0], this->Vector[1], this->Vector[2] };
-  motion.Distance = this->Distance;
-  motion.ArrayName = filters::Input::ArrayName(this->DisplacementArray);
-  motion.ScaleFactor = this->ScaleFactor;
-  const morph::Points targets = filters::Motion::Targets(input, own.Model, own.Choice, motion);
+  motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
+  motion.Transform = this->Transform;
+  motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
+  motion.Distance = filter->Distance;
+  motion.ArrayName = filters::Input::ArrayName(filter->DisplacementArray);
+  motion.ScaleFactor = filter->ScaleFactor;
+  const morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
 
   filters::Surroundings::Options rest;
-  rest.How = static_cast<filters::Surroundings::Kind>(this->Surroundings);
-  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(this->UnattachedMotion);
-  rest.Radius = this->FalloffRadius * size(own.Model);
+  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
+  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
+  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
+  rest.Radius = filter->FalloffRadius * size(this->Model);
   monitor.SetRange(0.5, 0.9);
   const filters::Surroundings::Result result =
-    own.Spread.Spread(own.Model, own.Choice, targets, rest, monitor);
+    this->Spread.Spread(this->Model, this->Choice, targets, rest, monitor);
   const std::vector<morph::Index> collapsed =
-    filters::Motion::Collapsed(own.Model, own.Choice, result.Moved);
+    filters::Motion::Collapsed(this->Model, this->Choice, result.Moved);
   if (!collapsed.empty())
   {
     monitor.warn(
@@ -434,12 +440,13 @@ void vtkBoundaryDisplacement::Displace(
       "be valid: the output's cell ids " +
       morph::listIds(collapsed) + ". Is a scale zero?");
   }
-  filters::DisplacedSurface::Write(own.Model, result, input, this->OutputPointsPrecision, output);
+  filters::DisplacedSurface::Write(
+    this->Model, result, input, filter->OutputPointsPrecision, output);
   const auto count = [&result](filters::Surroundings::Role role)
   { return std::count(result.Roles.begin(), result.Roles.end(), role); };
-  this->MovingPoints = count(filters::Surroundings::Moves);
-  this->HeldPoints = count(filters::Surroundings::IsHeld);
-  this->FollowingPoints = count(filters::Surroundings::Follows);
+  filter->MovingPoints = count(filters::Surroundings::Moves);
+  filter->HeldPoints = count(filters::Surroundings::IsHeld);
+  filter->FollowingPoints = count(filters::Surroundings::Follows);
 }
 
 void vtkBoundaryDisplacement::ResetResults()

@@ -59,14 +59,6 @@
 
 #include <memory> // for std::unique_ptr
 
-namespace morph
-{
-namespace filters
-{
-class Monitor;
-}
-}
-
 class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkExtractSelection;
@@ -367,11 +359,7 @@ private:
   std::unique_ptr<vtkInternals> Internals;
 
   void ResetResults();
-  /// Finds the boundary and its geometry, and its patches' names.
-  void Classify(vtkPointSet* input, morph::filters::Monitor& monitor);
   void Choose(vtkPointSet* input, vtkSelection* selection);
-  void Displace(vtkPointSet* input, vtkSelection* selection, vtkPolyData* output,
-    morph::filters::Monitor& monitor);
 
   int Moving = MOVE_EVERYTHING;
   int Motion = MOTION_TRANSFORM;

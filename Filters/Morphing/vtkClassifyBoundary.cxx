@@ -9,6 +9,7 @@
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Property.h"
+#include "Support/ProgressRange.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -86,7 +87,7 @@ int vtkClassifyBoundary::RequestData(
 }
 
 void vtkClassifyBoundary::Classify(
-  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, filters::Monitor& monitor)
+  vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   filters::Input::RequireVolumeCells(mesh);
@@ -100,9 +101,9 @@ void vtkClassifyBoundary::Classify(
   options.FeaturesInside = this->FeaturesInside;
   options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
   options.UseGeometryArrays = this->UseGeometryArrays;
-  monitor.SetRange(0.3, 0.8);
+  morph::ProgressRange classifying(monitor, 0.3, 0.8);
   const morph::Classification geometry =
-    filters::Geometry::Classify(grid, mesh, faces, options, monitor);
+    filters::Geometry::Classify(grid, mesh, faces, options, classifying);
   monitor.check();
 
   auto* classified = vtkUnstructuredGrid::GetData(outputVector, 0);

@@ -49,10 +49,7 @@
 
 namespace morph
 {
-namespace filters
-{
 class Monitor;
-}
 }
 
 class vtkPolyData;
@@ -155,8 +152,8 @@ private:
   vtkClassifyBoundary(const vtkClassifyBoundary&) = delete;
   void operator=(const vtkClassifyBoundary&) = delete;
 
-  void Classify(vtkUnstructuredGrid* grid, vtkInformationVector* outputVector,
-    morph::filters::Monitor& monitor);
+  void Classify(
+    vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, morph::Monitor& monitor);
   void Clear(vtkInformationVector* outputVector);
 
   double FeatureAngle = 25;

@@ -306,7 +306,7 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, vtkInformationVector* outputVector,
-  filters::Monitor& monitor)
+  morph::Monitor& monitor)
 {
   const std::pair<bool, Method> methods[] = { { this->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },

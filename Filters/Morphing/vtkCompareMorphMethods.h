@@ -52,11 +52,7 @@
 
 namespace morph
 {
-namespace filters
-{
 class Monitor;
-struct MethodRun;
-}
 }
 
 class vtkDataObject;
@@ -190,7 +186,7 @@ private:
   /// `boundaries`: one for each time of a boundary that varies, or the one.
   void Compare(vtkUnstructuredGrid* grid,
     const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
-    vtkInformationVector* outputVector, morph::filters::Monitor& monitor);
+    vtkInformationVector* outputVector, morph::Monitor& monitor);
   void Configure(vtkMorphAlgorithm* filter) const;
 
   bool Smoothing = true;

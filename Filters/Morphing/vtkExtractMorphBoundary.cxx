@@ -56,7 +56,7 @@ int vtkExtractMorphBoundary::RequestData(
 }
 
 void vtkExtractMorphBoundary::Extract(
-  vtkUnstructuredGrid* grid, vtkPolyData* output, filters::Monitor& monitor)
+  vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   filters::Input::RequireVolumeCells(mesh);

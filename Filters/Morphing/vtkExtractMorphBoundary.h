@@ -40,10 +40,7 @@
 
 namespace morph
 {
-namespace filters
-{
 class Monitor;
-}
 }
 
 class vtkUnstructuredGrid;
@@ -76,7 +73,7 @@ private:
   vtkExtractMorphBoundary(const vtkExtractMorphBoundary&) = delete;
   void operator=(const vtkExtractMorphBoundary&) = delete;
 
-  void Extract(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::filters::Monitor& monitor);
+  void Extract(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor);
 
   int NumberOfThreads = 0;
 };

@@ -4,6 +4,7 @@
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Support/Error.h"
 #include "vtkMorphAlgorithm.h"
@@ -27,6 +28,12 @@
 namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkMorphAdjoint);
+
+class vtkMorphAdjoint::vtkInternals
+{
+public:
+  filters::Ports Ports;
+};
 
 namespace
 {
@@ -80,7 +87,7 @@ vtkDataArray* requireGradient(vtkPointSet* carrier, const std::string& name)
 }
 
 vtkMorphAdjoint::vtkMorphAdjoint()
-  : Ports(new filters::Ports(this))
+  : Internals(new vtkInternals{ filters::Ports(this) })
 {
   this->SetNumberOfInputPorts(3);
 }
@@ -153,7 +160,7 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
     vtkMorphAlgorithm* morph = this->FindMorph();
-    return this->Ports->RequestUpdateExtent(morph ? morph->GetRestTime() : 0,
+    return this->Internals->Ports.RequestUpdateExtent(morph ? morph->GetRestTime() : 0,
       filters::Ports::AskedTime(outputVector->GetInformationObject(0)), inputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
@@ -184,7 +191,7 @@ int vtkMorphAdjoint::RequestData(
     [] {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
     { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
-  return this->Ports->RequestData(task, inputVector, outputVector);
+  return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
 
 vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
@@ -193,7 +200,7 @@ vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
 }
 
 void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
-  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, filters::Monitor& monitor)
+  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor)
 {
   if (!morph)
   {

@@ -48,11 +48,7 @@
 
 namespace morph
 {
-namespace filters
-{
 class Monitor;
-class Ports;
-}
 }
 
 class vtkMorphAlgorithm;
@@ -127,9 +123,11 @@ private:
 
   vtkMorphAlgorithm* FindMorph();
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-    vtkDataObject* carrier, vtkPointSet* output, morph::filters::Monitor& monitor);
+    vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor);
 
-  std::unique_ptr<morph::filters::Ports> Ports;
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
   vtkSmartPointer<vtkMorphAlgorithm> Morph;
   char* GradientArray = nullptr;
 };

@@ -90,18 +90,8 @@
 
 namespace morph
 {
-struct Mesh;
-struct NodePartition;
-class Morpher;
-namespace filters
-{
 class Monitor;
-struct StepResult;
-namespace BoundaryMatch
-{
-struct Result;
-}
-}
+class Morpher;
 }
 
 class vtkDataArray;
@@ -333,11 +323,11 @@ public:
    * Quality of the output as of the last execution; see vtkScaledJacobian. Where there was no
    * result all are -1 but the mean, which is NaN: no test for 0 passes after an error.
    */
-  vtkGetMacro(MinScaledJacobian, double);
-  vtkGetMacro(MeanScaledJacobian, double);
-  vtkGetMacro(InvertedCells, vtkIdType);
-  vtkGetMacro(DegenerateCells, vtkIdType);
-  vtkGetMacro(WorstCellId, vtkIdType);
+  double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
+  double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
+  vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
+  vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
+  vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
   ///@}
 
   /**
@@ -346,22 +336,22 @@ public:
    * place where its corners are positive. Filled where an execution is refused because of them,
    * too. Field data BoundaryInvertedCells.
    */
-  vtkGetMacro(BoundaryInvertedCells, vtkIdType);
+  vtkIdType GetBoundaryInvertedCells() const { return this->GetInteger("BoundaryInvertedCells"); }
 
   /**
    * As of the last execution: bodies whose cells of a type are all inverted in VTK's order, as in a
    * mirrored mesh. They are morphed and measured as if they were not, InvertedCells does not count
    * them, and a warning says so. Field data MirroredBodies; see vtkScaledJacobian.
    */
-  vtkGetMacro(MirroredBodies, vtkIdType);
+  vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
 
   ///@{
   /**
    * Wall-clock seconds that the last execution spent preparing (0 where it used what an earlier one
    * prepared) and evaluating.
    */
-  vtkGetMacro(PrepareSeconds, double);
-  vtkGetMacro(EvaluateSeconds, double);
+  double GetPrepareSeconds() const { return this->GetNumber("PrepareSeconds"); }
+  double GetEvaluateSeconds() const { return this->GetNumber("EvaluateSeconds"); }
   ///@}
 
   ///@{
@@ -369,9 +359,9 @@ public:
    * As of the last execution, with Certify on: number of cells whose Jacobian determinant is
    * positive everywhere, of those where it is not, and of those for which neither was proved.
    */
-  vtkGetMacro(CertifiedCells, vtkIdType);
-  vtkGetMacro(UncertifiedCells, vtkIdType);
-  vtkGetMacro(UndecidedCells, vtkIdType);
+  vtkIdType GetCertifiedCells() const { return this->GetInteger("CertifiedCells"); }
+  vtkIdType GetUncertifiedCells() const { return this->GetInteger("UncertifiedCells"); }
+  vtkIdType GetUndecidedCells() const { return this->GetInteger("UndecidedCells"); }
   ///@}
 
   ///@{
@@ -390,27 +380,27 @@ public:
    * the valid output has made, 1 for all of it, and NaN where it has inverted cells (field data
    * LargestValidStep); and the sub-steps tried.
    */
-  vtkGetMacro(LargestValidStep, double);
-  vtkGetMacro(SubSteps, vtkIdType);
+  double GetLargestValidStep() const { return this->GetNumber("LargestValidStep"); }
+  vtkIdType GetSubSteps() const { return this->GetInteger("SubSteps"); }
   ///@}
 
   /**
    * Iterations of the solver in the last execution; 0 for methods without one.
    */
-  vtkGetMacro(SolverIterations, int);
+  int GetSolverIterations() const { return static_cast<int>(this->GetInteger("SolverIterations")); }
 
   /**
    * How often this object has prepared its method since it was made.
    */
-  vtkGetMacro(PrepareCount, int);
+  int GetPrepareCount() const { return static_cast<int>(this->GetInteger("PrepareCount")); }
 
   ///@{
   /**
    * As of the last execution: nodes whose positions were prescribed, held ones included, and points
    * of port 1 that were near no node and left out.
    */
-  vtkGetMacro(PrescribedPoints, vtkIdType);
-  vtkGetMacro(UnmatchedPoints, vtkIdType);
+  vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }
+  vtkIdType GetUnmatchedPoints() const { return this->GetInteger("UnmatchedPoints"); }
   ///@}
 
   /**
@@ -473,36 +463,19 @@ private:
   vtkMorphAlgorithm(const vtkMorphAlgorithm&) = delete;
   void operator=(const vtkMorphAlgorithm&) = delete;
 
-  struct vtkInternals;
+  class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
   friend class vtkMorphAdjoint;
 
-  void ResetResults();
-  /// Makes `output` the undeformed mesh, where that can be read, without a result.
-  void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
   /// ApplyTranspose() that throws.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    vtkDoubleArray* boundaryGradient, morph::filters::Monitor& monitor);
-  /// Returns an error that comes with a result, or nothing.
-  std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, morph::filters::Monitor& monitor);
-  /// Finds which nodes of the mesh that is kept go where, in that part of their motion.
-  morph::filters::BoundaryMatch::Result Match(
-    vtkPointSet* displaced, double part, morph::filters::Monitor& monitor) const;
-  /// The step that is asked for, or null where the boundary is first needed at another time.
-  std::shared_ptr<const morph::filters::StepResult> MorphSeries(
-    vtkPointSet* displaced, morph::filters::Monitor& monitor);
-  /// `first`, `last`: of the progress.
-  morph::filters::StepResult MorphStep(const morph::Mesh& from,
-    const morph::filters::BoundaryMatch::Result& match, int validityMode, double first, double last,
-    morph::filters::Monitor& monitor);
-  /// Sees to it that the method is prepared for a mesh: the one that is kept, with its points or
-  /// others.
-  void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
-    morph::filters::Monitor& monitor);
-  void Write(vtkUnstructuredGrid* grid, const morph::filters::StepResult& result,
-    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::filters::Monitor& monitor);
+    vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
+  ///@{
+  /// A result of the last execution, by its name in Results.txt.
+  double GetNumber(const char* name) const;
+  vtkIdType GetInteger(const char* name) const;
+  ///@}
 
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;
@@ -518,25 +491,6 @@ private:
   double RestTime = -1e300;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
-
-  double MinScaledJacobian;
-  double MeanScaledJacobian;
-  vtkIdType InvertedCells;
-  vtkIdType DegenerateCells;
-  vtkIdType WorstCellId;
-  vtkIdType BoundaryInvertedCells;
-  vtkIdType MirroredBodies;
-  vtkIdType CertifiedCells = 0;
-  vtkIdType UncertifiedCells = 0;
-  vtkIdType UndecidedCells = 0;
-  double PrepareSeconds;
-  double EvaluateSeconds;
-  double LargestValidStep;
-  vtkIdType SubSteps;
-  int SolverIterations;
-  int PrepareCount = 0;
-  vtkIdType PrescribedPoints;
-  vtkIdType UnmatchedPoints;
 };
 
 #endif

@@ -9,6 +9,7 @@
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
+#include "Private/Data/Results.h"
 #include "Private/Data/Surface.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Pipeline/Input.h"
@@ -32,7 +33,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <limits>
+#include <memory>
 
 namespace filters = morph::filters;
 
@@ -46,9 +47,27 @@ morphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
           morphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
             morphSetNumberMacro(vtkMorphBoundary, RestTime)
 
-              struct vtkMorphBoundary::vtkInternals
+              class vtkMorphBoundary::vtkInternals
 {
+public:
+  filters::Results Results{ filters::ResultTables::vtkMorphBoundary() };
   filters::Ports Ports;
+
+  explicit vtkInternals(vtkMorphBoundary* filter)
+    : Ports(filter)
+    , Filter(filter)
+  {
+  }
+
+  void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkDataObject* target,
+    vtkPolyData* output, filters::Monitor& monitor);
+
+private:
+  vtkMorphBoundary* Filter;
+
+  void ReportProjection(const morph::ProjectionReport& onCurves,
+    const morph::ProjectionReport& onSurfaces, const filters::Target& target,
+    filters::Monitor& monitor);
 };
 
 namespace
@@ -133,7 +152,7 @@ void writeMotion(const morph::Points& rest, const morph::Points& moved,
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
 
-/// Returns the output's cell ids of the folded faces.
+/// Writes the cell array, and returns the output's cell ids of the folded faces.
 std::vector<Index> writeQuality(
   const morph::FaceQuality& quality, const std::vector<Index>& faceOf, vtkPolyData* output)
 {
@@ -153,9 +172,6 @@ std::vector<Index> writeQuality(
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers would color by a point array that is active.
   output->GetPointData()->SetActiveScalars(nullptr);
-  filters::Output::AddField(output, "MinScaledJacobian", quality.minimum);
-  filters::Output::AddField(output, "MeanScaledJacobian", quality.mean);
-  filters::Output::AddField(output, "FoldedFaces", static_cast<int>(quality.folded.size()));
   return folded;
 }
 
@@ -169,10 +185,9 @@ void warnOfNodes(morph::Monitor& monitor, const std::vector<Index>& nodes, const
 }
 
 vtkMorphBoundary::vtkMorphBoundary()
-  : Internals(new vtkInternals{ filters::Ports(this) })
+  : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(3);
-  this->ResetResults();
 }
 
 vtkMorphBoundary::~vtkMorphBoundary()
@@ -225,19 +240,16 @@ int vtkMorphBoundary::RequestData(
 {
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
-    [&] { this->ResetResults(); },
+    [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
-    { this->Morph(grid, boundary, target, output, monitor); },
-    [&](vtkDataObject*, const char*)
-    {
-      filters::Output::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
-      filters::Output::AddField(output, "FoldedFaces", static_cast<int>(this->FoldedFaces));
-    } };
-  return this->Internals->Ports.RequestData(task, inputVector, outputVector);
+    { kept.Morph(grid, boundary, target, output, monitor); },
+    [&](vtkDataObject*, const char*) { kept.Results.Write(output); } };
+  return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
-void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkDataObject* target, vtkPolyData* output, filters::Monitor& monitor)
 {
   vtkPointSet* given = filters::Input::RequireBoundary(boundary);
@@ -249,19 +261,19 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   filters::Surface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
   filters::Geometry::Options options;
-  options.FeatureAngle = this->FeatureAngle;
-  options.CornerAngle = this->CornerAngle;
-  options.FeaturesInside = this->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
-  options.UseGeometryArrays = this->UseGeometryArrays;
+  options.FeatureAngle = this->Filter->FeatureAngle;
+  options.CornerAngle = this->Filter->CornerAngle;
+  options.FeaturesInside = this->Filter->FeaturesInside;
+  options.SurfaceIdArray = filters::Input::ArrayName(this->Filter->SurfaceIdArray);
+  options.UseGeometryArrays = this->Filter->UseGeometryArrays;
   const morph::Classification geometry =
     filters::Geometry::Classify(grid, mesh, faces, options, monitor);
 
   filters::BoundaryMatch::Options matching;
-  matching.BoundaryIdArray = filters::Input::ArrayName(this->BoundaryIdArray);
-  matching.DisplacementArray = filters::Input::ArrayName(this->DisplacementArray);
-  matching.ScaleFactor = this->ScaleFactor;
-  matching.MatchTolerance = this->MatchTolerance;
+  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
+  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
+  matching.ScaleFactor = this->Filter->ScaleFactor;
+  matching.MatchTolerance = this->Filter->MatchTolerance;
   matching.HoldUnnamedBoundary = false;
   const double size = filters::GridMesh::Size(mesh);
   const filters::BoundaryMatch::Result named =
@@ -270,16 +282,19 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   {
     monitor.warn(warning);
   }
-  const filters::BoundaryMatch::Result match = upTo(named, geometry, this->PrescribedDimension);
+  const filters::BoundaryMatch::Result match =
+    upTo(named, geometry, this->Filter->PrescribedDimension);
 
   morph::SurfaceMorphOptions how;
-  how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->SurfaceMethod);
-  how.neighbors = this->NumberOfNeighbors;
-  how.unattached = static_cast<morph::UnattachedMotion>(this->UnattachedMotion);
+  how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->Filter->SurfaceMethod);
+  how.neighbors = this->Filter->NumberOfNeighbors;
+  how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->UnattachedMotion);
   morph::BoundaryMotion motion =
     morph::beginMotion(mesh, faces, geometry, match.Ids, match.Targets);
-  this->GivenPoints = static_cast<vtkIdType>(match.Ids.size());
-  this->HeldVertices = motion.count(morph::BoundaryMotion::Held);
+  this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.Ids.size()));
+  this->Results.SetInteger("HeldVertices", motion.count(morph::BoundaryMotion::Held));
+  this->Results.SetInteger("ProjectedPoints", 0);
+  this->Results.SetInteger("UnprojectedPoints", 0);
 
   monitor.SetRange(0.2, 0.3);
   morph::morphCurves(geometry, how.unattached, motion, monitor);
@@ -288,8 +303,8 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   if (targetSurface)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(targetSurface, this->FeatureAngle,
-      this->ProjectionAngle, this->ProjectionDistance * size, monitor);
+    place = std::make_unique<filters::Target>(targetSurface, this->Filter->FeatureAngle,
+      this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
   monitor.SetRange(0.4, 0.7);
@@ -304,13 +319,13 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
-  if (this->SurfaceMethod == SURFACE_METHOD_SMOOTHING)
+  if (this->Filter->SurfaceMethod == SURFACE_METHOD_SMOOTHING)
   {
     morph::smoothSurfaces(faces, geometry, place.get(), motion, monitor);
   }
   monitor.SetRange(0.9, 1);
 
-  const bool isFloat = filters::Output::IsFloat(grid, this->OutputPointsPrecision);
+  const bool isFloat = filters::Output::IsFloat(grid, this->Filter->OutputPointsPrecision);
   morph::Points moved = motion.moved();
   filters::Output::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
   if (isFloat)
@@ -324,11 +339,10 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
 
   const morph::FaceQuality quality = morph::faceQuality(mesh.points, moved, faces, geometry);
   const std::vector<Index> folded = writeQuality(quality, faceOf, output);
-  this->MinScaledJacobian = quality.minimum;
-  this->MeanScaledJacobian = quality.mean;
-  this->FoldedFaces = static_cast<vtkIdType>(quality.folded.size());
-  filters::Output::AddField(output, "ProjectedPoints", static_cast<int>(this->ProjectedPoints));
-  filters::Output::AddField(output, "UnprojectedPoints", static_cast<int>(this->UnprojectedPoints));
+  this->Results.SetNumber("MinScaledJacobian", quality.minimum);
+  this->Results.SetNumber("MeanScaledJacobian", quality.mean);
+  this->Results.SetInteger("FoldedFaces", static_cast<vtkIdType>(quality.folded.size()));
+  this->Results.Write(output);
   warnOfNodes(monitor, folded,
     "Faces of the moved boundary are folded, and no cell behind them can be valid: the output's "
     "cell ids ");
@@ -342,15 +356,15 @@ void vtkMorphBoundary::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
     "instead: surface ids ");
 }
 
-void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
+void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionReport& onCurves,
   const morph::ProjectionReport& onSurfaces, const filters::Target& target,
   filters::Monitor& monitor)
 {
   const auto both = [](const std::vector<Index>& a, const std::vector<Index>& b)
   { return static_cast<vtkIdType>(a.size()) + static_cast<vtkIdType>(b.size()); };
-  this->ProjectedPoints = both(onCurves.projected, onSurfaces.projected);
-  this->UnprojectedPoints =
-    both(onCurves.missed, onCurves.kept) + both(onSurfaces.missed, onSurfaces.kept);
+  this->Results.SetInteger("ProjectedPoints", both(onCurves.projected, onSurfaces.projected));
+  this->Results.SetInteger("UnprojectedPoints",
+    both(onCurves.missed, onCurves.kept) + both(onSurfaces.missed, onSurfaces.kept));
   if (target.HasFeatures())
   {
     warnOfNodes(monitor, onCurves.missed,
@@ -372,15 +386,14 @@ void vtkMorphBoundary::ReportProjection(const morph::ProjectionReport& onCurves,
     monitor, onSurfaces.kept, "Surface nodes are not projected, since faces would fold: node ids ");
 }
 
-void vtkMorphBoundary::ResetResults()
+double vtkMorphBoundary::GetNumber(const char* name) const
 {
-  this->MinScaledJacobian = -1;
-  this->MeanScaledJacobian = std::numeric_limits<double>::quiet_NaN();
-  this->FoldedFaces = -1;
-  this->GivenPoints = 0;
-  this->HeldVertices = 0;
-  this->ProjectedPoints = 0;
-  this->UnprojectedPoints = 0;
+  return this->Internals->Results.Number(name);
+}
+
+vtkIdType vtkMorphBoundary::GetInteger(const char* name) const
+{
+  return this->Internals->Results.Integer(name);
 }
 
 void vtkMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
@@ -405,11 +418,5 @@ void vtkMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
-  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
-  os << indent << "FoldedFaces: " << this->FoldedFaces << "\n";
-  os << indent << "GivenPoints: " << this->GivenPoints << "\n";
-  os << indent << "HeldVertices: " << this->HeldVertices << "\n";
-  os << indent << "ProjectedPoints: " << this->ProjectedPoints << "\n";
-  os << indent << "UnprojectedPoints: " << this->UnprojectedPoints << "\n";
+  this->Internals->Results.Print(os, indent);
 }

@@ -61,16 +61,6 @@
 
 #include <memory> // for std::unique_ptr
 
-namespace morph
-{
-struct ProjectionReport;
-namespace filters
-{
-class Monitor;
-class Target;
-}
-}
-
 class vtkDataObject;
 class vtkUnstructuredGrid;
 
@@ -239,9 +229,9 @@ public:
    * Quality of the moved faces as of the last execution: -1 where there was no result, but for the
    * mean, which is then NaN.
    */
-  vtkGetMacro(MinScaledJacobian, double);
-  vtkGetMacro(MeanScaledJacobian, double);
-  vtkGetMacro(FoldedFaces, vtkIdType);
+  double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
+  double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
+  vtkIdType GetFoldedFaces() const { return this->GetInteger("FoldedFaces"); }
   ///@}
 
   ///@{
@@ -249,10 +239,10 @@ public:
    * As of the last execution: nodes that port 1 gave, vertices that it did not name and that were
    * held, nodes that were projected to the target, and nodes that were to be and were not.
    */
-  vtkGetMacro(GivenPoints, vtkIdType);
-  vtkGetMacro(HeldVertices, vtkIdType);
-  vtkGetMacro(ProjectedPoints, vtkIdType);
-  vtkGetMacro(UnprojectedPoints, vtkIdType);
+  vtkIdType GetGivenPoints() const { return this->GetInteger("GivenPoints"); }
+  vtkIdType GetHeldVertices() const { return this->GetInteger("HeldVertices"); }
+  vtkIdType GetProjectedPoints() const { return this->GetInteger("ProjectedPoints"); }
+  vtkIdType GetUnprojectedPoints() const { return this->GetInteger("UnprojectedPoints"); }
   ///@}
 
 protected:
@@ -271,15 +261,14 @@ private:
   vtkMorphBoundary(const vtkMorphBoundary&) = delete;
   void operator=(const vtkMorphBoundary&) = delete;
 
-  struct vtkInternals;
+  class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
-  void ResetResults();
-  void ReportProjection(const morph::ProjectionReport& onCurves,
-    const morph::ProjectionReport& onSurfaces, const morph::filters::Target& target,
-    morph::filters::Monitor& monitor);
-  void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkDataObject* target,
-    vtkPolyData* output, morph::filters::Monitor& monitor);
+  ///@{
+  /// A result of the last execution, by its name in Results.txt.
+  double GetNumber(const char* name) const;
+  vtkIdType GetInteger(const char* name) const;
+  ///@}
 
   int PrescribedDimension = 1;
   int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
@@ -299,14 +288,6 @@ private:
   double RestTime = -1e300;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
-
-  double MinScaledJacobian;
-  double MeanScaledJacobian;
-  vtkIdType FoldedFaces;
-  vtkIdType GivenPoints;
-  vtkIdType HeldVertices;
-  vtkIdType ProjectedPoints;
-  vtkIdType UnprojectedPoints;
 };
 
 #endif

@@ -4,8 +4,8 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/GridMesh.h"
-#include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
+#include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
@@ -33,6 +33,12 @@
 namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkScaledJacobian);
+
+class vtkScaledJacobian::vtkInternals
+{
+public:
+  filters::Results Results{ filters::ResultTables::vtkScaledJacobian() };
+};
 
 namespace
 {
@@ -64,7 +70,13 @@ std::string typeName(std::uint8_t type)
 }
 }
 
-vtkScaledJacobian::vtkScaledJacobian() = default;
+vtkScaledJacobian::vtkScaledJacobian()
+  : Internals(new vtkInternals)
+{
+  morph::Quality none;
+  none.minimum = none.mean = vtkMath::Nan();
+  this->Internals->Results.Set(none);
+}
 
 vtkScaledJacobian::~vtkScaledJacobian() = default;
 
@@ -84,12 +96,7 @@ int vtkScaledJacobian::RequestData(
   const auto clear = [&]
   {
     output->Initialize();
-    morph::Quality none;
-    none.minimum = -1;
-    none.mean = vtkMath::Nan();
-    none.inverted = none.degenerate = -1;
-    this->Keep(none, 0, 0);
-    this->Keep(morph::CertificateReport());
+    this->Internals->Results.Reset();
   };
   clear();
   // On every process, before anything can fail there: one of several may well have no cells.
@@ -100,8 +107,7 @@ int vtkScaledJacobian::RequestData(
     [&] { this->Measure(filters::Input::RequireGrid(input, "The input"), output); }, clear);
   if (outcome != filters::Execution::Outcome::Done)
   {
-    filters::Output::AddField(output, "MinScaledJacobian", this->MinScaledJacobian);
-    filters::Output::AddField(output, "InvertedCells", this->InvertedCells);
+    this->Internals->Results.Write(output);
   }
   else if (isEmpty)
   {
@@ -130,16 +136,18 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
     filters::Quality::Measure(mesh, output, orientation, skip, monitor);
   filters::Quality::Write(quality, output);
   filters::Quality::RemoveCertificate(output);
+  filters::Results& results = this->Internals->Results;
+  results.Set(quality);
+  results.SetInteger("MeasuredCells", quality.measured);
   if (this->Certify)
   {
     const morph::CertificateReport report = filters::Quality::Certify(mesh, output, orientation,
       highest == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
     filters::Quality::Write(report, output);
-    this->Keep(report);
+    results.Set(report);
   }
-
-  const vtkIdType mirrored = filters::Quality::MirroredBodies(bodies, orientation);
-  filters::Quality::WriteMirroredBodies(mirrored, output);
+  results.SetInteger("MirroredBodies", filters::Quality::MirroredBodies(bodies, orientation));
+  results.Write(output);
 
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
   std::array<vtkIdType, 256> unmeasured{};
@@ -164,28 +172,18 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
   {
     vtkWarningMacro("Cells that have no scaled Jacobian here, marked NaN: " << list << ".");
   }
-  this->Keep(
-    quality, std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)), mirrored);
+  results.SetInteger(
+    "UnmeasuredCells", std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)));
 }
 
-void vtkScaledJacobian::Keep(
-  const morph::Quality& quality, vtkIdType unmeasured, vtkIdType mirrored)
+double vtkScaledJacobian::GetNumber(const char* name) const
 {
-  this->MinScaledJacobian = quality.minimum;
-  this->MeanScaledJacobian = quality.mean;
-  this->MeasuredCells = quality.measured;
-  this->InvertedCells = quality.inverted;
-  this->DegenerateCells = quality.degenerate;
-  this->WorstCellId = quality.worstCell;
-  this->UnmeasuredCells = unmeasured;
-  this->MirroredBodies = mirrored;
+  return this->Internals->Results.Number(name);
 }
 
-void vtkScaledJacobian::Keep(const morph::CertificateReport& report)
+vtkIdType vtkScaledJacobian::GetInteger(const char* name) const
 {
-  this->CertifiedCells = report.certified;
-  this->UncertifiedCells = report.inverted;
-  this->UndecidedCells = report.undecided;
+  return this->Internals->Results.Integer(name);
 }
 
 void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
@@ -193,15 +191,5 @@ void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Certify: " << this->Certify << "\n";
-  os << indent << "MinScaledJacobian: " << this->MinScaledJacobian << "\n";
-  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
-  os << indent << "MeasuredCells: " << this->MeasuredCells << "\n";
-  os << indent << "InvertedCells: " << this->InvertedCells << "\n";
-  os << indent << "DegenerateCells: " << this->DegenerateCells << "\n";
-  os << indent << "WorstCellId: " << this->WorstCellId << "\n";
-  os << indent << "UnmeasuredCells: " << this->UnmeasuredCells << "\n";
-  os << indent << "MirroredBodies: " << this->MirroredBodies << "\n";
-  os << indent << "CertifiedCells: " << this->CertifiedCells << "\n";
-  os << indent << "UncertifiedCells: " << this->UncertifiedCells << "\n";
-  os << indent << "UndecidedCells: " << this->UndecidedCells << "\n";
+  this->Internals->Results.Print(os, indent);
 }

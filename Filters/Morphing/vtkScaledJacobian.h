@@ -63,14 +63,9 @@
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
-#include <vtkMath.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 
-namespace morph
-{
-struct CertificateReport;
-struct Quality;
-}
+#include <memory> // for std::unique_ptr
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkScaledJacobian : public vtkUnstructuredGridAlgorithm
 {
@@ -103,49 +98,49 @@ public:
    * Minimum and mean scaled Jacobian over the measured cells; NaN before the first execution and
    * where no cell was measured. After an error the minimum is -1 and the mean NaN.
    */
-  vtkGetMacro(MinScaledJacobian, double);
-  vtkGetMacro(MeanScaledJacobian, double);
+  double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
+  double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
   ///@}
 
   /**
    * Number of cells that were measured.
    */
-  vtkGetMacro(MeasuredCells, vtkIdType);
+  vtkIdType GetMeasuredCells() const { return this->GetInteger("MeasuredCells"); }
 
   /**
    * Number of cells with a scaled Jacobian of 0 or less, the degenerate ones apart; -1 after an
    * error.
    */
-  vtkGetMacro(InvertedCells, vtkIdType);
+  vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
 
   /**
    * Number of cells with a corner whose edges have no length. Their value is 0.
    */
-  vtkGetMacro(DegenerateCells, vtkIdType);
+  vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
 
   /**
    * The lowest id among the cells at the minimum, or -1 where no cell was measured.
    */
-  vtkGetMacro(WorstCellId, vtkIdType);
+  vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
 
   /**
    * Number of cells of the highest dimension, ghosts apart, that have no scaled Jacobian here.
    */
-  vtkGetMacro(UnmeasuredCells, vtkIdType);
+  vtkIdType GetUnmeasuredCells() const { return this->GetInteger("UnmeasuredCells"); }
 
   /**
    * Number of bodies that hold cells whose nodes are in the mirror image of VTK's order.
    */
-  vtkGetMacro(MirroredBodies, vtkIdType);
+  vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
 
   ///@{
   /**
    * Number of cells proved positive everywhere, of those found zero or negative somewhere, and of
    * those where neither was proved. All 0 unless Certify is on.
    */
-  vtkGetMacro(CertifiedCells, vtkIdType);
-  vtkGetMacro(UncertifiedCells, vtkIdType);
-  vtkGetMacro(UndecidedCells, vtkIdType);
+  vtkIdType GetCertifiedCells() const { return this->GetInteger("CertifiedCells"); }
+  vtkIdType GetUncertifiedCells() const { return this->GetInteger("UncertifiedCells"); }
+  vtkIdType GetUndecidedCells() const { return this->GetInteger("UndecidedCells"); }
   ///@}
 
 protected:
@@ -160,23 +155,18 @@ private:
   vtkScaledJacobian(const vtkScaledJacobian&) = delete;
   void operator=(const vtkScaledJacobian&) = delete;
 
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
   void Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
-  void Keep(const morph::CertificateReport& report);
-  void Keep(const morph::Quality& quality, vtkIdType unmeasured, vtkIdType mirrored);
+  ///@{
+  /// A result of the last execution, by its name in Results.txt.
+  double GetNumber(const char* name) const;
+  vtkIdType GetInteger(const char* name) const;
+  ///@}
 
   int NumberOfThreads = 0;
   bool Certify = false;
-  double MinScaledJacobian = vtkMath::Nan();
-  double MeanScaledJacobian = vtkMath::Nan();
-  vtkIdType MeasuredCells = 0;
-  vtkIdType InvertedCells = 0;
-  vtkIdType DegenerateCells = 0;
-  vtkIdType WorstCellId = -1;
-  vtkIdType UnmeasuredCells = 0;
-  vtkIdType MirroredBodies = 0;
-  vtkIdType CertifiedCells = 0;
-  vtkIdType UncertifiedCells = 0;
-  vtkIdType UndecidedCells = 0;
 };
 
 #endif

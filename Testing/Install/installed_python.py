@@ -62,6 +62,20 @@ class InstalledPython(unittest.TestCase):
         self.assertNotEqual(round(minimum, 4), 0.8619)
         self.assertEqual(inverted, 0)
 
+    def test_every_result_has_a_getter(self):
+        section, getters = None, 0
+        table = README.parent / "Filters/Morphing/Results.txt"
+        for line in table.read_text(encoding="utf-8").splitlines():
+            if line.startswith("["):
+                section = line.strip("[]")
+            elif line and not line.startswith("#") and line.split()[1] != "counts":
+                owner = "vtkFEMWarpMorph" if section == "vtkMorphAlgorithm" else section
+                name, kind = line.split()[:2]
+                value = getattr(getattr(meshmorphing, owner)(), "Get" + name)()
+                self.assertIsInstance(value, {"double": float, "text": str}.get(kind, int), name)
+                getters += 1
+        self.assertGreater(getters, 50)
+
     def test_numpy_there_and_back(self):
         grid = read()
         shear = numpy.array([[1, 0.2, 0], [0, 1.1, 0], [0.1, 0, 1]])

@@ -39,6 +39,21 @@ def printed(filter_proxy, name):
     return match.group(1)
 
 
+def results(*sections):
+    """The rows of these sections of Results.txt that have a property, by their group."""
+    rows, section = {}, None
+    with open(os.path.join(os.path.dirname(__file__), "../../Filters/Morphing/Results.txt"),
+              encoding="utf-8") as table:
+        for line in table:
+            if line.startswith("["):
+                section = line.strip()[1:-1]
+            elif line.strip() and line[0] != "#" and section in sections:
+                name, _, _, _, group, panel, documentation = line.rstrip().split(None, 6)
+                rows.setdefault(group, []).append((name, panel, documentation))
+    rows.pop("-", None)
+    return rows
+
+
 def another_value(xml, filter_proxy):
     """A legal value that is not the property's default."""
     default = xml.get("default_values")
@@ -146,6 +161,34 @@ class Properties(unittest.TestCase):
                     with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                         shown = getattr(filter_proxy, p.get("name"))
                         self.assertTrue(same(shown, printed(filter_proxy, p.get("name"))), shown)
+
+    def test_results_of_the_panel_are_the_rows_of_their_table(self):
+        with_results = 0
+        for xml in proxies():
+            sections = [xml.get("class")]
+            if xml.find("PropertyGroup[@label='Result']") is not None:
+                sections.append("vtkMorphAlgorithm")
+            groups = results(*sections)
+            if not groups:
+                continue
+            with_results += 1
+            with self.subTest(proxy=xml.get("name")):
+                if "Solver" in groups:  # a result of every method, shown where there is a solver
+                    solver = groups.pop("Solver")
+                    if xml.find("DoubleVectorProperty[@name='SolverIterations']") is not None:
+                        groups["Method"] = solver + groups.get("Method", [])
+                expected = sorted(row for rows in groups.values() for row in rows)
+                shown = [(p.get("name"), p.get("panel_visibility"),
+                          p.findtext("Documentation").strip())
+                         for p in properties(xml)
+                         if p.get("information_only") == "1" and p.get("name") != "TimestepValues"]
+                self.assertEqual(sorted(shown), expected)
+                names = {name for name, _, _ in shown}
+                for group in xml.iter("PropertyGroup"):
+                    listed = [p.get("name") for p in group if p.get("name") in names]
+                    self.assertEqual(listed, [row[0] for row in groups.pop(group.get("label"), [])])
+                self.assertEqual(groups, {})
+        self.assertEqual(with_results, 9)
 
 
 if __name__ == "__main__":

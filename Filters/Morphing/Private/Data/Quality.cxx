@@ -7,7 +7,6 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -22,15 +21,6 @@ namespace morph::filters
 {
 namespace
 {
-template <typename Array, typename Value>
-void addField(vtkFieldData* fields, const char* name, Value value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  fields->AddArray(array);
-}
-
 void skipGhosts(
   const morph::Mesh& mesh, vtkUnstructuredGrid* output, std::vector<std::uint8_t>& skip)
 {
@@ -93,11 +83,6 @@ morph::Index MirroredBodies(
   return std::count(mirrored.begin(), mirrored.end(), true);
 }
 
-void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output)
-{
-  addField<vtkIdTypeArray>(output->GetFieldData(), "MirroredBodies", count);
-}
-
 bool IsThatOfComputed(vtkUnstructuredGrid* output)
 {
   return output->GetPoints()->GetDataType() == VTK_DOUBLE &&
@@ -123,13 +108,6 @@ void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers prefer active point scalars to active cell scalars.
   output->GetPointData()->SetActiveScalars(nullptr);
-
-  vtkFieldData* fields = output->GetFieldData();
-  addField<vtkDoubleArray>(fields, "MinScaledJacobian", quality.minimum);
-  addField<vtkDoubleArray>(fields, "MeanScaledJacobian", quality.mean);
-  addField<vtkIdTypeArray>(fields, "InvertedCells", quality.inverted);
-  addField<vtkIdTypeArray>(fields, "DegenerateCells", quality.degenerate);
-  addField<vtkIdTypeArray>(fields, "WorstCellId", quality.worstCell);
 }
 
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
@@ -140,11 +118,6 @@ void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
   std::transform(report.cells.begin(), report.cells.end(), values->GetPointer(0),
     [](morph::Certificate found) { return static_cast<signed char>(found); });
   output->GetCellData()->AddArray(values);
-
-  vtkFieldData* fields = output->GetFieldData();
-  addField<vtkIdTypeArray>(fields, "CertifiedCells", report.certified);
-  addField<vtkIdTypeArray>(fields, "UncertifiedCells", report.inverted);
-  addField<vtkIdTypeArray>(fields, "UndecidedCells", report.undecided);
 }
 
 void RemoveCertificate(vtkUnstructuredGrid* output)

@@ -29,18 +29,12 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 morph::Index MirroredBodies(
   const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
 
-/// Adds the field data MirroredBodies (id).
-void WriteMirroredBodies(morph::Index count, vtkUnstructuredGrid* output);
-
 /// Whether Measure() of these cells gives what measuring the points that were computed, in double,
 /// has given.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);
 
 /// Adds to `output` the cell array `ScaledJacobian` (double, NaN where not measured) as active
-/// scalars (point arrays stay, but none is active: viewers would color by that one), and the field
-/// data MinScaledJacobian, MeanScaledJacobian (double, NaN if nothing was measured), InvertedCells,
-/// DegenerateCells and WorstCellId (ids, -1 if nothing was measured). Arrays of these names are
-/// replaced.
+/// scalars (point arrays stay, but none is active: viewers would color by that one).
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output);
 
 /// Examines `output` on its points as written; parameters as for Measure().
@@ -49,10 +43,9 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
   morph::Monitor& monitor);
 
 /// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or
-/// not examined, -1 inverted) and the field data CertifiedCells, UncertifiedCells (the inverted
-/// ones) and UndecidedCells (ids). Arrays of these names are replaced.
+/// not examined, -1 inverted).
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
 
-/// Removes what the above writes, so that an input's own arrays do not pass for this mesh's.
+/// Removes the certificate and its counts, so that an input's own do not pass for this mesh's.
 void RemoveCertificate(vtkUnstructuredGrid* output);
 }

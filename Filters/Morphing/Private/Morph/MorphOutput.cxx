@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/MorphOutput.h"
+
+#include "Private/Data/BadCells.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Quality.h"
+#include "Private/Data/Results.h"
+#include "Private/Morph/Session.h"
+#include "Private/Pipeline/Input.h"
+
+#include <vtkDataObject.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace morph::filters::MorphOutput
+{
+void Write(const Session& session, const StepResult& step, int precision, bool certify,
+  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+{
+  const morph::Mesh& mesh = session.GetMesh();
+  const std::vector<std::int8_t>& orientation = session.GetOrientation();
+  Output::Write(grid, mesh.points, step.Moved, precision, output);
+  const bool known =
+    !step.Valid.Measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
+  const morph::Quality quality =
+    known ? step.Valid.Measured : Quality::Measure(mesh, output, orientation, monitor);
+  std::string status = step.Valid.Status;
+  double largestValidStep = step.Valid.LargestValidStep;
+  if (status != "Inverted" && quality.inverted + quality.degenerate > 0)
+  {
+    // The mesh in double precision is valid, and what is written is not.
+    status = "Inverted";
+    largestValidStep = std::numeric_limits<double>::quiet_NaN();
+    monitor.warn("Rounding to single precision inverts " +
+                 std::to_string(quality.inverted + quality.degenerate) +
+                 " cells. Set OutputPointsPrecision to double.");
+  }
+  Quality::Write(quality, output);
+  Quality::RemoveCertificate(output);
+  results.Set(quality);
+  if (certify)
+  {
+    const morph::CertificateReport report =
+      Quality::Certify(mesh, output, orientation, {}, monitor);
+    Quality::Write(report, output);
+    results.Set(report);
+  }
+  BadCells::Extract(quality, output, badCells);
+
+  results.SetText("MorphStatus", status);
+  results.SetNumber("LargestValidStep", largestValidStep);
+  results.SetInteger("BoundaryInvertedCells", step.BoundaryInverted);
+  results.SetInteger("SubSteps", step.Valid.SubSteps);
+  results.SetInteger("SolverIterations", step.Iterations);
+  results.SetInteger("PrescribedPoints", step.Prescribed);
+  results.SetInteger("UnmatchedPoints", step.Unmatched);
+  results.SetCounts(step.Statistics);
+  results.Write(output);
+}
+
+void WriteUndeformed(vtkDataObject* input, const char* status, morph::Index boundaryInverted,
+  Results& results, vtkUnstructuredGrid* output)
+{
+  output->Initialize();
+  if (Input::IsReadable(input))
+  {
+    output->ShallowCopy(input);
+  }
+  results.SetText("MorphStatus", status);
+  if (boundaryInverted > 0)
+  {
+    // What the error tells.
+    results.SetInteger("BoundaryInvertedCells", boundaryInverted);
+  }
+  results.Write(output);
+  if (boundaryInverted > 0)
+  {
+    results.SetCounts({ { "BoundaryDeterminedCells", boundaryInverted } });
+  }
+}
+}

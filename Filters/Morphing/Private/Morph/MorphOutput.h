@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+class vtkDataObject;
+class vtkUnstructuredGrid;
+
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+class Results;
+class Session;
+struct StepResult;
+
+/// The outputs of vtkMorphAlgorithm, and the results that go with them.
+namespace MorphOutput
+{
+/// Writes a step's mesh and its inverted cells. `precision`: of the points, as
+/// vtkAlgorithm::DEFAULT_PRECISION. `certify`: see vtkMorphAlgorithm::SetCertify(). Throws
+/// morph::Error where that precision does not hold the points.
+void Write(const Session& session, const StepResult& step, int precision, bool certify,
+  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+
+/// Writes the undeformed mesh, where `input` can be read as one, without a result.
+/// `boundaryInverted`: how many cells the boundary itself inverts, where that is why.
+void WriteUndeformed(vtkDataObject* input, const char* status, morph::Index boundaryInverted,
+  Results& results, vtkUnstructuredGrid* output);
+}
+}

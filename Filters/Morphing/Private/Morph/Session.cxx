@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/Session.h"
+
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/Gradient.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Quality.h"
+#include "Private/Pipeline/Input.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/SmoothMesh.h"
+
+#include <vtkPointSet.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Smooths `moved` and returns the steps that led to it.
+morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  morph::SmoothingOptions options;
+  options.target = morph::SmoothingTarget::Initial;
+  options.iterationLimit = iterationLimit;
+  options.neverWorse = true;
+  const morph::SmoothingReport report =
+    morph::smoothMesh(rest, orientation, partition, options, moved, monitor);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+}
+}
+
+void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+{
+  const bool sameCells = GridMesh::SameCells(grid, this->Mesh);
+  if (sameCells && GridMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  {
+    return;
+  }
+  morph::Mesh mesh = GridMesh::FromGrid(grid);
+  Input::RequireVolumeCells(mesh);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
+  if (!sameCells)
+  {
+    this->Outer = morph::boundaryFaces(mesh, monitor);
+  }
+  this->Method.reset();
+  this->Steps.Clear();
+  this->Mirrored = Quality::MirroredBodies(bodies, orientation);
+  this->Orientation = std::move(orientation);
+  this->Size = GridMesh::Size(mesh);
+  this->Mesh = std::move(mesh);
+}
+
+void Session::ReportMirroredBodies(morph::Monitor& monitor)
+{
+  this->Results.SetInteger("MirroredBodies", static_cast<vtkIdType>(this->Mirrored));
+  if (this->Mirrored > 0)
+  {
+    const auto first = std::find(this->Orientation.begin(), this->Orientation.end(), -1);
+    monitor.warn(std::to_string(this->Mirrored) +
+                 " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
+                 "type are inverted, the first is cell " +
+                 std::to_string(first - this->Orientation.begin()) +
+                 ". They are morphed and measured as if they were not. Reverse their order of "
+                 "nodes if a solver expects VTK's.");
+  }
+}
+
+BoundaryMatch::Result Session::Match(
+  vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor) const
+{
+  BoundaryMatch::Options matching = options.Matching;
+  matching.ScaleFactor *= fraction;
+  BoundaryMatch::Result match =
+    BoundaryMatch::Match(boundary, this->Mesh, this->Outer, this->Size, matching);
+  for (const std::string& warning : match.Warnings)
+  {
+    monitor.warn(warning);
+  }
+  monitor.check();
+  return match;
+}
+
+std::shared_ptr<const StepResult> Session::Morph(
+  vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor)
+{
+  return std::make_shared<StepResult>(this->MorphStep(
+    this->Mesh, this->Match(boundary, fraction, options, monitor), options, 0, 0.9, monitor));
+}
+
+std::shared_ptr<const StepResult> Session::MorphSeries(
+  const Motion& motion, const Options& options, morph::Monitor& monitor)
+{
+  // Of a last step that is kept.
+  this->Results.SetNumber("PrepareSeconds", 0);
+  this->Results.SetNumber("EvaluateSeconds", 0);
+  if (!motion.Varies)
+  {
+    BoundaryMatch::Result whole = this->Match(motion.Boundary(motion.Step), 1, options, monitor);
+    if (whole.Ids != this->Whole.Ids || whole.Targets != this->Whole.Targets)
+    {
+      this->Steps.Clear();
+      this->Whole = std::move(whole);
+    }
+  }
+  auto [step, result] = this->Steps.LastUntil(motion.Step);
+  const double first = step;
+  constexpr int Most = 10; // messages about steps before the last; a million help nobody
+  int partial = 0;
+  while (step < motion.Step)
+  {
+    ++step;
+    vtkPointSet* boundary = motion.Boundary(step);
+    morph::Mesh from = this->Mesh;
+    if (result)
+    {
+      from.points = result->Moved;
+    }
+    const auto progress = [&](int n) { return 0.9 * (n - first) / (motion.Step - first); };
+    try
+    {
+      auto made = std::make_shared<StepResult>(
+        this->MorphStep(from, this->Match(boundary, motion.Fraction(step), options, monitor),
+          options, progress(step - 1), progress(step), monitor));
+      made->Valid.Measured = {}; // a series keeps meshes alone
+      result = std::move(made);
+    }
+    catch (const Validity::Infeasible& infeasible)
+    {
+      throw Validity::Infeasible(
+        "Step " + std::to_string(step) + ": " + infeasible.what(), infeasible.Cells);
+    }
+    catch (const morph::Error& error)
+    {
+      throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
+    }
+    if (step < motion.Step && !result->Valid.Error.empty() && ++partial <= Most)
+    {
+      monitor.warn("Step " + std::to_string(step) + ": " + result->Valid.Error);
+    }
+    this->Steps.Keep(step, result, options.StepMemoryLimit);
+  }
+  if (partial > Most)
+  {
+    monitor.warn(std::to_string(partial - Most) + " more steps came only part of the way.");
+  }
+  return result;
+}
+
+StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Result& match,
+  const Options& options, double first, double last, morph::Monitor& monitor)
+{
+  const auto part = [&](double a, double b)
+  { return morph::ProgressRange(monitor, first + a * (last - first), first + b * (last - first)); };
+  const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
+  const Validity validity{ options.Validity, options.MaximumSubSteps, from, this->Mesh.points,
+    partition, this->Orientation, match.Targets, this->Outer,
+    dynamic_cast<morph::InversionFree*>(options.CreateMorpher().get()) != nullptr,
+    [&options]
+    {
+      auto morpher = options.CreateMorpher();
+      options.SetEvaluateOptions(*morpher);
+      return morpher;
+    } };
+  validity.RequireFeasible();
+
+  auto preparing = part(0.05, 0.45);
+  this->Prepare(from, partition, options, preparing);
+
+  auto evaluating = part(0.45, 0.75);
+  options.SetEvaluateOptions(*this->Method);
+  const auto start = Clock::now();
+  StepResult result;
+  const morph::EvaluateReport report =
+    this->Method->evaluate(match.Targets, result.Moved, evaluating);
+  if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
+  {
+    throw morph::Error(
+      "The method gave positions that are not finite or beyond 1e50, at node ids " +
+      morph::listIds(wrong) +
+      ". Check the boundary for huge values, and the mesh for cells without "
+      "volume.");
+  }
+  result.Statistics = report.statistics;
+  if (options.PostSmooth)
+  {
+    auto smoothing = part(0.75, 0.85);
+    result.Statistics.push_back(
+      { "PostSmoothSteps", smoothAfterwards(this->Mesh, this->Orientation, partition,
+                             options.PostSmoothIterations, result.Moved, smoothing) });
+  }
+  auto checking = part(options.PostSmooth ? 0.85 : 0.75, 1);
+  result.Valid = validity.Ensure(result.Moved, checking);
+  this->Results.SetNumber("EvaluateSeconds", secondsSince(start));
+  if (result.Valid.Status == "Inverted")
+  {
+    result.BoundaryInverted = static_cast<morph::Index>(
+      morph::boundaryDeterminedInversions(from, partition, this->Orientation, result.Moved).size());
+  }
+  result.Iterations = report.iterations;
+  result.Prescribed = static_cast<morph::Index>(match.Ids.size());
+  result.Unmatched = match.Unmatched;
+  return result;
+}
+
+void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
+  const Options& options, morph::Monitor& monitor)
+{
+  this->Results.SetNumber("PrepareSeconds", 0);
+  if (this->Method && this->MethodOptions == options.PrepareOptions &&
+      this->Method->partition().prescribed == partition.prescribed &&
+      this->Method->restPoints() == from.points)
+  {
+    return;
+  }
+  const auto start = Clock::now();
+  this->Method.reset();
+  std::unique_ptr<morph::Morpher> morpher = options.CreateMorpher();
+  if (from.points != this->Mesh.points)
+  {
+    morpher->setReference(this->Mesh.points);
+  }
+  morpher->prepare(from, partition, monitor);
+  this->Method = std::move(morpher);
+  this->MethodOptions = options.PrepareOptions;
+  this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
+  this->Results.SetNumber("PrepareSeconds", secondsSince(start));
+}
+
+void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+  const Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
+{
+  const morph::Points nodes = Gradient::Require(gradient, rest->GetNumberOfPoints());
+  vtkPointSet* displaced = Input::RequireBoundary(boundary);
+  this->SetGrid(rest, monitor);
+  const BoundaryMatch::Result match = this->Match(displaced, 1, options, monitor);
+  morph::ProgressRange preparing(monitor, 0.05, 0.5);
+  this->Prepare(this->Mesh, morph::partitionNodes(this->Mesh, match.Ids), options, preparing);
+  auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Method.get());
+  if (!linear)
+  {
+    throw morph::Error(options.Method +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
+  const std::string& status = this->Results.Text("MorphStatus");
+  if (options.PostSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
+  {
+    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+                 "gradient is that of the method alone.");
+  }
+  morph::ProgressRange applying(monitor, 0.5, 1);
+  options.SetEvaluateOptions(*linear);
+  morph::Points prescribed;
+  linear->applyTranspose(nodes, prescribed, applying);
+  Gradient::Gather(options.Matching.ScaleFactor * prescribed, match.Sources,
+    displaced->GetNumberOfPoints(), boundaryGradient);
+}
+
+void Session::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
+{
+  if (options != this->OptionsTime || varies != this->Varied ||
+      (varies && boundary != this->BoundaryTime))
+  {
+    this->Steps.Clear();
+  }
+  this->Varied = varies;
+  this->OptionsTime = options;
+  this->BoundaryTime = boundary;
+}
+}

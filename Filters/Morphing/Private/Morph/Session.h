@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
+#include "Mesh/Topology.h"
+#include "Morpher/Morpher.h"
+#include "Private/Data/Results.h"
+#include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/Series.h"
+
+#include <vtkType.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkDoubleArray;
+class vtkPointSet;
+class vtkUnstructuredGrid;
+
+namespace morph::filters
+{
+/// A mesh with the method that is prepared for it, and the steps of a series, kept from one motion
+/// to the next. It knows no pipeline: what it needs comes with the motion.
+class Session
+{
+public:
+  struct Options
+  {
+    std::string Method; ///< named in messages
+    BoundaryMatch::Options Matching;
+    int Validity = 0; ///< vtkMorphAlgorithm::ValidityType
+    int MaximumSubSteps = 0;
+    bool PostSmooth = false;
+    int PostSmoothIterations = 0;
+    double StepMemoryLimit = 0; ///< megabytes
+    /// Tells apart any two settings of the options that prepare() reads.
+    std::string PrepareOptions;
+    /// A method with these options.
+    std::function<std::unique_ptr<morph::Morpher>()> CreateMorpher;
+    /// Hands over the options that evaluate() alone reads.
+    std::function<void(morph::Morpher&)> SetEvaluateOptions;
+  };
+
+  /// The steps of a motion, each of which starts from the mesh of the step before.
+  struct Motion
+  {
+    int Step = 0;        ///< the one that is asked for
+    bool Varies = false; ///< the boundary is another one at each step
+    std::function<double(int step)> Fraction;
+    std::function<vtkPointSet*(int step)> Boundary;
+  };
+
+  /// `results`: gets the seconds, the number of preparations and of mirrored bodies.
+  explicit Session(filters::Results& results)
+    : Results(results)
+  {
+  }
+
+  /// Takes the grid over, unless it is what is kept already.
+  void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
+  const morph::Mesh& GetMesh() const { return this->Mesh; }
+  /// #cells; see Topology.h.
+  const std::vector<std::int8_t>& GetOrientation() const { return this->Orientation; }
+  /// Warns of bodies that are mirrored.
+  void ReportMirroredBodies(morph::Monitor& monitor);
+
+  /// Moves the mesh by that fraction of the boundary's motion.
+  std::shared_ptr<const StepResult> Morph(
+    vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor);
+  /// Takes the steps up to the one that is asked for, from the last one that is kept.
+  std::shared_ptr<const StepResult> MorphSeries(
+    const Motion& motion, const Options& options, morph::Monitor& monitor);
+  /// vtkMorphAlgorithm::ApplyTranspose(). Throws morph::Error.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    const Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
+
+  /// Forgets the series if the options, or a boundary that varies, were modified since. All numbers
+  /// but `varies` are times of modification.
+  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
+  /// The last step up to this one that is kept, or -1.
+  int LastStepUntil(int step) const { return this->Steps.LastUntil(step).first; }
+
+private:
+  /// Finds which nodes go where, in that fraction of their motion.
+  BoundaryMatch::Result Match(
+    vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor) const;
+  /// `first`, `last`: of the progress.
+  StepResult MorphStep(const morph::Mesh& from, const BoundaryMatch::Result& match,
+    const Options& options, double first, double last, morph::Monitor& monitor);
+  /// Sees to it that the method is prepared for the mesh, with its own points or others.
+  void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
+    const Options& options, morph::Monitor& monitor);
+
+  filters::Results& Results;
+  morph::Mesh Mesh;
+  morph::BoundaryFaces Outer;             ///< of Mesh's cells
+  double Size = 0;                        ///< of Mesh; see GridMesh::Size
+  std::vector<std::int8_t> Orientation;   ///< of Mesh
+  morph::Index Mirrored = 0;              ///< bodies of Mesh
+  std::unique_ptr<morph::Morpher> Method; ///< prepared for Mesh under MethodOptions, or null
+  std::string MethodOptions;
+
+  Series Steps;
+  vtkMTimeType OptionsTime = 0;  ///< for Steps
+  bool Varied = false;           ///< the boundary, for Steps
+  vtkMTimeType BoundaryTime = 0; ///< for Steps, of a boundary that varies
+  BoundaryMatch::Result Whole;   ///< the whole motion, for Steps, of one that does not
+};
+}

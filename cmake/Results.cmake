@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The results of the filters, as Filters/Morphing/Results.txt lists them.
+set(morph_result_groups Result Effort Solver Method Quality)
+set(morph_result_row
+  "([A-Za-z]+) +" # CMAKE_MATCH_1: name
+  "(double|int|id|text|counts?) +"
+  "([^ ]+) +"     # 3: value without a result
+  "([0-9]+|-)"    # 4: place in the field data
+  "([*]?) +"
+  "([A-Z][a-z]+|-) +" # 6: group
+  "(default|advanced|-) +"
+  "(.+)") # 8: documentation
+string(CONCAT morph_result_row "^" ${morph_result_row} "$")
+
+# morph_results(SECTION ...) reads these sections and sets, in the caller's scope,
+#   ResultRows         their rows as C++ (Private/Data/Results.h),
+#   <group>Properties  for each group: the information properties of ParaView's XML,
+#   <group>Group       and their names for a PropertyGroup. Both are empty for a group without rows.
+function (morph_results)
+  set(table "${PROJECT_SOURCE_DIR}/Filters/Morphing/Results.txt")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${table}")
+  foreach (group IN LISTS morph_result_groups)
+    set(${group}Properties)
+    set(${group}Group)
+  endforeach ()
+  set(ResultRows)
+  set(section)
+  file(STRINGS "${table}" lines REGEX "^[^#]")
+  foreach (line IN LISTS lines)
+    if (line MATCHES "^.(vtk[A-Za-z]+).$")
+      set(section "${CMAKE_MATCH_1}")
+    elseif (NOT line MATCHES "${morph_result_row}")
+      message(FATAL_ERROR "Results.txt: this is no row: ${line}")
+    elseif (section IN_LIST ARGV)
+      set(name "${CMAKE_MATCH_1}")
+      set(kind "${CMAKE_MATCH_2}")
+      set(none "${CMAKE_MATCH_3}")
+      set(group "${CMAKE_MATCH_6}")
+      set(panel "${CMAKE_MATCH_7}")
+      set(documentation "${CMAKE_MATCH_8}")
+      morph_result_cxx("${name}" "${kind}" "${none}" "${CMAKE_MATCH_4}" "${CMAKE_MATCH_5}")
+      string(APPEND ResultRows "${row}")
+      if (group IN_LIST morph_result_groups)
+        morph_result_xml("${name}" "${kind}" "${none}" "${panel}" "${documentation}")
+        string(APPEND ${group}Properties "${property}")
+        string(APPEND ${group}Group "        <Property name=\"${name}\"/>\n")
+      elseif (NOT group STREQUAL "-")
+        message(FATAL_ERROR "Results.txt: ${name} has no group of morph_result_groups: ${group}")
+      endif ()
+    endif ()
+  endforeach ()
+  foreach (variable IN LISTS morph_result_groups)
+    set(${variable}Properties "${${variable}Properties}" PARENT_SCOPE)
+    set(${variable}Group "${${variable}Group}" PARENT_SCOPE)
+  endforeach ()
+  set(ResultRows "${ResultRows}" PARENT_SCOPE)
+endfunction ()
+
+# Sets `row` to the row in C++.
+function (morph_result_cxx name kind none place always)
+  string(SUBSTRING "${kind}" 0 1 initial)
+  string(TOUPPER "${initial}" initial)
+  string(SUBSTRING "${kind}" 1 -1 others)
+  set(without "\"${none}\"")
+  if (none STREQUAL "kept")
+    set(without "nullptr")
+  endif ()
+  string(REPLACE "-" "0" place "${place}")
+  set(is_always "false")
+  if (always STREQUAL "*")
+    set(is_always "true")
+  endif ()
+  set(columns "\"${name}\", ResultKind::${initial}${others}, ${without}, ${place}, ${is_always}")
+  set(row "    { ${columns} },\n" PARENT_SCOPE)
+endfunction ()
+
+# Sets `property` to the property in XML.
+function (morph_result_xml name kind none panel documentation)
+  # Counts are doubles too: ParaView 5.11's panel shows no ids, and lets users edit integers.
+  set(type "Double")
+  set(default " default_values=\"${none}\"")
+  if (none MATCHES "nan|kept")
+    set(default " default_values=\"0\"")
+  endif ()
+  if (kind STREQUAL "text")
+    set(type "String")
+    set(default)
+  endif ()
+  string(CONCAT property
+    "      <${type}VectorProperty name=\"${name}\" command=\"Get${name}\"\n"
+    "                            information_only=\"1\" number_of_elements=\"1\"${default}\n"
+    "                            panel_visibility=\"${panel}\">\n"
+    "        <Simple${type}InformationHelper/>\n"
+    "        <Documentation>\n${documentation}\n        </Documentation>\n"
+    "      </${type}VectorProperty>\n")
+  set(property "${property}" PARENT_SCOPE)
+endfunction ()
