@@ -15,9 +15,9 @@ namespace morph
 /// where u is the affine field that fits the motion around the curve.
 ///
 /// On a straight curve by arc length u cancels, and U is linear in t. On a curved one u maps its
-/// shape, so affine motions are exact. u is fitted to the first of these sets whose affine span
-/// contains the curve: the known nodes of the curve, of its adjacent surfaces, of its body, of all
-/// bodies. If none does, u has minimum norm.
+/// shape, so affine motions are exact. u fits the first set whose affine span contains the curve.
+/// The sets are the known nodes of the curve, of its adjacent surfaces, of its body, of all bodies.
+/// If none does, u has minimum norm.
 ///
 /// A closed curve without a known node follows the nodes of the same sets by `unattached`. Without
 /// motion the result is exactly zero. It does not depend on the order of curves.

@@ -38,11 +38,11 @@ public:
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
-  /// Doubles a node's number of neighbors until they surround it: until it lies in their convex
-  /// hull or on it (insideConvexHull), or all prescribed nodes take part. A node in the middle then
-  /// sees the walls on all sides. Default off, as in the paper. Neighborhoods come to hold a share
-  /// of all prescribed nodes, and memory and time grow with them: on a cube of 50^3 cells from 80
-  /// to 1,100 a node, 1.6 GB, and 20 times the time of prepare().
+  /// Doubles a node's number of neighbors until they surround it or all prescribed nodes are used.
+  /// They surround it if their convex hull contains it (insideConvexHull()). A node in the middle
+  /// then depends on the walls on all sides. Default off, as in the paper. Neighborhoods become a
+  /// share of all prescribed nodes, so memory and time grow: on a cube of 50^3 cells from 80 to
+  /// 1,100 neighbors, 1.6 GB, and 20 times the time of prepare().
   void setAdaptiveNeighbors(bool on) { this->adaptiveNeighbors_ = on; }
   bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
 

@@ -14,7 +14,7 @@ namespace morph
 /// Meshing Roundtable (2011) 293-311, which starts from the undeformed nodes.
 ///
 /// Only smoothing carries the part of the motion that is not affine into the mesh. So a motion by
-/// more than a layer of cells may leave cells that cannot be untangled; a warning tells.
+/// more than a layer of cells may leave cells that cannot be untangled, with a warning.
 ///
 /// With the target Ideal, the paper's, a boundary that does not move gives the smoothed mesh. No
 /// other method differs from the identity there. With the target Initial a valid undeformed mesh
