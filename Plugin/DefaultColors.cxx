@@ -11,8 +11,8 @@
 void MeshMorphingSetDefaultColors()
 {
   // The file is a list of one preset. ParaView takes an array's default colors from its settings,
-  // where the same keys stand under the array's name. The range must not follow the data, nor the
-  // colors be binned, or the break would not stay at 0.
+  // which have the same keys under the array's name. The range must not follow the data, and the
+  // colors must not be binned; otherwise the break would not stay at 0.
   const std::string list = ScaledJacobianPreset;
   const std::size_t first = list.find('{'), last = list.rfind('}');
   const std::string settings =
@@ -20,7 +20,7 @@ void MeshMorphingSetDefaultColors()
     list.substr(first, last - first) +
     R"(, "AutomaticRescaleRangeMode": -1, "ScalarRangeInitialized": 1, "Discretize": 0 } } } })";
 
-  // Below the settings of the site and of the user.
+  // With a lower priority than the settings of the site and of the user.
   const double priority = 0;
   if (!vtkSMSettings::GetInstance()->AddCollectionFromString(settings, priority))
   {

@@ -2,9 +2,9 @@
 #ifndef DefaultColors_h
 #define DefaultColors_h
 
-/// Called once when the plugin is loaded: from then on arrays named `ScaledJacobian` get the color
-/// map of Presets/ScaledJacobian.json over [-1, 1], with its break at 0, unless the user's or the
-/// site's settings hold another default for that name.
+/// Sets the default colors of arrays named `ScaledJacobian`; called once when the plugin is loaded.
+/// The color map is that of Presets/ScaledJacobian.json over [-1, 1], with its break at 0. Settings
+/// of the user or the site for that name take precedence.
 void MeshMorphingSetDefaultColors();
 
 #endif

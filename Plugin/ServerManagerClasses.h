@@ -2,8 +2,8 @@
 #ifndef ServerManagerClasses_h
 #define ServerManagerClasses_h
 
-/// Called once when the plugin is loaded, before its XML is read: lets ParaView make this plugin's
-/// own server-manager classes by the names that the XML gives them.
+/// Registers this plugin's own server-manager classes with ParaView, under their names in the XML.
+/// Called once when the plugin is loaded, before its XML is read.
 void MeshMorphingRegisterServerManagerClasses();
 
 #endif

@@ -4,9 +4,9 @@
 
 #include <vtkSMArrayListDomain.h>
 
-/// An ArrayListDomain, in XML <ConnectedArrayListDomain>, that offers nothing before its input is
-/// connected. ParaView 5.11's own one offers its none_string then, and the panel has it report that
-/// it cannot tell where that array is.
+/// An ArrayListDomain that offers nothing before its input is connected. In XML it is
+/// <ConnectedArrayListDomain>. ParaView 5.11's ArrayListDomain then offers its none_string, and the
+/// panel lets it report that it does not find that array.
 class vtkSMConnectedArrayListDomain : public vtkSMArrayListDomain
 {
 public:

@@ -4,12 +4,12 @@
 
 #include <vtkSMSourceProxy.h>
 
-/// A source whose information properties follow its data, in XML <ReportingSourceProxy>. ParaView
-/// 5.11 fetches them when its panel for the source is made, and would go on showing the numbers of
-/// the first Apply.
+/// A source whose information properties follow its data. In XML it is <ReportingSourceProxy>.
+/// ParaView 5.11 fetches these properties when its panel for the source is made, and would continue
+/// to show the numbers of the first Apply.
 ///
-/// Where the filter has no number (NaN) the property has its default: NaN differs from itself, so
-/// that the panel would take it for changed by the user at each Apply, and write it into Python
+/// Where the filter has no number (NaN) the property has its default. NaN differs from itself, so
+/// the panel would take it for a change by the user at each Apply. It would write it into Python
 /// traces, which cannot be played then.
 class vtkSMReportingSourceProxy : public vtkSMSourceProxy
 {

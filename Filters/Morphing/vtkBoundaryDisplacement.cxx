@@ -65,7 +65,8 @@ void vtkBoundaryDisplacement::SetVector(const double vector[3])
 
 namespace
 {
-/// What a choice was made from. Times tell an object apart from any other that was there before.
+/// The inputs of a choice. Modification times distinguish an object from an earlier one at its
+/// address.
 struct ChoiceKey
 {
   vtkIdType InputVersion = -1;
@@ -86,7 +87,7 @@ vtkMTimeType timeOf(vtkObject* object)
   return object ? object->GetMTime() : 0;
 }
 
-/// Whether that changed the names.
+/// Returns whether the names changed.
 bool setStatus(std::set<std::string>& names, const std::string& name, bool status)
 {
   return status ? names.insert(name).second : names.erase(name) > 0;
@@ -105,7 +106,7 @@ double size(const filters::BoundaryModel& model)
   return (high - low).norm();
 }
 
-/// The data on a port, where an update would not change them.
+/// The data on a port if an update would not change them, else null.
 vtkDataObject* upToDateInput(vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {
   vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
@@ -252,7 +253,7 @@ int vtkBoundaryDisplacement::GetPrepareCount() const
 vtkMTimeType vtkBoundaryDisplacement::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
-  // What is not in use may change without an execution.
+  // An object that is not in use may change without an execution.
   if (this->Motion == MOTION_TRANSFORM)
   {
     time = std::max(time, timeOf(this->Internals->Transform));
@@ -292,7 +293,7 @@ int vtkBoundaryDisplacement::RequestInformation(
   }
   catch (const std::exception&)
   {
-    // The execution will meet with it again, and report it.
+    // The execution raises the error again, and reports it.
     this->Internals->PatchList->RemoveAllArrays();
   }
   return 1;
@@ -381,7 +382,7 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   }
   if (!(key == own.ChosenFrom))
   {
-    own.ChosenFrom = ChoiceKey(); // should it throw
+    own.ChosenFrom = ChoiceKey(); // in case the choice throws
     own.Choice = filters::Choice::Choose(input, own.Model, options);
     own.ChosenFrom = key;
     ++this->ChooseCount;

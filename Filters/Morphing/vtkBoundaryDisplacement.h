@@ -1,50 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkBoundaryDisplacement
- * @brief   moves a part of a mesh's boundary, and says what the rest of the boundary does
+ * @brief   moves a part of a mesh's boundary, and defines what the rest of the boundary does
  *
- * The way from a mesh to a displaced boundary in one filter: what moves, how, and what the rest
+ * One filter makes the displaced boundary from a mesh: what moves, how it moves, and what the rest
  * does.
  *
- * - Moving says what: all of the boundary, a selection of points or cells, patches (the surfaces
- *   and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a box for
- *   instance.
- * - Motion says how: by a transform, by a vector, along the normals, or by a point vector array of
- *   the input; each times ScaleFactor.
- * - Surroundings says what the rest does: stay, follow as with vtkMorphBoundary (curves first, then
- *   surfaces; vertices are held), or fade out with the distance from what moves. HeldPatches stay
- *   in any case, but for the nodes that they share with what moves.
+ * - Moving defines what moves: all of the boundary, a selection of points or cells, patches (the
+ *   surfaces and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a
+ *   box for instance.
+ * - Motion defines how: by a transform, by a vector, along the normals, or by a point vector array
+ *   of the input; each times ScaleFactor.
+ * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
+ *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
+ *   HeldPatches stay in any case, except for the nodes that they share with what moves.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid), or its boundary (vtkPolyData) as
  * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
- * in a row move several parts, each in its own way. Such a boundary moves from where it is; its
- * geometry is that of its point arrays GeometryDimension and GeometryId, or is found at its
- * RestPosition. Port 1, optional, takes the vtkSelection that Moving Selection means. Selected
- * cells move all of their nodes that are on the boundary.
+ * in a row move several parts, each in its own way. Such a boundary moves from its current
+ * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
+ * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
+ * move all of their nodes that are on the boundary.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
- * points: what a morph filter takes on its port 1. Added are the point arrays
+ * points: the input of port 1 of a morph filter. Two point arrays are added:
  * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades;
  * - `BoundaryDisplacement` (active vectors): the point as written minus its RestPosition.
  * No motion gives the input's points bit for bit.
  *
- * Made for dragging: boundary, geometry and weights are kept while the input, what is chosen and
- * the options that they depend on are the same (ClassifyCount, PrepareCount). The result does not
- * depend on what was kept.
+ * The filter is made for dragging: it keeps boundary, geometry and weights while the input, the
+ * chosen parts and the options that they depend on are the same (ClassifyCount, PrepareCount). The
+ * result does not depend on what was kept.
  *
- * RequestInformation reads the input's data where they are up to date: it finds the boundary's
+ * RequestInformation reads the input's data where they are up to date. It finds the boundary's
  * patches, so that a window can list their names before the first execution, and keeps what it
- * finds for that. On a large mesh this takes as long as the first execution would.
+ * finds for that execution. On a large mesh this takes as long as the first execution would.
  *
  * Warnings: faces that the motion leaves without area (a scale of zero, for instance), surfaces
  * that it would reflect, and a mesh without any outer face, whose boundary is empty. Errors: those
  * of vtkClassifyBoundary; a surface without polygons, MorphPointId or RestPosition; nothing chosen,
- * or nothing on the boundary; patches or arrays that do not exist; places that are not finite,
+ * or nothing on the boundary; patches or arrays that do not exist; positions that are not finite,
  * beyond 1e50, or in single precision beyond 3.4e38; nodes without a normal. The output is then
- * empty, not the boundary where it was: a morph would take that for a motion of nothing. An
- * execution that is aborted gives an empty output and no message. With several MPI processes an
- * execution is collective. Cost, where all is kept: a few passes over the boundary.
- *
+ * empty: a morph would take an unchanged boundary for a motion of zero. An execution that is
+ * aborted gives an empty output and no message. With several MPI processes an execution is
+ * collective. Cost, where everything is kept: a few passes over the boundary.
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
  *
@@ -83,8 +82,8 @@ public:
   ///@}
 
   /**
-   * What evaluates the selection, for applications whose selections vtkExtractSelection does not
-   * know. Null: a vtkExtractSelection. Default: null.
+   * The filter that evaluates the selection, for applications whose selections vtkExtractSelection
+   * does not support. Null: a vtkExtractSelection. Default: null.
    */
   void SetSelectionExtractor(vtkExtractSelection* extractor);
 
@@ -128,15 +127,15 @@ public:
   ///@}
 
   /**
-   * Names of all patches, surfaces first, as a list to choose from, with nothing enabled: as of the
-   * last execution, or, as soon as the information is updated, of input data that are up to date.
-   * Empty where there was an error.
+   * Names of all patches, surfaces first, as a list to choose from, with nothing enabled. They are
+   * those of the last execution or, after an update of the information, of input data that are up
+   * to date. Empty after an error.
    */
   vtkDataArraySelection* GetPatchList();
 
   ///@{
   /**
-   * Nodes at which this function is zero or less are those of MOVE_REGION. Default: null.
+   * The implicit function of MOVE_REGION: nodes at which it is zero or less move. Default: null.
    */
   void SetRegion(vtkImplicitFunction* region);
   vtkImplicitFunction* GetRegion();
@@ -169,8 +168,8 @@ public:
 
   ///@{
   /**
-   * Takes moving nodes to their new places; null is the identity. A scale of zero is allowed: faces
-   * that it collapses are named in a warning. Default: null.
+   * The transform of the moving nodes; null is the identity. A scale of zero is allowed: a warning
+   * names the faces that it collapses. Default: null.
    */
   void SetTransform(vtkAbstractTransform* transform);
   vtkAbstractTransform* GetTransform();
@@ -188,9 +187,9 @@ public:
 
   ///@{
   /**
-   * How far nodes move along their normal, which points out of the mesh, in the unit of the points;
-   * negative is inwards. Normals are area-weighted over the faces that move, or, at nodes without
-   * one, over all faces round the node. Default 0.
+   * How far nodes move along their normal, in the unit of the points. The normal points out of the
+   * mesh; negative is inwards. Normals are area-weighted over the faces that move or, at nodes
+   * without such a face, over all faces of the node. Default 0.
    */
   virtual void SetDistance(double value);
   vtkGetMacro(Distance, double);
@@ -207,8 +206,7 @@ public:
 
   ///@{
   /**
-   * How much of the motion to apply; 0 leaves the boundary where it is. Default 1, any finite
-   * number.
+   * The factor of the motion; 0 leaves the boundary where it is. Default 1, any finite number.
    */
   virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
@@ -226,9 +224,10 @@ public:
   };
   ///@{
   /**
-   * What the nodes do that neither move nor are held: stay; follow curves first and then surfaces,
-   * as with vtkMorphBoundary, vertices being held; or take part in the motion the less, the farther
-   * they are from the nearest moving node, up to FalloffRadius. Default SURROUNDINGS_FOLLOW.
+   * What the nodes do that neither move nor are held. They stay; or follow, curves first and then
+   * surfaces, as with vtkMorphBoundary, vertices being held; or fade: they follow the motion the
+   * less, the farther they are from the nearest moving node, up to FalloffRadius. Default
+   * SURROUNDINGS_FOLLOW.
    */
   vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FADE);
   vtkGetMacro(Surroundings, int);
@@ -239,7 +238,7 @@ public:
 
   ///@{
   /**
-   * The distance at which SURROUNDINGS_FADE has come to nothing, in units of the diagonal of the
+   * The distance at which SURROUNDINGS_FADE reaches zero, in units of the diagonal of the
    * boundary's bounding box. At the distance d the displacement is that of the 20 nearest moving
    * nodes, by inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1,
    * range [0, 10]; 0 is as SURROUNDINGS_STAY.
@@ -277,8 +276,8 @@ public:
   };
   ///@{
   /**
-   * How closed curves without a vertex, and closed surfaces without a curve, follow where nothing
-   * moves or is held on them; see vtkMorphBoundary. Default UNATTACHED_AFFINELY.
+   * How closed curves without a vertex, and closed surfaces without a curve, follow if they have no
+   * moving or held node; see vtkMorphBoundary. Default UNATTACHED_AFFINELY.
    */
   vtkSetClampMacro(UnattachedMotion, int, UNATTACHED_AFFINELY, UNATTACHED_STAY);
   vtkGetMacro(UnattachedMotion, int);
@@ -289,8 +288,8 @@ public:
 
   ///@{
   /**
-   * How the geometry is found: see vtkClassifyBoundary. Of a boundary on port 0, SurfaceIdArray is
-   * a cell array of it.
+   * How the geometry is found: see vtkClassifyBoundary. If port 0 takes a boundary, SurfaceIdArray
+   * is one of its cell arrays.
    */
   virtual void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);
@@ -324,7 +323,7 @@ public:
 
   ///@{
   /**
-   * As of the last execution: the numbers of points with each Role. 0 where there was no result.
+   * The number of points with each Role in the last execution. 0 where there was no result.
    */
   vtkGetMacro(MovingPoints, vtkIdType);
   vtkGetMacro(HeldPoints, vtkIdType);
@@ -333,8 +332,8 @@ public:
 
   ///@{
   /**
-   * How often this object has found the boundary's geometry, evaluated what is chosen, and made the
-   * weights by which a surface follows or the boundary fades, since it was made.
+   * How often this object has found the boundary's geometry, evaluated the choice of what moves,
+   * and computed the weights by which a surface follows or the boundary fades.
    */
   int GetClassifyCount() const;
   vtkGetMacro(ChooseCount, int);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkClassifyBoundary
- * @brief   which vertex, curve or surface of the model owns each boundary node of a mesh
+ * @brief   finds which vertex, curve or surface of the model owns each boundary node of a mesh
  *
- * Morphing in order (vertices, then curves, then surfaces, then volumes) has to know to which
- * geometry each node belongs. This filter finds it on any volume mesh, from the angles between its
- * boundary faces or from ids that the grid brings along.
+ * Morphing in order (vertices, curves, surfaces, volumes) needs the geometric entity that owns each
+ * node. This filter finds it on any volume mesh, from the angles between its boundary faces or from
+ * ids in arrays of the grid.
  *
- * - Surfaces are patches of boundary faces: neighbors that turn by no more than FeatureAngle are in
- *   one patch, so that a curved wall is one surface. With SurfaceIdArray, or the point arrays
- *   GeometryDimension and GeometryId, they are what those say.
+ * - Surfaces are patches of boundary faces. Neighbors that turn by no more than FeatureAngle are in
+ *   one patch, so that a curved wall is one surface. SurfaceIdArray, or the point arrays
+ *   GeometryDimension and GeometryId, take precedence over the angle.
  * - Curves are where surfaces meet, where other than two faces meet, and features that end inside a
- *   surface; they are ordered chains from vertex to vertex, with a parameter in [0, 1] by arc
- *   length (or as CurveParameter says).
+ *   surface. They are ordered chains from vertex to vertex, with a parameter in [0, 1] by arc
+ *   length, or that of CurveParameter.
  * - Vertices are where curves end or meet, turn by more than CornerAngle, or change the surfaces
  *   beside them. Closed curves without a vertex and closed surfaces without a curve occur.
  *
@@ -24,9 +24,9 @@
  * - `CurveParameter` (double): in [0, 1] where the dimension is 1, 0 elsewhere.
  *
  * Port 1 is the boundary as vtkExtractMorphBoundary writes it, with these point arrays and the cell
- * array `GeometryId`, the id of the face's surface. Port 2 are the vertices and curves as polygonal
- * data, with the cell arrays `GeometryDimension` and `GeometryId`. Mid-side and face nodes of
- * quadratic cells belong to the edge or face they are in the middle of.
+ * array `GeometryId`, the id of the face's surface. Port 2 holds the vertices and curves as
+ * polygonal data, with the cell arrays `GeometryDimension` and `GeometryId`. A mid-side or face
+ * node of a quadratic cell belongs to the entity of its edge or face.
  *
  * A mesh without any outer face gives a warning. Errors, with empty outputs: composite data (use
  * Merge Blocks first), no volume cells, cells that a morph does not support, coordinates that are
@@ -91,10 +91,10 @@ public:
   ///@{
   /**
    * Name of a cell array of one component with whole numbers: the surface ids. A boundary face
-   * takes that of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets,
-   * after Merge Blocks); in a grid without two-dimensional cells, of the volume cell behind it.
-   * Faces that no two-dimensional cell lies on are grouped by FeatureAngle. Takes precedence over
-   * UseGeometryArrays. Empty or "None": none. Default: none.
+   * takes the id of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets,
+   * after Merge Blocks). In a grid without two-dimensional cells it takes the id of the volume cell
+   * behind it. Faces without a two-dimensional cell on them are grouped by FeatureAngle. Takes
+   * precedence over UseGeometryArrays. Empty or "None": none. Default: none.
    */
   vtkSetStringMacro(SurfaceIdArray);
   vtkGetStringMacro(SurfaceIdArray);
@@ -102,8 +102,8 @@ public:
 
   ///@{
   /**
-   * Whether the point arrays GeometryDimension and GeometryId, where the input has them, say which
-   * geometry owns each boundary node, and CurveParameter its place on a curve. Default on.
+   * Whether the point arrays GeometryDimension and GeometryId define the entity of each boundary
+   * node, and CurveParameter its place on a curve, where the input has them. Default on.
    */
   vtkSetMacro(UseGeometryArrays, bool);
   vtkGetMacro(UseGeometryArrays, bool);
@@ -112,8 +112,7 @@ public:
 
   ///@{
   /**
-   * Whether FeatureAngle applies inside surfaces whose ids are given, too, and parts them. Default
-   * off.
+   * Whether FeatureAngle also splits surfaces whose ids are given. Default off.
    */
   vtkSetMacro(FeaturesInside, bool);
   vtkGetMacro(FeaturesInside, bool);
@@ -131,8 +130,8 @@ public:
 
   ///@{
   /**
-   * How many there were in the last execution. Surfaces and curves of one given id that do not hang
-   * together count each.
+   * The numbers of vertices, curves and surfaces in the last execution. Several connected parts
+   * with one given id count separately.
    */
   vtkGetMacro(NumberOfVertices, vtkIdType);
   vtkGetMacro(NumberOfCurves, vtkIdType);

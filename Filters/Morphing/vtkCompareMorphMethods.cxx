@@ -89,7 +89,7 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
-/// VTK's messages begin with where in which source they were written.
+/// Removes the source file, line and object with which VTK's messages begin.
 std::string withoutOrigin(const std::string& message)
 {
   const auto end = message.find("): ");
@@ -98,8 +98,8 @@ std::string withoutOrigin(const std::string& message)
   return text;
 }
 
-/// Follows a filter at work inside another one: keeps its messages off the console, and passes
-/// progress and abort on.
+/// Observes a filter that runs inside another one. It keeps the filter's messages off the console,
+/// and passes progress and abort on.
 class Follower
 {
 public:
@@ -125,7 +125,7 @@ public:
   Follower(const Follower&) = delete;
   void operator=(const Follower&) = delete;
 
-  /// What was heard: errors first.
+  /// The filter's messages, errors first.
   std::vector<std::string> Messages() const
   {
     std::vector<std::string> all = this->Errors;
@@ -164,8 +164,8 @@ vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
                                   .size());
 }
 
-/// Runs `filter` through its steps. Where it fails at one, the run ends before that. Each message
-/// is a warning once, with the first step that it came from.
+/// Runs `filter` through its steps, until the first that fails. Each message becomes one warning,
+/// with the first step that raised it.
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
   filters::MethodRun& run, morph::Monitor& monitor)
 {
@@ -231,7 +231,7 @@ int vtkCompareMorphMethods::FillInputPortInformation(int port, vtkInformation* i
 int vtkCompareMorphMethods::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  // The tables are of all times at once.
+  // The tables hold all times at once.
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     outputVector->GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
@@ -343,9 +343,9 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   if (badAtRest > 0)
   {
     monitor.warn(
-      "The mesh has " + std::to_string(badAtRest) +
-      " inverted or degenerate cells at rest. Methods are ranked by the steps up to which "
-      "they have no more than that.");
+      "The undeformed mesh has " + std::to_string(badAtRest) +
+      " inverted or degenerate cells. Methods are ranked by the steps up to which they have no "
+      "more than that.");
   }
   std::vector<filters::MethodRun> runs;
   const double number = static_cast<double>(chosen.size()) * (this->Absolute + this->Relative);

@@ -4,16 +4,16 @@
  * @brief   runs morphing methods on one mesh and boundary, step by step, and compares them
  *
  * Ports 0 and 1 take an undeformed mesh and a displaced boundary, as vtkMorphAlgorithm does. Each
- * chosen method morphs the mesh in steps (those of a boundary that varies in time, or
- * NumberOfSteps), from the undeformed mesh (absolute) and from the mesh of the step before
- * (relative), with the method's default options and Validity None: what is counted is what the
- * method itself makes.
+ * chosen method morphs the mesh in steps: those of a boundary that varies in time, or
+ * NumberOfSteps. Steps start from the undeformed mesh (absolute), or from the mesh of the step
+ * before (relative). Methods have their default options and Validity None, so that the inverted
+ * cells are the method's own.
  *
  * Output 0 has a row for each method, stepping and step:
  * Method, Stepping, Step, Time, MinScaledJacobian, MeanScaledJacobian, LowScaledJacobian (see
- * Percentile), InvertedCells, DegenerateCells, BoundaryInvertedCells (of these, what no method can
- * mend; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the most memory
- * that the run of the method held, more than before it (Linux; NaN elsewhere).
+ * Percentile), InvertedCells, DegenerateCells, BoundaryInvertedCells (those of them that no method
+ * can avoid; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the
+ * largest increase of memory during the method's run (Linux; NaN elsewhere).
  *
  * Output 1 is made for a line chart: Time, and a column of minimum scaled Jacobians for each method
  * and stepping.
@@ -22,16 +22,16 @@
  * FirstInvertedStep (the first with an inverted or degenerate cell, or without a mesh; -1 for
  * none), LastValidTime (of the step before it, the largest motion that the method survives; NaN
  * where there is none), LastValidMinScaledJacobian (there), Seconds (of all steps) and
- * PeakMegabytes. Best is what stays valid for the most steps; among those, what has the higher
- * minimum scaled Jacobian at the last valid one, to 0.01; among those, what takes less time.
+ * PeakMegabytes. The best stays valid for the most steps. Ties go to the higher minimum scaled
+ * Jacobian at the last valid step, to 0.01, and then to the shorter time.
  *
- * Where a method fails, a warning tells why, and its run ends there. Errors of the filter itself
- * are those of a boundary or mesh that is missing or of a wrong type, no chosen method or stepping,
- * and several MPI processes; the outputs are empty then, and after an abort. Data sets and
+ * Where a method fails, a warning gives the reason, and its run ends there. Errors of the filter
+ * itself: a boundary or mesh that is missing or of a wrong type, no chosen method or stepping, and
+ * several MPI processes. The outputs are then empty, and so they are after an abort. Data sets and
  * properties are checked as vtkMorphAlgorithm checks them.
  *
- * Cost: that of all methods and steps. Boundaries that vary are all fetched first and kept
- * meanwhile: from within RequestData, for the reason that vtkMorphAlgorithm gives.
+ * Cost: that of all methods and steps. All boundaries of a series are fetched first, from within
+ * RequestData, for the reason that vtkMorphAlgorithm gives, and kept during the execution.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311:
@@ -104,7 +104,7 @@ public:
 
   ///@{
   /**
-   * Whether to step from the undeformed mesh, and from the mesh of the step before; see
+   * Whether steps start from the undeformed mesh, and from the mesh of the step before; see
    * vtkMorphAlgorithm::SetStepping(). Default: both.
    */
   vtkSetMacro(Absolute, bool);
@@ -118,7 +118,7 @@ public:
   ///@{
   /**
    * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps().
-   * Default 20, as in the paper. Range [1, 1000000]; what is beyond it becomes the nearest end.
+   * Default 20, as in the paper. Range [1, 1000000]; values outside become the nearest bound.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -126,8 +126,8 @@ public:
 
   ///@{
   /**
-   * LowScaledJacobian is the value that this percentage of the cells lie below. Default 1, range
-   * [0, 100].
+   * The percentile of LowScaledJacobian: this percentage of the cells lie below it. Default 1,
+   * range [0, 100].
    */
   virtual void SetPercentile(double value);
   vtkGetMacro(Percentile, double);
@@ -135,8 +135,8 @@ public:
 
   ///@{
   /**
-   * As in vtkMorphAlgorithm, with the same defaults. A ScaleFactor over 1 goes beyond the boundary
-   * given.
+   * The options of vtkMorphAlgorithm with the same names and defaults. A ScaleFactor over 1
+   * extrapolates the boundary's motion.
    */
   vtkSetStringMacro(BoundaryIdArray);
   vtkGetStringMacro(BoundaryIdArray);
@@ -157,7 +157,7 @@ public:
 
   ///@{
   /**
-   * The first of the ranking, as of the last execution: "FEMWARP", "Absolute". Empty where there
+   * The best method and stepping of the last execution: "FEMWARP", "Absolute". Empty where there
    * was no result.
    */
   const char* GetBestMethod() const;

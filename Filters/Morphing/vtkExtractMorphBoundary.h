@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkExtractMorphBoundary
- * @brief   the outer boundary of a volume mesh, as polygons that remember their nodes
+ * @brief   extracts the outer boundary of a volume mesh as polygons that keep their node ids
  *
- * The faces of volume cells that belong to one cell alone, as vtkPolyData: made to be moved by any
- * filter that keeps points (vtkTransformFilter, vtkWarpVector, ParaView's Calculator, ...) and
- * given to a morphing filter as its displaced boundary.
+ * The output is a vtkPolyData of the faces that belong to one volume cell alone. Any filter that
+ * keeps points (vtkTransformFilter, vtkWarpVector, ParaView's Calculator, ...) can move it; a
+ * morphing filter takes the result as its displaced boundary.
  *
- * Points are all nodes on those faces, in ascending order of their ids, mid-side and face nodes of
+ * Points are all nodes on these faces, in ascending order of their ids, mid-side and face nodes of
  * quadratic cells included, in the precision of the input. Point arrays of the input are passed,
- * and added are
+ * and two are added:
  * - `MorphPointId` (vtkIdType): the node's id in the input;
- * - `RestPosition` (double): its position X, Y, Z and 1. The ids are verified against it by the
- *   morphing filter. It has four components because vtkTransformFilter, as ParaView's Transform
- *   runs it, takes each point array with three for a vector and rotates it along.
+ * - `RestPosition` (double): its undeformed position X, Y, Z and 1. The morphing filter verifies
+ *   the ids against it. It has four components because vtkTransformFilter, as ParaView's Transform
+ *   runs it, takes each point array with three for a vector and rotates it.
  *
- * Polygons are wound so that their normals point out of valid cells. Faces of linear cells are one
- * triangle or quad each. Faces of quadratic cells become linear pieces through all of their nodes:
- * four triangles for a triangle; four quads for a quad with a center node, four triangles and a
- * quad without, two quads where only two opposite edges have a mid-side node. Cell arrays of the
- * cell that owns the face are passed (global ids excepted, since a cell may own several faces), and
- * added is `MorphCellId` (vtkIdType), that cell's id in the input.
+ * Polygons are wound so that their normals point out of valid cells. A face of a linear cell is one
+ * triangle or quad. A face of a quadratic cell becomes linear pieces through all of its nodes: four
+ * triangles for a triangle; four quads for a quad with a center node, four triangles and a quad
+ * without, two quads where only two opposite edges have a mid-side node. Cell arrays of the cell
+ * that owns the face are passed, except for global ids, since a cell may own several faces. The
+ * cell array `MorphCellId` (vtkIdType) is added, the owning cell's id in the input.
  *
- * A mesh without any outer face, as where every cell is there twice, gives a warning. Errors, with
+ * A mesh without any outer face, for instance with every cell twice, gives a warning. Errors, with
  * an empty output: composite data (use Merge Blocks first), no points, no volume cells, cells that
  * a morph does not support, arrays shorter than there are points or cells, coordinates that are not
  * finite or above 1e50, an extent below 1e-50, cells on more than one MPI rank. An execution that

@@ -3,15 +3,14 @@
  * @class   vtkFEMWarpMorph
  * @brief   morphs a mesh by the finite element solution of Laplace's equation (FEMWARP)
  *
- * The displacement of the nodes inside is the finite element solution of Laplace's equation on the
- * undeformed mesh, with the boundary's displacement as Dirichlet data. Affine motions of the
- * boundary are reproduced exactly; small or smooth motions keep the cells valid, large rotations
- * and strong compressions may invert some near the boundary, which the output's InvertedCells
- * tells. Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose
- * corners move as the linear cell.
+ * Interior nodes follow the finite element solution of Laplace's equation on the undeformed mesh.
+ * The boundary's displacement is its Dirichlet data. Affine motions of the boundary are reproduced
+ * exactly. Small or smooth motions keep the cells valid; large rotations and strong compressions
+ * may invert some near the boundary, which InvertedCells counts. Tetrahedra, hexahedra, wedges,
+ * pyramids, mixed meshes, and their quadratic forms, whose corners move as the linear cell.
  *
- * Each connected body needs at least one prescribed node. Inverted or flat cells at rest draw a
- * warning and are given a positive stiffness, so that the mesh can still be morphed.
+ * Each connected body needs at least one prescribed node. Inverted or flat cells of the undeformed
+ * mesh give a warning and get a positive stiffness, so that the mesh can still be morphed.
  *
  * Preparing assembles the stiffness matrix (equations (9) to (12) of Staten et al.) and sets up a
  * multigrid preconditioner; evaluating solves for the three coordinates together by conjugate

@@ -13,7 +13,7 @@ vtkStandardNewMacro(vtkInversionFreeMorph);
 
 namespace
 {
-/// Null where the guess is not a method of its own.
+/// The method of the initial guess; null where the guess is not a method of its own.
 std::unique_ptr<morph::Morpher> guessMethod(int guess)
 {
   switch (guess)

@@ -3,25 +3,27 @@
  * @class   vtkInversionFreeMorph
  * @brief   morphs a mesh so that no cell is inverted
  *
- * From a first guess, a minimisation of the foldover-free energy of all cells drives inverted cells
- * out, and then improves the worst ones. Cells other than tetrahedra aim for their shape at rest,
- * stretched to the sizes that the moved boundary asks for; tetrahedra for their shape at rest. The
- * minimum scaled Jacobian is never below that of FEMWARP's mesh or, with the target Stretched, of
- * simplex-linear's, if that is valid: where it is higher there, that mesh is the result.
- * Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners
- * move as the linear cell. Not linear in the boundary's motion: there is no adjoint.
+ * The filter minimises the foldover-free energy of all cells, from an initial guess. It first
+ * removes all inverted cells, and then improves the worst cells. The target shape of a cell is its
+ * shape in the undeformed mesh; cells other than tetrahedra are stretched to the sizes that the
+ * moved boundary asks for. The minimum scaled Jacobian is never below that of FEMWARP's mesh if
+ * that is valid. With the target Stretched, the same holds for simplex-linear's mesh. Where one of
+ * these meshes has the higher minimum, it is the result. Tetrahedra, hexahedra, wedges, pyramids,
+ * mixed meshes, and their quadratic forms, whose corners move as the linear cell. Not linear in the
+ * boundary's motion: there is no adjoint.
  *
- * Validity is VALIDITY_SUB_STEP here unless it is set otherwise: a boundary that inverts cells by
- * itself is refused, naming them; where no valid mesh is found for the whole motion there is an
- * error, and the output is the valid mesh of the largest step that was reached. See
+ * The default of Validity is VALIDITY_SUB_STEP here. A boundary that inverts cells by itself is
+ * refused, with the ids of the cells. Where no valid mesh is found for the whole motion, there is
+ * an error, and the output is the valid mesh of the largest step that was reached. See
  * vtkMorphAlgorithm.
  *
- * A mesh that is inverted at rest is untangled, starting from rest (also where nothing moves).
- * Cells at rest that are inverted or flat aim for the ideal shape.
+ * An undeformed mesh with inverted cells is untangled, even without motion; the minimisation then
+ * starts from the undeformed mesh. Undeformed cells that are inverted or flat have the ideal shape
+ * as target.
  *
- * Preparing is FEMWARP's; evaluating takes some 10 to 60 Newton steps of 0.4 to 0.8 microseconds of
- * processor time for each tetrahedron, and a hexahedron counts as ten. Memory meanwhile: about 6
- * kB a hexahedron, with what it prepares.
+ * Preparing is FEMWARP's. Evaluating takes some 10 to 60 Newton steps, each 0.4 to 0.8 microseconds
+ * of processor time for a tetrahedron; a hexahedron counts as ten. It uses about 6 kB a hexahedron
+ * meanwhile, with what it prepares.
  *
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
  * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069; V. Garanzha, I. Kaporin, L.
@@ -95,10 +97,10 @@ public:
 
   ///@{
   /**
-   * What cells aim for. Initial: their shape and size at rest; affine motions of the boundary come
-   * out exactly. Stretched: their angles at rest, with edge lengths that fit the moved boundary;
-   * tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever they were at rest,
-   * so that the mesh changes without any motion of its boundary. Default Stretched.
+   * The target shape of the cells. Initial: the undeformed shape and size; affine motions of the
+   * boundary are reproduced exactly. Stretched: the undeformed angles, with edge lengths that fit
+   * the moved boundary; tetrahedra as Initial. Ideal: right angles or regular tetrahedra, whatever
+   * the undeformed shape, so the mesh changes even without motion. Default Stretched.
    */
   vtkSetClampMacro(TargetShape, int, TARGET_SHAPE_INITIAL, TARGET_SHAPE_IDEAL);
   vtkGetMacro(TargetShape, int);
@@ -109,8 +111,8 @@ public:
 
   ///@{
   /**
-   * Whether, once the mesh is valid, the worst cells are improved at the expense of the average
-   * one. Without effect on TargetShape Initial. Default on.
+   * Whether the worst cells are improved, once the mesh is valid, at the expense of the average
+   * one. Has no effect with TargetShape Initial. Default on.
    */
   vtkSetMacro(ImproveWorst, bool);
   vtkGetMacro(ImproveWorst, bool);
@@ -119,8 +121,8 @@ public:
 
   ///@{
   /**
-   * Minimise by L-BFGS in place of Newton's method: as fast on some 10,000 cells, slower on many,
-   * and without the matrix, so with a third of the memory. Default off.
+   * Whether to minimise by L-BFGS instead of Newton's method. It needs no matrix, so a third of the
+   * memory; it is as fast on some 10,000 cells, and slower on many. Default off.
    */
   vtkSetMacro(LowMemory, bool);
   vtkGetMacro(LowMemory, bool);
@@ -130,8 +132,8 @@ public:
   ///@{
   /**
    * As of the last execution: steps of the minimiser, iterations of its linear solver, evaluations
-   * of the energy; cells that the boundary itself inverts, and cells that stay inverted on faces
-   * that it folds; and whether FEMWARP's or simplex-linear's mesh was the better one.
+   * of the energy; cells that the boundary itself inverts, and cells that stay inverted at folded
+   * boundary faces; and whether FEMWARP's or simplex-linear's mesh was the better one.
    */
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }

@@ -3,12 +3,12 @@
  * @class   vtkLBWarpMorph
  * @brief   morphs a mesh by convex combinations of each node's neighbors (LBWARP)
  *
- * On the undeformed mesh each node inside is written as a convex combination of all nodes that
- * share a volume cell with it, with the weights that lie furthest from zero in the sense of a
- * logarithmic barrier. The same combinations, with the boundary's new positions, give the new
- * positions inside. So no node leaves the convex hull of the boundary, and affine motions of the
- * boundary are reproduced exactly; cells may still invert, which the output's InvertedCells tells.
- * Any volume cells, of which the corners count; nodes of quadratic cells move with the linear cell.
+ * On the undeformed mesh each interior node is a convex combination of all nodes that share a
+ * volume cell with it. Its weights are those furthest from zero in the sense of a logarithmic
+ * barrier. The same combinations, with the boundary's new positions, give the new interior
+ * positions. No node leaves the convex hull of the boundary, and affine motions of the boundary are
+ * reproduced exactly. Cells may still invert, which InvertedCells counts. Any volume cells, of
+ * which the corners count; nodes of quadratic cells move with the linear cell.
  *
  * Each connected body needs at least one prescribed node. A node that does not lie inside the hull
  * of its neighbors, at an inverted or strongly concave place, has no such weights: see OutsideHull.
@@ -57,10 +57,10 @@ public:
 
   ///@{
   /**
-   * What becomes of a free node that does not lie inside the hull of its neighbors. Error: no
-   * result, and a message with the number of such nodes and the first ids. Relax: each of them
-   * takes the first of these that exists: log-barrier weights among its neighbors and theirs;
-   * affine weights of least norm, which keep affine motions exact but may be negative, so nothing
+   * What happens to a free node that does not lie inside the hull of its neighbors. Error: no
+   * result, and a message with the number of such nodes and the first ids. Relax: the node takes
+   * the first of these that exists: log-barrier weights among its neighbors and theirs; affine
+   * weights of minimum norm, which reproduce affine motions exactly but may be negative, so nothing
    * bounds the node; FEMWARP's row of the matrix. Default Error.
    */
   vtkSetClampMacro(OutsideHull, int, OUTSIDE_HULL_ERROR, OUTSIDE_HULL_RELAX);
@@ -71,8 +71,8 @@ public:
 
   ///@{
   /**
-   * As of the last execution: free nodes outside the hull of their neighbors, and how many of them
-   * took weights of two rings of neighbors, affine weights, and FEMWARP's row.
+   * As of the last execution: free nodes outside the hull of their neighbors, and of these the
+   * nodes with weights of two rings of neighbors, with affine weights, and with FEMWARP's row.
    */
   vtkIdType GetOutsideHullNodes() { return this->GetCount("OutsideHullNodes"); }
   vtkIdType GetTwoRingNodes() { return this->GetCount("TwoRingNodes"); }

@@ -37,8 +37,8 @@ public:
 
 namespace
 {
-/// The first vtkMorphAlgorithm from `algorithm` on upstream, level by level; null where there is
-/// none.
+/// The first vtkMorphAlgorithm upstream, from `algorithm` on and level by level; null where there
+/// is none.
 vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
 {
   std::vector<vtkAlgorithm*> found;
@@ -148,7 +148,7 @@ vtkTypeBool vtkMorphAdjoint::ProcessRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
     filters::Ports::RequestInformation(inputVector, outputVector);
-    // After a boundary that does not vary the gradient may, with the steps of its morph.
+    // If the boundary does not vary in time, the gradient may, with the steps of its morph.
     vtkInformation* output = outputVector->GetInformationObject(0);
     vtkInformation* gradient = inputVector[2]->GetInformationObject(0);
     if (gradient && !output->Has(vtkStreamingDemandDrivenPipeline::TIME_RANGE()))
@@ -208,11 +208,11 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
                        "the gradient on port 2 by a pipeline with that filter in it.");
   }
   vtkPointSet* points = filters::Input::RequireBoundary(boundary);
-  // The mesh was looked at before.
+  // The mesh was checked before.
   vtkPointSet* holder =
     carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
   vtkDataArray* gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
-  // With a DisplacementArray the method does not look at them, and the output has them.
+  // With a DisplacementArray the method does not use the points, but the output has them.
   if (const auto wrong =
         filters::DataCheck::Immoderate(filters::GridMesh::FromPoints(points->GetPoints()));
       !wrong.empty())

@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMorphAdjoint
- * @brief   derivatives of an objective on a morphed mesh with respect to its boundary
+ * @brief   computes derivatives of an objective on a morphed mesh with respect to its boundary
  *
- * For shape optimisation. A linear morphing method moves the nodes inside by a fixed matrix times
- * the displacement of the boundary, x_free = M x_prescribed. Given the derivatives g of an
- * objective with respect to the position of every node of the morphed mesh, this filter writes
- * those with respect to the position of every point of the boundary, g_prescribed + M^T g_free, at
- * the cost of one evaluation and whatever the number of boundary points.
+ * The filter is the adjoint of a linear morphing method, for shape optimisation. Such a method
+ * moves the interior nodes by a fixed matrix times the displacement of the boundary, x_free = M
+ * x_prescribed. From the derivatives g of an objective with respect to the position of every node
+ * of the morphed mesh the filter computes those with respect to every boundary point, g_prescribed
+ * + M^T g_free. The cost is that of one evaluation, whatever the number of boundary points.
  *
  * Port 0 takes the undeformed mesh, port 1 the displaced boundary, both as the morphing filter's
  * ports do. The derivatives are the point vectors GradientArray of port 2 (for instance the morphed
  * mesh, on which the objective was evaluated) or, where that is not connected, of port 0. The
- * output is the boundary with the point vectors `MorphGradient`. They are derivatives with respect
- * to the points of port 1 or, where the method has a DisplacementArray, to that array; a
- * ScaleFactor other than 1 is a factor of them too. Nodes that are held pass nothing on. A point
- * that stands for no node gets 0, and so does each but the first of several points that stand for
- * one node.
+ * output is the boundary with the point vectors `MorphGradient`: the derivatives with respect to
+ * the points of port 1 or, where the method has a DisplacementArray, to that array. They contain
+ * the factor ScaleFactor. Nodes that are held contribute nothing. A point that stands for no node
+ * gets 0, and so does each but the first of several points that stand for one node.
  *
  * The method and its options are those of the filter Morph or, where that is not set, of the
- * nearest vtkMorphAlgorithm in the pipeline behind port 2. What that filter has prepared is used
- * again. Morph need not be connected to anything.
+ * nearest vtkMorphAlgorithm in the pipeline upstream of port 2. What that filter has prepared is
+ * reused. Morph need not be connected to anything.
  *
  * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of
- * the method alone, and a warning says so.
+ * the method alone, and a warning is raised.
  *
  * Time: as vtkMorphAlgorithm's, updates from within RequestData included; port 2 is asked for the
- * time that the output is.
+ * output's time.
  *
  * Errors give no result: one message, and an empty output. Among them: no method, one that is not
  * linear, no gradient or one of the wrong size or not finite, and the errors of vtkMorphAlgorithm.
@@ -83,8 +82,8 @@ public:
 
   ///@{
   /**
-   * The morphing filter whose method, options and array names are taken. Default: none, that is the
-   * nearest one in the pipeline behind port 2; an error where there is none.
+   * The morphing filter whose method, options and array names are used. Default: none, so the
+   * nearest one in the pipeline upstream of port 2; it is an error if there is none.
    */
   void SetMorph(vtkMorphAlgorithm* morph);
   vtkMorphAlgorithm* GetMorph();
@@ -100,7 +99,7 @@ public:
   ///@}
 
   /**
-   * Later of its own and the method's.
+   * The later of the modification times of this filter and the method.
    */
   vtkMTimeType GetMTime() override;
 

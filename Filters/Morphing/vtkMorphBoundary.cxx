@@ -170,7 +170,7 @@ std::vector<Index> writeQuality(
   }
   output->GetCellData()->AddArray(values);
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
-  // Viewers would color by a point array that is active.
+  // Viewers would color by an active point array.
   output->GetPointData()->SetActiveScalars(nullptr);
   return folded;
 }

@@ -3,49 +3,49 @@
  * @class   vtkMorphBoundary
  * @brief   moves a mesh's boundary from its vertices or curves: curves first, then surfaces
  *
- * Where a changed shape is known at the vertices and curves of a model alone, this filter moves the
- * rest of the boundary along, in the paper's order: vertices as given, then curves, then surfaces,
- * each step with the nodes of lower dimension fixed. Its output is the displaced boundary that a
- * morph filter takes on its port 1, which then moves the volume.
+ * The filter completes the motion of a boundary that is known at a model's vertices and curves
+ * alone. It follows the paper's order: vertices as given, then curves, then surfaces, each with the
+ * nodes of lower dimension fixed. Its output is the displaced boundary that a morph filter takes on
+ * its port 1, which then moves the volume.
  *
  * - Curves: nodes keep their parameter between the given ones. On a straight curve displacements
- *   are linear in the arc length; a curved one is carried along by the affine map nearest to the
- *   motion around it, so affine motions come out exactly.
+ *   are linear in the arc length. A curved one follows the affine map nearest to the motion around
+ *   it, so affine motions are reproduced exactly.
  * - Surfaces: by weighted residual, the paper's equations (3) to (6) with NumberOfNeighbors nearest
  *   nodes, or by Laplacian smoothing of the displacements.
  * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
- * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges, and
- *   surface nodes, after their surface has followed, to the nearest place on it whose normal fits
- *   (on the one surface of the target that holds most of their surface's curve nodes, if there is
- *   one). Given nodes and vertices are left where they are. Where faces fold thereby, nodes are
- *   spread out on the target; where that does not help, they keep their unprojected position, and a
- *   warning names them.
+ * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges.
+ *   Surface nodes, after their surface has followed, go to the nearest place on it whose normal
+ *   fits; if one surface of the target holds most of their surface's curve nodes, on that surface.
+ *   Given nodes and vertices keep their positions. Where faces fold, nodes are spread out on the
+ *   target. Where this does not help, they keep their unprojected position, and a warning names
+ *   them.
  *
- * Port 0 takes the undeformed mesh (vtkUnstructuredGrid): its geometry is found as
- * vtkClassifyBoundary finds it, whose output can be given here. Port 1 takes the moved nodes
- * (vtkPointSet), matched to the mesh as vtkMorphAlgorithm matches a boundary. Of those, nodes on
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid). Its geometry is found as
+ * vtkClassifyBoundary finds it; the output of that filter is accepted too. Port 1 takes the moved
+ * nodes (vtkPointSet), matched to the mesh as vtkMorphAlgorithm matches a boundary. Nodes on
  * geometry of a dimension up to PrescribedDimension are given; the others are ignored. Vertices
- * that port 1 does not name are held in place. Port 2, optional, takes the target (vtkPolyData, an
- * STL file for instance).
+ * that port 1 does not name are held. Port 2, optional, takes the target (vtkPolyData, an STL file
+ * for instance).
  *
  * The output is the boundary as vtkExtractMorphBoundary writes it, at its moved points, with the
  * arrays of vtkClassifyBoundary, the point vectors `MorphDisplacement`, and the cell array
- * `ScaledJacobian` (active scalars): the quality of the face, signed by its surface's normal as the
- * motion carries it along; 1 is the ideal triangle or quad, and a face at or below 0 is folded. (A
- * face of a quadratic cell is measured by its corners, and all its polygons have its value.) Field
- * data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints, UnprojectedPoints. No
- * motion gives the rest positions bit for bit.
+ * `ScaledJacobian` (active scalars). This is the quality of the face, signed by its surface's
+ * normal, which follows the motion: 1 is the ideal triangle or quad, and a face at or below 0 is
+ * folded. (A face of a quadratic cell is measured by its corners, and all its polygons have its
+ * value.) Field data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints,
+ * UnprojectedPoints. No motion gives the undeformed positions bit for bit.
  *
- * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime. Where one
- * reader is on both ports it is updated from within RequestData, for the reason that
- * vtkMorphAlgorithm gives.
+ * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime. If one reader
+ * feeds both ports, it is updated from within RequestData, for the reason that vtkMorphAlgorithm
+ * gives.
  *
  * Errors: those of vtkClassifyBoundary and of vtkMorphAlgorithm's ports, the target's included;
  * port 1 names no node of a dimension up to PrescribedDimension; a target without polygons. The
- * output is then empty, not the boundary where it was: a morph would take that for a motion of
- * nothing. MinScaledJacobian and FoldedFaces are then -1. An execution that is aborted gives the
- * same, and no message. With several MPI processes an execution is collective. Cost: a search for
- * the nearest curve nodes for each surface node, and a few in the target.
+ * output is then empty: a morph would take an unchanged boundary for a motion of zero.
+ * MinScaledJacobian and FoldedFaces are then -1. An execution that is aborted gives the same, and
+ * no message. With several MPI processes an execution is collective. Cost: for each surface node a
+ * search for the nearest curve nodes, and a few searches in the target.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -84,8 +84,8 @@ public:
 
   ///@{
   /**
-   * Nodes that port 1 names are given where their geometry has at most this dimension: 0 vertices,
-   * 1 curves too, 2 surfaces too. Default 1.
+   * The highest dimension of geometry on which the nodes of port 1 are given: 0 vertices, 1 also
+   * curves, 2 also surfaces. Default 1.
    */
   vtkSetClampMacro(PrescribedDimension, int, 0, 2);
   vtkGetMacro(PrescribedDimension, int);
@@ -101,8 +101,8 @@ public:
   };
   ///@{
   /**
-   * How surfaces follow. With SURFACE_METHOD_SMOOTHING faces that come out poor (scaled Jacobian
-   * below 0.2, and below half of that at rest) are improved by nodes that move along the surface.
+   * How surfaces follow. SURFACE_METHOD_SMOOTHING also improves faces that become poor (scaled
+   * Jacobian below 0.2, and below half of the undeformed value) by moving nodes along the surface.
    * Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
   vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
@@ -116,8 +116,8 @@ public:
 
   ///@{
   /**
-   * How many of the nearest fixed nodes of its surface a node's residual is weighted from. Default
-   * 20, range [1, VTK_INT_MAX].
+   * The number of nearest fixed nodes of its surface from which a node's residual is weighted.
+   * Default 20, range [1, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 1, VTK_INT_MAX);
   vtkGetMacro(NumberOfNeighbors, int);
@@ -135,9 +135,9 @@ public:
   };
   ///@{
   /**
-   * What closed curves without a vertex, and closed surfaces without a curve, do where nothing is
-   * given on them: follow the affine map nearest to the motion around them, or the rigid one, which
-   * keeps a round hole round, or stay. Default UNATTACHED_AFFINELY.
+   * What closed curves without a vertex, and closed surfaces without a curve, do if none of their
+   * nodes is given. They follow the affine map nearest to the motion around them, or the rigid one,
+   * which keeps a round hole round, or stay. Default UNATTACHED_AFFINELY.
    */
   vtkSetClampMacro(UnattachedMotion, int, UNATTACHED_AFFINELY, UNATTACHED_STAY);
   vtkGetMacro(UnattachedMotion, int);
@@ -148,7 +148,7 @@ public:
 
   ///@{
   /**
-   * How the geometry is found: see vtkClassifyBoundary. FeatureAngle is also that between the faces
+   * How the geometry is found: see vtkClassifyBoundary. FeatureAngle also defines the feature edges
    * of the target.
    */
   virtual void SetFeatureAngle(double value);
@@ -190,9 +190,9 @@ public:
 
   ///@{
   /**
-   * By how much the normal of the target may differ from that of the moved surface where a node is
-   * projected: keeps nodes of a thin wall from the wall's other side. The target's normals may all
-   * point inwards. Degrees, default 60, range [0, 180].
+   * The largest angle between the normals of the target and of the moved surface where a node is
+   * projected. It keeps nodes of a thin wall from the wall's other side. The target's normals may
+   * all point inwards. Degrees, default 60, range [0, 180].
    */
   virtual void SetProjectionAngle(double value);
   vtkGetMacro(ProjectionAngle, double);
@@ -200,7 +200,7 @@ public:
 
   ///@{
   /**
-   * The time at which port 0 is at rest; see vtkMorphAlgorithm. Default -1e300, so the first.
+   * The time at which port 0 is undeformed; see vtkMorphAlgorithm. Default -1e300, so the first.
    */
   virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
@@ -226,8 +226,8 @@ public:
 
   ///@{
   /**
-   * Quality of the moved faces as of the last execution: -1 where there was no result, but for the
-   * mean, which is then NaN.
+   * Quality of the moved faces in the last execution. Where there was no result, the mean is NaN
+   * and the others are -1.
    */
   double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
@@ -237,7 +237,7 @@ public:
   ///@{
   /**
    * As of the last execution: nodes that port 1 gave, vertices that it did not name and that were
-   * held, nodes that were projected to the target, and nodes that were to be and were not.
+   * held, nodes that were projected to the target, and nodes whose projection failed.
    */
   vtkIdType GetGivenPoints() const { return this->GetInteger("GivenPoints"); }
   vtkIdType GetHeldVertices() const { return this->GetInteger("HeldVertices"); }

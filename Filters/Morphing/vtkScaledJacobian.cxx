@@ -82,8 +82,8 @@ vtkScaledJacobian::~vtkScaledJacobian() = default;
 
 int vtkScaledJacobian::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Else the executive would loop over the blocks of composite data, and the numbers would be the
-  // last block's.
+  // Otherwise the executive would loop over the blocks of composite data, and the numbers would be
+  // those of the last block.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -99,7 +99,7 @@ int vtkScaledJacobian::RequestData(
     this->Internals->Results.Reset();
   };
   clear();
-  // On every process, before anything can fail there: one of several may well have no cells.
+  // On every process, before anything can fail there: a process may have no cells.
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   const bool isEmpty = filters::Ranks::Count(grid && grid->GetNumberOfCells() > 0) == 0;
   const filters::Execution::Outcome outcome = filters::Execution::Run(

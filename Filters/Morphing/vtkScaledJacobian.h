@@ -1,56 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkScaledJacobian
- * @brief   scaled Jacobian of every cell, and what is worst in the mesh
+ * @brief   measures the scaled Jacobian of every cell, and counts the cells that are inverted
  *
- * The scaled Jacobian of a corner is the determinant of its three edges, each scaled to length 1; a
- * cell's is the least over its corners (and the centre of a hexahedron), normalised so that the
- * ideal cell has 1. At or below 0 the cell is inverted. The conventions are Verdict's, and on valid
- * tetrahedra and hexahedra the numbers are those of vtkMeshQuality. They differ on purpose where
- * those would mislead: a cell with a corner whose edges have no length gets 0 and is counted as
- * degenerate, inverted pyramids get their negative value, and cells that cannot be measured get
- * NaN. That is why this filter exists beside vtkMeshQuality, and for mirrored bodies and
- * certificates (below), which a morph needs and that filter has not.
+ * The scaled Jacobian of a corner is the determinant of its three edges, each scaled to length 1.
+ * The scaled Jacobian of a cell is the minimum over its corners (and the centre of a hexahedron),
+ * normalised so that the ideal cell has 1. At or below 0 the cell is inverted. The conventions are
+ * Verdict's, and on valid tetrahedra and hexahedra the numbers are those of vtkMeshQuality. They
+ * differ on purpose in three cases. A cell with a corner whose edges have no length gets 0 and is
+ * counted as degenerate; inverted pyramids get their negative value; cells that cannot be measured
+ * get NaN. vtkMeshQuality also has neither mirrored bodies nor certificates (below), which a morph
+ * needs.
  *
- * Measured are the cells of the highest dimension in the grid: tetrahedra, hexahedra, voxels (as
+ * Cells of the highest dimension in the grid are measured: tetrahedra, hexahedra, voxels (as
  * hexahedra in VTK's order), wedges and pyramids, or triangles, quads and pixels where there is no
  * volume cell. A quadratic volume cell has the value of its corners, unless the determinant of its
- * true map is negative somewhere inside: then it has a value below 0 and is inverted. (Where the
+ * true map is found negative inside: then it has a value below 0 and is inverted. (Where the
  * corners alone are inverted and the cell is positive everywhere, it has the minimum over its
- * nodes.) Quadratic faces count by their corners. Cells of lower dimension and ghost cells get NaN
- * and are not counted. Cells of the highest dimension that have no scaled Jacobian here (polyhedra,
- * polygons, Lagrange cells, ...) get NaN, are counted in UnmeasuredCells, and one warning names
- * their types.
+ * nodes.) Quadratic faces are measured by their corners. Cells of lower dimension and ghost cells
+ * get NaN and are not counted. Cells of the highest dimension that have no scaled Jacobian here
+ * (polyhedra, polygons, Lagrange cells, ...) get NaN and are counted in UnmeasuredCells; one
+ * warning names their types.
  *
- * Volume cells of one shape in one connected body share a sign, taken from their summed volume. So
- * a body that is mirrored as a whole, or wedges in VTK's older node order, are measured as valid
- * (and reported as MirroredBodies), while a cell that is inverted among valid neighbors has a
- * negative value.
+ * Volume cells of one shape in one connected body share a sign, that of their summed volume. So a
+ * body that is mirrored as a whole, or wedges in VTK's older node order, are measured as valid (and
+ * reported as MirroredBodies). A cell that is inverted among valid neighbors has a negative value.
  *
- * The scaled Jacobian looks at a few points of each linear cell only: a hexahedron or wedge that is
- * positive there may still be inverted inside. With Certify on, the sign of the Jacobian
- * determinant is proved for the whole of every volume cell, in the cell array
- * `JacobianCertificate`: 1 where it is positive everywhere, -1 where it is zero or negative
- * somewhere, corners included, 0 where neither was proved and for cells that were not examined
- * (lower dimension, ghosts). The proof is exact for linear tetrahedra and pyramids, and by bounds
- * with subdivision for the others. Quadratic cells are proved with VTK's own maps through all of
- * their nodes. The field data
- * CertifiedCells, UncertifiedCells (those with -1) and UndecidedCells count them. With Certify off,
- * arrays of these names that came with the input are removed.
+ * The scaled Jacobian samples a few points of each linear cell only: a hexahedron or wedge that is
+ * positive there may still be inverted inside. Certify proves the sign of the Jacobian determinant
+ * for the whole of every volume cell, in the cell array `JacobianCertificate`. It is 1 where the
+ * determinant is positive everywhere, and -1 where it is zero or negative somewhere, corners
+ * included. It is 0 where neither was proved, and for cells that were not examined (lower
+ * dimension, ghosts). The proof is exact for linear tetrahedra and pyramids, and by bounds with
+ * subdivision for the others. Quadratic cells are proved with VTK's own maps through all of their
+ * nodes. The field data CertifiedCells, UncertifiedCells (the cells with -1) and UndecidedCells
+ * count them. With Certify off, arrays of these names in the input are removed.
  *
  * The output is the input with the cell array `ScaledJacobian` (double, active cell scalars) and
  * the field data MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId
- * and MirroredBodies. With several MPI ranks the numbers are those of each rank's own piece, so no
- * rank's are those of the whole mesh (the cell array is right on all of them), and an execution is
- * collective: it has to take place on all of them.
+ * and MirroredBodies. With several MPI ranks the cell array is right on all ranks, but the numbers
+ * are those of each rank's own piece. An execution is then collective: it has to take place on all
+ * ranks.
  *
  * A grid without cells gives a warning. Errors: composite data (use Merge Blocks first), cells but
  * no points, node ids or coordinates that are not valid, arrays shorter than there are points or
  * cells, coordinates above 1e50, and a largest extent below 1e-50. The output is then empty, and
- * InvertedCells and MinScaledJacobian are -1, as they are, without a message, where the execution
- * was aborted. Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic volume
- * cell), and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a curved
- * quadratic cell.
+ * InvertedCells and MinScaledJacobian are -1. The same holds, without a message, for an execution
+ * that was aborted. Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic
+ * volume cell), and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a
+ * curved quadratic cell.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.
@@ -108,7 +106,7 @@ public:
   vtkIdType GetMeasuredCells() const { return this->GetInteger("MeasuredCells"); }
 
   /**
-   * Number of cells with a scaled Jacobian of 0 or less, the degenerate ones apart; -1 after an
+   * Number of cells with a scaled Jacobian of 0 or less, without the degenerate ones; -1 after an
    * error.
    */
   vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
@@ -124,7 +122,7 @@ public:
   vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
 
   /**
-   * Number of cells of the highest dimension, ghosts apart, that have no scaled Jacobian here.
+   * Number of cells of the highest dimension, without ghosts, that have no scaled Jacobian here.
    */
   vtkIdType GetUnmeasuredCells() const { return this->GetInteger("UnmeasuredCells"); }
 
@@ -135,8 +133,8 @@ public:
 
   ///@{
   /**
-   * Number of cells proved positive everywhere, of those found zero or negative somewhere, and of
-   * those where neither was proved. All 0 unless Certify is on.
+   * Number of cells proved positive everywhere, of cells found zero or negative somewhere, and of
+   * cells where neither was proved. All 0 unless Certify is on.
    */
   vtkIdType GetCertifiedCells() const { return this->GetInteger("CertifiedCells"); }
   vtkIdType GetUncertifiedCells() const { return this->GetInteger("UncertifiedCells"); }

@@ -3,22 +3,22 @@
  * @class   vtkSimplexLinearMorph
  * @brief   morphs a mesh by linear interpolation in tetrahedra between its boundary nodes
  *
- * A Delaunay tessellation of the prescribed nodes alone is deformed with them and carries each node
- * inside along by its barycentric coordinates in the tetrahedron that contains it (equation (7) of
- * Staten et al.). The fastest method: one search, then four weights a node. Affine motions of the
- * boundary are reproduced exactly. The mesh's cells are not looked at, so any volume mesh will do,
- * and bodies need not hang together.
+ * Each interior node follows the tetrahedron that contains it, by its barycentric coordinates
+ * (equation (7) of Staten et al.). The tetrahedra are a Delaunay tessellation of the prescribed
+ * nodes alone. It is the fastest method: one search, then four weights a node. Affine motions of
+ * the boundary are reproduced exactly. The mesh's cells are not used, so any volume mesh will do,
+ * and bodies need not be connected.
  *
- * Where the mesh is not convex tetrahedra span its holes, slots and gaps and couple the walls that
- * face each other there: BridgingTetrahedra counts those with nodes in them. Where the motion turns
- * tetrahedra inside out, which FoldedTetrahedra counts, cells in them are inverted.
+ * Where the mesh is not convex, tetrahedra span its holes, slots and gaps and couple the walls that
+ * face each other there: BridgingTetrahedra counts those with nodes in them. Where the motion
+ * inverts tetrahedra, which FoldedTetrahedra counts, cells in them are inverted.
  *
  * On structured meshes many sets of boundary nodes lie on one sphere, and the tessellation is not
- * unique. Coordinates alone decide: renumbering the nodes changes nothing, turning the mesh may
+ * unique. Coordinates alone decide: renumbering the nodes changes nothing, rotating the mesh may
  * give other tetrahedra.
  *
- * It is an error if all prescribed nodes lie in one plane. Memory: 56 bytes a node inside, and some
- * 300 a prescribed node.
+ * It is an error if all prescribed nodes lie in one plane. Memory: 56 bytes an interior node, and
+ * some 300 a prescribed node.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311,

@@ -3,17 +3,17 @@
  * @class   vtkSimplexNaturalNeighborMorph
  * @brief   morphs a mesh by natural-neighbor interpolation between its boundary nodes
  *
- * Each node inside follows its natural neighbors among the prescribed nodes, those whose Voronoi
- * cells its own would border on, weighted by Sibson's or Laplace's coordinates (equation (8) of
- * Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells are not
- * looked at. The coordinates depend on the Voronoi diagram, which is unique, and not on the choice
- * of a Delaunay tessellation, so structured meshes move symmetrically and turning a mesh changes
- * nothing; and they vary smoothly with the node's place. In quality the method is near
+ * Each interior node follows its natural neighbors among the prescribed nodes: the nodes whose
+ * Voronoi cells its own would border on. Weights are Sibson's or Laplace's coordinates (equation
+ * (8) of Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells
+ * are not used. The coordinates depend on the Voronoi diagram, which is unique, and not on the
+ * choice of a Delaunay tessellation: structured meshes move symmetrically, and rotating a mesh
+ * changes nothing. They vary smoothly with the node's position. In quality the method is near
  * vtkSimplexLinearMorph, at many times the cost.
  *
- * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors: weights are
- * kept where they fit into MemoryLimit, and recomputed for each motion otherwise, which a
- * warning tells.
+ * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors. Weights are
+ * kept where they fit into MemoryLimit; otherwise they are recomputed for each motion, and a
+ * warning is raised.
  *
  * It is an error if all prescribed nodes lie in one plane.
  *
@@ -62,8 +62,8 @@ public:
 
   ///@{
   /**
-   * Megabytes (10^6 bytes) that the weights may take, 12 bytes each; the result does not depend on
-   * it. Changing it prepares again. Default 4000, range [0, 1e12]; 0 keeps none.
+   * The memory for the weights in megabytes (10^6 bytes), 12 bytes each; the result does not depend
+   * on it. Changing it prepares again. Default 4000, range [0, 1e12]; 0 keeps none.
    */
   virtual void SetMemoryLimit(double value);
   vtkGetMacro(MemoryLimit, double);
@@ -72,9 +72,9 @@ public:
   ///@{
   /**
    * As of the last execution: nodes that took the coordinates of vtkSimplexLinearMorph because they
-   * lie on or outside the prescribed nodes' convex hull, or because rounding spoilt theirs; nodes
-   * outside the hull by more than rounding, which are extrapolated; and whether the weights were
-   * kept (1) or recomputed (0). In the output's field data too.
+   * lie on or outside the prescribed nodes' convex hull, or because rounding spoilt their own;
+   * nodes outside the hull by more than rounding, which are extrapolated; and whether the weights
+   * were kept (1) or recomputed (0). In the output's field data too.
    */
   vtkIdType GetBarycentricNodes() { return this->GetCount("BarycentricNodes"); }
   vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }

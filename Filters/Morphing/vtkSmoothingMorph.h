@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSmoothingMorph
- * @brief   morphs a mesh by moving its boundary and smoothing what is inside
+ * @brief   morphs a mesh by moving its boundary and smoothing the interior
  *
- * The boundary moves, the nodes inside follow by each body's affine map nearest to its boundary's
- * motion, and the mesh is smoothed with its boundary fixed: untangled where cells are inverted
- * (Knupp's untangling, by L-BFGS), then improved by Newton's method on the inverse mean ratio of
- * the cells, first round few bad cells, then everywhere. This is the smoothing of section 3.1 of
- * Staten et al., which leaves the nodes inside where they were, with the stages of Mesquite.
- * Nothing but the smoothing carries the rest of the motion inside: what is not affine over more
- * than the cells next to the boundary tangles the mesh, and not every tangled mesh can be untangled
- * in this way. In many small steps, each from the mesh of the one before, it comes farther.
+ * The boundary moves, and the interior nodes follow by each body's affine map nearest to its
+ * boundary's motion. Then the mesh is smoothed with its boundary fixed. Cells that are inverted are
+ * untangled (Knupp's untangling, by L-BFGS). Newton's method on the inverse mean ratio of the cells
+ * then improves the mesh, first around few bad cells, then everywhere. This is the smoothing of
+ * section 3.1 of Staten et al., which leaves the interior nodes where they were, with the stages of
+ * Mesquite. Only the smoothing carries the rest of the motion inside. A motion that is not affine
+ * over more than the cells next to the boundary tangles the mesh, and not every tangled mesh can be
+ * untangled in this way. Many small steps, each from the mesh of the one before, reach farther.
  *
- * With TargetShape Ideal, the paper's and the default, cells become as regular as they can: a
+ * With TargetShape Ideal, the paper's and the default, cells become as regular as they can. A
  * graded mesh loses its grading, and a boundary that does not move does not leave the mesh as it
- * is. With Initial cells aim for their shape at rest: no motion is then the identity, and affine
- * motions are reproduced to the tolerance of the iteration.
+ * is. With Initial the target is the undeformed shape of each cell: no motion is then the identity,
+ * and affine motions are reproduced to the tolerance of the iteration.
  *
  * Tetrahedra, hexahedra, wedges, pyramids and mixed meshes; quadratic cells by their corners. Not
- * linear in the boundary's motion: there is no adjoint. What is valid before the improvement stays
- * valid, but the improvement is of the mean: the worst cell may get worse. Where the boundary stays
- * or moves affinely it may not: nodes round cells that became worse than the worst one was go back.
+ * linear in the boundary's motion: there is no adjoint. Cells that are valid before the improvement
+ * stay valid, but the mean is improved: the worst cell may get worse. Where the boundary stays or
+ * moves affinely the minimum does not fall: nodes around cells that became worse than the former
+ * minimum are moved back.
  *
  * Preparing is one pass over the cells. Evaluating takes 3 microseconds of processor time a Newton
  * step for each tetrahedron, 25 for each hexahedron, and about 2.5 kB a hexahedron meanwhile.
@@ -57,8 +58,8 @@ public:
 
   ///@{
   /**
-   * What cells aim for. Initial: their shape at rest. Ideal: regular tetrahedra, cubes, and wedges
-   * and pyramids with all edges alike. Default Ideal.
+   * The target shape of the cells. Initial: the undeformed shape. Ideal: regular tetrahedra, cubes,
+   * and wedges and pyramids with all edges of one length. Default Ideal.
    */
   vtkSetClampMacro(TargetShape, int, TARGET_SHAPE_INITIAL, TARGET_SHAPE_IDEAL);
   vtkGetMacro(TargetShape, int);
@@ -68,8 +69,8 @@ public:
 
   ///@{
   /**
-   * Most steps of Newton's method, in each of which every node moves once; untangling takes at most
-   * twenty steps of L-BFGS for each. Default 50, range [1, 100000].
+   * The largest number of Newton steps, in each of which every node moves once. Untangling takes at
+   * most twenty steps of L-BFGS for each of them. Default 50, range [1, 100000].
    */
   vtkSetClampMacro(IterationLimit, int, 1, 100000);
   vtkGetMacro(IterationLimit, int);
@@ -77,9 +78,9 @@ public:
 
   ///@{
   /**
-   * The improvement ends once no node moves farther in a step than this part of the mean length of
-   * its edges, or once a step improves the mean by less than a millionth. Default 1e-3, range
-   * [1e-12, 1].
+   * The step length at which the improvement ends, relative to the mean length of a node's edges:
+   * it ends once no node moves farther. It also ends once a step improves the mean by less than a
+   * millionth. Default 1e-3, range [1e-12, 1].
    */
   virtual void SetStopMove(double value);
   vtkGetMacro(StopMove, double);
@@ -88,8 +89,8 @@ public:
   ///@{
   /**
    * As of the last execution: steps of L-BFGS and of Newton's method, rounds of the latter in which
-   * only the nodes round bad cells moved, iterations of its linear solver, evaluations of the
-   * objectives, nodes that went back to keep the minimum, and cells that the boundary itself
+   * only the nodes around bad cells moved, iterations of its linear solver, evaluations of the
+   * objectives, nodes that were moved back to keep the minimum, and cells that the boundary itself
    * inverts.
    */
   vtkIdType GetUntangleSteps() { return this->GetCount("UntangleSteps"); }

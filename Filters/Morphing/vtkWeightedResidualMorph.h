@@ -3,20 +3,20 @@
  * @class   vtkWeightedResidualMorph
  * @brief   morphs a mesh by an affine fit of its boundary's motion and the residuals nearby
  *
- * An affine map is fitted to the motion of all prescribed nodes. What it leaves of the motion of
- * the prescribed nodes nearest to a node inside, the residuals, is added there, weighted by inverse
- * squared distance (equations (3) to (6) of Staten et al., equation (3) with the square of least
- * squares). Affine motions of the boundary are reproduced exactly. The mesh's cells are not looked
- * at, so any volume mesh will do.
+ * An affine map is fitted to the motion of all prescribed nodes. An interior node follows this map,
+ * plus a weighted mean of the residuals of the prescribed nodes nearest to it. Weights are inverse
+ * squared distances (equations (3) to (6) of Staten et al., equation (3) as a least-squares fit).
+ * Affine motions of the boundary are reproduced exactly. The mesh's cells are not used, so any
+ * volume mesh will do.
  *
- * The motion jumps where one neighbor takes another's place, and on fine meshes the nodes on
- * either side of the middle see different walls: cells there are the first to invert.
- * AdaptiveNeighbors lets nodes see the walls on all sides.
+ * The motion jumps where one neighbor replaces another. On fine meshes the nodes on either side of
+ * the middle follow different walls: cells there are the first to invert. AdaptiveNeighbors lets
+ * nodes follow the walls on all sides.
  *
- * Prescribed nodes that all lie in one plane are fitted with the least change: nodes off the plane
- * keep their distance from it. A fit that turns the mesh inside out draws a warning.
+ * Prescribed nodes that all lie in one plane are fitted with the minimum change: nodes off the
+ * plane keep their distance from it. A fit that mirrors the mesh gives a warning.
  *
- * Memory: 12 bytes a node inside and neighbor, about 1 kB a node with 80 neighbors.
+ * Memory: 12 bytes an interior node and neighbor, about 1 kB a node with 80 neighbors.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311,
@@ -39,7 +39,7 @@ public:
 
   ///@{
   /**
-   * How many prescribed nodes take part at a node inside: the nearest, or all where there are
+   * The number of nearest prescribed nodes that an interior node follows; all where there are
    * fewer. With AdaptiveNeighbors the number to start from. Changing it prepares again. Default 80,
    * the paper's for volumes; range [1, VTK_INT_MAX].
    */
@@ -49,10 +49,9 @@ public:
 
   ///@{
   /**
-   * Whether a node's number of neighbors is doubled until they surround it, that is, until it lies
-   * in their convex hull. Time and memory grow with the size of the boundary: 20 times those of 80
-   * neighbors on a cube of 50 x 50 x 50 cells. Changing it prepares again. Default off, as in the
-   * paper.
+   * Whether a node's number of neighbors is doubled until the node lies in their convex hull. Time
+   * and memory grow with the size of the boundary: 20 times those of 80 neighbors on a cube of
+   * 50 x 50 x 50 cells. Changing it prepares again. Default off, as in the paper.
    */
   vtkSetMacro(AdaptiveNeighbors, bool);
   vtkGetMacro(AdaptiveNeighbors, bool);

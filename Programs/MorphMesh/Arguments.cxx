@@ -22,8 +22,8 @@ const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output
                           "boundary, writes it, and prints its quality.\n"
                           "The boundary is what --extract-boundary writes, with its points moved "
                           "by any program that keeps the point\n"
-                          "array MorphPointId; or points with --boundary-id-array; or rest "
-                          "positions with --displacement-array.\n"
+                          "array MorphPointId; or points with --boundary-id-array; or "
+                          "undeformed points with --displacement-array.\n"
                           "\n"
                           "Reads  .vtu .pvtu .vtk .inp (AVS UCD) .neu (Gambit) .e .exo .ex2 .exii "
                           "(Exodus II); boundaries also\n"
@@ -113,12 +113,12 @@ std::vector<Option> optionsOf(Arguments& result)
       text(result.boundaryIdArray) },
     { "--displacement-array", "<name>", "point vectors of the boundary by which its nodes move",
       text(result.displacementArray) },
-    { "--scale-factor", "<number>", "how much of the motion to apply; by default 1",
+    { "--scale-factor", "<number>", "the factor of the motion; by default 1",
       [&](const std::string& value) { result.scaleFactor = number("--scale-factor", value); } },
     { "--free-unnamed-boundary", nullptr,
-      "let outer nodes move that the boundary does not name; by default they stay",
+      "let the outer nodes move that the boundary does not name; by default they stay",
       flag(result.freeUnnamedBoundary) },
-    { "--post-smooth", nullptr, "smooth what the method made, before --validity looks at it",
+    { "--post-smooth", nullptr, "smooth the method's result, before --validity checks it",
       flag(result.postSmooth) },
     { "--validity", "<name>",
       "what to do about inverted cells, by default Report:\nNone, Report (warn), SubStep, Repair, "

@@ -8,7 +8,7 @@
 
 namespace morph_mesh
 {
-/// What the command line asks for.
+/// The task, files and options of a command line.
 struct Arguments
 {
   enum class Task
@@ -33,12 +33,12 @@ struct Arguments
   std::string help; ///< for ShowHelp
 };
 
-/// The command line cannot be understood.
+/// The error of a wrong command line.
 struct UsageError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws UsageError.
+/// Parses the command line. Throws UsageError.
 Arguments parseArguments(int argc, char* argv[]);
 }

@@ -9,22 +9,22 @@ class vtkAlgorithm;
 
 namespace morph_mesh
 {
-/// A file cannot be read or written, or a filter has no result.
+/// The error of a file that cannot be read or written, or of a filter without a result.
 struct Failure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// As Failure, after the message: nothing is left to be said.
+/// As Failure, but its message has been printed already.
 struct Reported : std::exception
 {
 };
 
-/// From now on what VTK's objects say that nobody listens to (a parser inside a reader) goes to
-/// standard error, in this program's form, or to the living ConsoleMessages.
+/// Sends VTK's unobserved messages (of a parser inside a reader, for instance) to standard error,
+/// in this program's form, or to the current ConsoleMessages.
 void installConsole();
 
-/// Keeps what VTK's objects say that nobody listens to, while it lives; one object at a time.
+/// Collects VTK's unobserved messages during its lifetime; one object at a time.
 class ConsoleMessages
 {
 public:
@@ -33,11 +33,12 @@ public:
   ConsoleMessages(const ConsoleMessages&) = delete;
   ConsoleMessages& operator=(const ConsoleMessages&) = delete;
 
-  /// In their order: the first is the cause of the others.
+  /// The messages in their order: the first is the cause of the others.
   std::vector<std::string> errors, warnings;
 };
 
-/// Takes the errors and warnings of a VTK algorithm while it lives, instead of VTK's console.
+/// Collects the errors and warnings of a VTK algorithm during its lifetime, in place of VTK's
+/// console.
 class Messages
 {
 public:

@@ -8,12 +8,12 @@ class vtkAlgorithm;
 
 namespace morph_mesh
 {
-/// A line on standard error that shows how far an algorithm is, from half a second on; gone when it
-/// goes.
+/// A line on standard error that shows the progress of an algorithm, from half a second on. It is
+/// erased when the object is destroyed.
 class ProgressBar
 {
 public:
-  /// `always`: from the start, and even if standard error is no terminal.
+  /// `always`: show it from the start, and even if standard error is no terminal.
   ProgressBar(vtkAlgorithm* algorithm, const std::string& label, bool always);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

@@ -6,14 +6,14 @@
 
 namespace morph_mesh
 {
-/// VTK's readers trust their files: on a damaged one some crash, take all memory or never end.
-/// While this object lives, such a reader ends the program with exit status 1 and one message that
-/// names the file:
+/// Ends the program with exit status 1 and one message where one of VTK's readers misbehaves. These
+/// readers trust their files: on a damaged file some crash, take all memory or never end. The
+/// message names the file. It comes, during the object's lifetime,
 /// - after a signal of the processor, or abort();
 /// - after 3 s of computing and 2 s more for each megabyte of the file.
-/// Memory is limited to what was taken before, 1 GiB and 1100 times the size of the file, the most
-/// that zlib can expand to; beyond that the readers get std::bad_alloc.
-/// What C libraries print to standard error is dropped.
+/// Memory is limited to the current use, 1 GiB and 1100 times the size of the file, the maximum
+/// expansion of zlib; beyond that the readers get std::bad_alloc.
+/// Output of C libraries to standard error is dropped.
 /// One object at a time; no thread may have been started with these signals blocked.
 class ReadingGuard
 {

@@ -392,7 +392,7 @@ TEST_F(RelativeSteps, ATimeAtWhichTheBoundaryFailsEndsTheExecution)
   this->Filter->UpdateTimeStep(1);
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_TRUE(listener.ExecutiveErrors.empty());
-  EXPECT_NE(listener.Errors[0].find("The boundary could not be had at time 0.5"), std::string::npos)
+  EXPECT_NE(listener.Errors[0].find("The boundary is not available at time 0.5"), std::string::npos)
     << listener.Errors[0];
   EXPECT_STREQ(this->Filter->GetMorphStatus(), "Failed");
   // The steps before it are kept.
@@ -406,7 +406,7 @@ TEST_F(RelativeSteps, ATimeAtWhichTheBoundaryFailsEndsTheExecution)
 
 TEST(RelativeStepsOfInversionFree, AimForTheMeshAtRest)
 {
-  // There and back: what aims for the shapes at rest, and not for those of the step before, comes
+  // There and back: a target of undeformed shapes, and not of those of the step before, comes
   // back to them.
   auto grid = grids::hexes(3);
   auto rest = grids::boundary(grid, [](const grids::Row& x) { return x; });

@@ -56,7 +56,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
         return self.fail("no surface is at the top")
 
     def assert_moves(self, where):
-        """Exactly the boundary nodes at rest where `where` (a function of points) holds move."""
+        """Exactly the boundary nodes move whose undeformed points satisfy the function `where`."""
         self.displacement.UpdatePipeline()
         role = array(self.displacement, "Role")
         rest = array(self.displacement, "RestPosition")[:, :3]

@@ -10,14 +10,15 @@ class vtkDataObject;
 
 namespace morph::filters
 {
-/// A source that hands out boundaries kept in memory, each at its time.
+/// A source of boundaries that are kept in memory, each for its time.
 class BoundarySeries : public vtkAlgorithm
 {
 public:
   static BoundarySeries* New();
   vtkTypeMacro(BoundarySeries, vtkAlgorithm);
 
-  /// Ascending times, and as many boundaries, of one class; a single one has no time.
+  /// `times`: ascending, one for each boundary; none for a single boundary. All boundaries are of
+  /// one class.
   void SetBoundaries(
     std::vector<double> times, std::vector<vtkSmartPointer<vtkDataObject>> boundaries);
 

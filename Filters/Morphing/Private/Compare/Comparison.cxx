@@ -74,7 +74,7 @@ double lastValidTime(const MethodRun& run)
   return valid > 0 ? run.Steps[valid - 1].Time : NaN;
 }
 
-/// The first step, of `steps`, that is not among the valid ones; -1 where all are.
+/// The first of the `steps` that is not valid; -1 where all are valid.
 int firstInvertedStep(const MethodRun& run, int steps)
 {
   return run.ValidSteps() < steps ? run.ValidSteps() : -1;
@@ -183,7 +183,7 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output)
 void WriteChart(
   const std::vector<MethodRun>& runs, const std::vector<double>& times, vtkTable* output)
 {
-  // All columns before the first row: a table takes none that is shorter than the others.
+  // All columns before the first row: a table refuses a column that is shorter than the others.
   Numbers time(output, "Time");
   std::deque<Numbers> minimum;
   for (const MethodRun& run : runs)

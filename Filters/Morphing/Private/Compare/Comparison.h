@@ -11,7 +11,7 @@ class vtkTable;
 
 namespace morph::filters
 {
-/// What vtkCompareMorphMethods finds out about one method in one stepping.
+/// The results of one method with one stepping in vtkCompareMorphMethods.
 struct MethodRun
 {
   struct Step
@@ -23,24 +23,24 @@ struct MethodRun
   };
   std::string Method;
   std::string Stepping;
-  std::vector<Step> Steps; ///< one for each that gave a mesh
-  std::string Failure;     ///< what ended the run before its last step
+  std::vector<Step> Steps; ///< one for each step that gave a mesh
+  std::string Failure;     ///< the error that ended the run before its last step
   vtkIdType BadAtRest = 0; ///< inverted and degenerate cells of the mesh itself
   double PeakMegabytes = 0;
   int Rank = 0; ///< 1 is best
 
   std::string Title() const;
-  /// How many steps from the first on have no more inverted and degenerate cells than the
+  /// The number of steps up to the first with more inverted and degenerate cells than the
   /// undeformed mesh.
   int ValidSteps() const;
-  /// Of the last of these; NaN where there is none.
+  /// The minimum scaled Jacobian at the last valid step; NaN where there is none.
   double LastValidMinimum() const;
   double Seconds() const;
 };
 
 namespace Comparison
 {
-/// What a filter has just computed. `percentile`: see vtkCompareMorphMethods.
+/// The step that a filter has just computed. `percentile`: see vtkCompareMorphMethods.
 MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
 
 /// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of
@@ -52,7 +52,7 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output);
 /// A row for each of `times`, a column of minimum scaled Jacobians for each run.
 void WriteChart(
   const std::vector<MethodRun>& runs, const std::vector<double>& times, vtkTable* output);
-/// A row for each run, best first. `steps`: how many there are.
+/// A row for each run, best first. `steps`: the number of steps.
 void WriteRanking(const std::vector<MethodRun>& runs, int steps, vtkTable* output);
 }
 }

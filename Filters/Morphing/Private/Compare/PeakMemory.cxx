@@ -32,10 +32,10 @@ double status(const std::string& name)
 PeakMemory::PeakMemory()
 {
 #ifdef __GLIBC__
-  malloc_trim(0); // what was freed would be used again unseen
+  malloc_trim(0); // freed memory would be reused without a new peak
 #endif
   std::ofstream reset("/proc/self/clear_refs");
-  reset << "5" << std::flush; // the peak is what is held now
+  reset << "5" << std::flush; // the peak is now the current size
   this->Start = reset ? status("VmRSS:") : std::numeric_limits<double>::quiet_NaN();
 }
 

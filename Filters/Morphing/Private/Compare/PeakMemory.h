@@ -3,8 +3,8 @@
 
 namespace morph::filters
 {
-/// The most memory that this process has held since the object was made, more than it held then. On
-/// Linux; NaN elsewhere, and where the system does not let a process set its peak back.
+/// The largest increase of this process's memory since the object was made. Linux only: NaN
+/// elsewhere, and where the system does not let a process reset its peak.
 class PeakMemory
 {
 public:

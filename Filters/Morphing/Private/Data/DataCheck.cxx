@@ -95,7 +95,7 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& subject)
   }
 }
 
-/// Bounds of what is finite, and the points beyond Largest.
+/// The bounds of the finite points, and the points beyond Largest.
 class Range
 {
 public:
@@ -217,7 +217,7 @@ void Require(vtkDataObject* data, const char* subject, Cells cells)
 
 bool IsModerate(const Eigen::RowVector3d& x)
 {
-  // Written so that a NaN is not.
+  // Written so that a NaN is not moderate.
   return (x.array().abs() <= Largest).all();
 }
 

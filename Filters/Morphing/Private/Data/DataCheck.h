@@ -7,28 +7,27 @@
 
 class vtkDataObject;
 
-/// What every data set has to fulfil before anything of it is used: VTK checks neither the lengths
-/// of arrays nor ids, and reads past the end of both.
+/// The checks of every data set before its use. VTK checks neither the lengths of arrays nor ids,
+/// and reads past the end of both.
 namespace morph::filters::DataCheck
 {
 /// Numbers between these bounds have sixth powers that neither overflow nor vanish.
 constexpr double Largest = 1e50, Smallest = 1e-50;
 
-/// Who checks that cells name points that exist.
+/// The place where node ids of cells are checked.
 enum class Cells
 {
   Here,   ///< Require()
   InCore, ///< morph::validate(), which sees every new mesh
 };
 
-/// Throws morph::Error that begins with `subject` ("The input"), and says what to do, where
+/// Throws a morph::Error that begins with `subject` ("The input") and says what to do, where
 /// - a point or cell array has fewer tuples than there are points or cells (more do no harm);
 /// - the cells of a grid or of polygonal data are inconsistent, or name points that do not exist;
 /// - a coordinate is above Largest, or the largest side of the bounding box is below Smallest and
-///   not
-///   0. Coordinates that are not finite pass: who uses them knows better which nodes they are.
-/// Null passes, and data without points of its own. Cost: one pass over the points, and over the
-/// cells of what is not a grid.
+///   not 0. Coordinates that are not finite pass: their user names the nodes.
+/// Null passes, and so do data without points of their own. Cost: one pass over the points, and
+/// over the cells of other data than grids.
 void Require(vtkDataObject* data, const char* subject, Cells cells = Cells::Here);
 
 /// Whether x is finite and not above Largest.
@@ -37,7 +36,7 @@ bool IsModerate(const Eigen::RowVector3d& x);
 /// The rows of `x` that are not moderate.
 std::vector<morph::Index> Immoderate(const morph::Points& x);
 
-/// Throws morph::Error unless `size`, the largest side of the bounding box of what `subject` says,
-/// is 0 or at least Smallest.
+/// Throws morph::Error unless `size` is 0 or at least Smallest. `size`: the largest side of the
+/// bounding box; `subject`: what it bounds.
 void RequireExtent(double size, const char* subject);
 }

@@ -5,7 +5,7 @@ namespace morph::filters
 {
 namespace
 {
-/// The node after the corners that lies midway between exactly these corners, or -1.
+/// The mid-side or face node that lies midway between exactly these corners, or -1.
 int nodeBetween(const morph::CellShape& shape, unsigned corners)
 {
   for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k)

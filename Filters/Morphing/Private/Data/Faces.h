@@ -11,7 +11,7 @@ namespace morph::filters::Faces
 /// Places in the cell's node list, in winding order.
 using Polygon = std::vector<int>;
 
-/// Face `face` of a volume cell, outward by the right-hand rule in a cell in VTK's order: one
-/// polygon for a linear cell, and pieces through all nodes of the face for a quadratic one.
+/// The polygons of face `face` of a volume cell, outward by the right-hand rule in VTK's order. A
+/// linear cell has one polygon; a quadratic one has pieces through all nodes of the face.
 std::vector<Polygon> Pieces(const morph::CellShape& shape, int face);
 }

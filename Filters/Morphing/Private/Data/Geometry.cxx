@@ -29,8 +29,8 @@ namespace
 using morph::Error;
 using morph::Index;
 
-/// The array of that name, one number for each of `count` cells or points; null where there is
-/// none.
+/// The array of that name, with one number for each of `count` cells or points; null where there is
+/// no such array.
 vtkDataArray* findNumbers(
   vtkDataSetAttributes* data, const std::string& name, vtkIdType count, const char* what)
 {
@@ -51,7 +51,7 @@ vtkDataArray* findNumbers(
     throw Error(subject + " has " + std::to_string(numbers->GetNumberOfComponents()) +
                 " components; one is needed.");
   }
-  // VTK does not see to it that arrays are as long as their data set.
+  // VTK does not ensure that arrays are as long as their data set.
   if (numbers->GetNumberOfTuples() != count)
   {
     throw Error(subject + " has " + std::to_string(numbers->GetNumberOfTuples()) + " values for " +
@@ -103,8 +103,8 @@ vtkDataArray* requireCellNumbers(vtkDataSet* input, const std::string& name)
   return array;
 }
 
-/// Ids of the faces from the cells on them, or from the cells behind them where the grid has volume
-/// cells alone.
+/// The ids of the faces, from the cells on them or, where the grid has volume cells alone, from the
+/// cells behind them.
 std::vector<Index> surfaceIds(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const std::string& name)
 {

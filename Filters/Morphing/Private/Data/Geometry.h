@@ -10,7 +10,7 @@ class vtkDataSetAttributes;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-/// Vertices, curves and surfaces of a grid's boundary, between VTK's arrays and the core.
+/// Conversion of vertices, curves and surfaces of a boundary between VTK's arrays and the core.
 namespace morph::filters::Geometry
 {
 constexpr const char* DimensionName = "GeometryDimension";
@@ -26,18 +26,18 @@ struct Options
   bool UseGeometryArrays = true; ///< the point arrays above, where the grid has them
 };
 
-/// Classifies the boundary of `grid`; `mesh` and `faces` are its own. Surface ids come from
-/// SurfaceIdArray: a boundary face has that of the two-dimensional cell on it, or, in a grid
-/// without such cells, of the volume cell behind it; faces without a cell on them have none. Else
-/// GeometryDimension and GeometryId (and CurveParameter) are used where the grid has them. Throws
-/// morph::Error for arrays that do not exist, or have the wrong type or length or values that are
-/// no whole numbers, and where morph::classify() does.
+/// Classifies the boundary of `grid`. `mesh`, `faces`: of `grid`. Surface ids come from
+/// SurfaceIdArray: a boundary face has the id of the two-dimensional cell on it or, in a grid
+/// without such cells, of the volume cell behind it. Faces without a cell on them have none.
+/// Without a SurfaceIdArray, GeometryDimension and GeometryId (and CurveParameter) are used if the
+/// grid has them. Throws morph::Error as morph::classify() does, and for arrays that do not exist,
+/// or have the wrong type or length, or values that are not whole numbers.
 morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
 
-/// The same for a surface that was extracted before. `faces`: its polygons, each a face, of nodes
-/// that are its points. `points`: #points x 3, where they are looked at. SurfaceIdArray is a cell
-/// array of the surface.
+/// Classifies a surface that was extracted before. `faces`: its polygons, each a face, with its
+/// points as nodes. `points`: #points x 3, the positions to use. SurfaceIdArray is a cell array of
+/// the surface.
 morph::Classification Classify(vtkPolyData* surface, const morph::Points& points,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
 
@@ -51,8 +51,8 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
 void AddSurfaceIds(const morph::Classification& geometry, const std::vector<morph::Index>& faceOf,
   vtkPolyData* output);
 
-/// The vertices as vtkVertex and the curves as vtkPolyLine, at rest, with the three arrays above
-/// and MorphPointId on the points, and GeometryDimension (0 and 1) and GeometryId on the cells.
+/// Writes the vertices as vtkVertex and the curves as vtkPolyLine, undeformed. Points have the
+/// three arrays above and MorphPointId; cells have GeometryDimension (0 and 1) and GeometryId.
 void WriteCurves(
   vtkUnstructuredGrid* grid, const morph::Classification& geometry, vtkPolyData* output);
 }

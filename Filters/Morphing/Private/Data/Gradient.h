@@ -10,16 +10,17 @@
 class vtkDataArray;
 class vtkDoubleArray;
 
-/// Derivatives of an objective, between VTK's arrays and the core.
+/// Conversion of an objective's derivatives between VTK's arrays and the core.
 namespace morph::filters::Gradient
 {
 /// The array as #nodes x 3. Throws morph::Error where it is null or of another size, or holds
 /// values that are not finite, naming their node ids.
 morph::Points Require(vtkDataArray* gradient, vtkIdType nodes);
 
-/// `prescribed`: #prescribed x 3. `sources`: #prescribed, each node's boundary point, or -1.
-/// `result`: becomes #points tuples, each the sum over the nodes that follow the point. Throws
-/// morph::Error where `prescribed` is not finite.
+/// Sums the derivatives of prescribed nodes for each boundary point. `prescribed`: #prescribed x 3.
+/// `sources`: #prescribed, each node's boundary point, or -1. `result`: becomes #points tuples,
+/// each the sum over the nodes that follow the point. Throws morph::Error where `prescribed` is not
+/// finite.
 void Gather(const morph::Points& prescribed, const std::vector<morph::Index>& sources,
   vtkIdType points, vtkDoubleArray* result);
 }

@@ -24,7 +24,7 @@ namespace morph::filters
 {
 namespace
 {
-/// Tells 0.0 from -0.0.
+/// Compares bits, so that 0.0 and -0.0 differ.
 std::uint64_t bitsOf(double value)
 {
   std::uint64_t bits;
@@ -77,8 +77,7 @@ bool equals(const Value* values, vtkIdType count, const std::vector<morph::Index
            [](morph::Index a, Value b) { return a == static_cast<morph::Index>(b); });
 }
 
-/// Unknown cells pass the core's checks as poly-vertices; the ids they name are checked all the
-/// same.
+/// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
 void validateKnown(morph::Mesh& mesh)
 {
   const std::vector<std::uint8_t> types = mesh.types;
@@ -201,7 +200,7 @@ bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   {
     return true;
   }
-  // Bits, not values: 0.0 and -0.0 are different rest positions to an identical motion.
+  // Bits, not values: 0.0 and -0.0 are different undeformed positions to an identical motion.
   const auto same = [&mesh](auto* values)
   {
     const double* kept = mesh.points.data();

@@ -7,7 +7,7 @@ class vtkDataArray;
 class vtkPoints;
 class vtkUnstructuredGrid;
 
-/// Between vtkUnstructuredGrid and morph::Mesh.
+/// Conversion from vtkUnstructuredGrid to morph::Mesh.
 namespace morph::filters::GridMesh
 {
 /// What to do with cells of a type the core does not know (polyhedra, Lagrange cells, ...).
@@ -22,17 +22,18 @@ enum class UnknownCells
 /// cell sizes. Cost: one pass over the grid; 24 bytes a point and 8 bytes a connectivity entry.
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 
-/// `points` as double, #points x 3. A null pointer gives 0 x 3.
+/// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
 morph::Points FromPoints(vtkPoints* points);
 
-/// The first three components of each tuple as double, #tuples x 3. The array needs at least three.
+/// Copies the first three components of each tuple as double, #tuples x 3. The array needs at least
+/// three.
 morph::Points FromVectors(vtkDataArray* vectors);
 
-/// Diagonal of the bounding box of the nodes that volume cells use.
+/// The diagonal of the bounding box of the nodes that volume cells use.
 double Size(const morph::Mesh& mesh);
 
-/// Whether the grid's cells (points) are, number by number, those `mesh` was copied from. Ends
-/// at the first difference; allocates a byte a cell.
+/// Whether the grid's cells (points) are still, number by number, the ones that `mesh` was copied
+/// from. Ends at the first difference; allocates a byte a cell.
 bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
 bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
 }

@@ -9,7 +9,7 @@ class vtkDataObject;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
-/// The moved mesh as every morphing filter writes it.
+/// Writes the moved mesh as the output of every morphing filter.
 namespace morph::filters::Output
 {
 /// Makes `output` a shallow copy of `input` with new points, #nodes x 3, and the point vectors

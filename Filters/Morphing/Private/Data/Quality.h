@@ -10,13 +10,13 @@
 
 class vtkUnstructuredGrid;
 
-/// Scaled Jacobian and certificate as every filter of this module writes them.
+/// Measures and writes the scaled Jacobian and certificate for every filter of this module.
 namespace morph::filters::Quality
 {
 /// Measures `output` on its points as written (the rounding to float included). `mesh`: the cells
-/// of `output`; its points are not read. `orientation`: #cells of +1 / -1 from the REST mesh
-/// (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType duplicate or hidden) are not
-/// measured.
+/// of `output`; its points are not read. `orientation`: #cells of +1 / -1 from the
+/// undeformed mesh (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType duplicate or
+/// hidden) are not measured.
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, morph::Monitor& monitor);
 
@@ -25,12 +25,13 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
 
-/// Bodies that have cells of orientation -1: mirrored ones. `orientation`: #cells (Topology.h).
+/// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells
+/// (Topology.h).
 morph::Index MirroredBodies(
   const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
 
-/// Whether Measure() of these cells gives what measuring the points that were computed, in double,
-/// has given.
+/// Whether measuring the points as written gives the same result as measuring the computed ones,
+/// which are in double precision.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);
 
 /// Adds to `output` the cell array `ScaledJacobian` (double, NaN where not measured) as active
@@ -46,6 +47,6 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
 /// not examined, -1 inverted).
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
 
-/// Removes the certificate and its counts, so that an input's own do not pass for this mesh's.
+/// Removes the certificate and its counts, so that those of an input do not pass for the output's.
 void RemoveCertificate(vtkUnstructuredGrid* output);
 }

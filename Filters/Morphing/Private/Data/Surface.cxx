@@ -20,11 +20,11 @@ namespace morph::filters
 {
 namespace
 {
-/// The pieces of each face of each cell type, made when first asked for.
+/// The pieces of each face of each cell type, computed at first use.
 class FacePieces
 {
 public:
-  /// Those of boundary face `face`.
+  /// The pieces of boundary face `face`.
   const std::vector<Faces::Polygon>& Of(
     const morph::Mesh& mesh, const morph::BoundaryFaces& faces, morph::Index face)
   {

@@ -7,7 +7,7 @@
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-/// The outer boundary of a grid as polygons that remember their nodes.
+/// Writes the outer boundary of a grid as polygons that keep their node ids.
 namespace morph::filters::Surface
 {
 /// The point arrays that vtkExtractMorphBoundary writes.
@@ -16,10 +16,10 @@ constexpr const char* IdName = "MorphPointId";
 /// point array of three components for a vector and would rotate it.
 constexpr const char* RestName = "RestPosition";
 
-/// Fills `output` with faces.nodes as points, at rest, and the faces as polygons, as
-/// vtkExtractMorphBoundary describes them: point arrays of the grid, MorphPointId and RestPosition,
-/// cell arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. Returns for each
-/// polygon the number of its face: a face of a quadratic cell becomes several polygons.
+/// Fills `output` with faces.nodes as points, undeformed, and the faces as polygons. The arrays are
+/// those of vtkExtractMorphBoundary: point arrays of the grid, MorphPointId and RestPosition, cell
+/// arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. Returns for each polygon
+/// the number of its face: a face of a quadratic cell becomes several polygons.
 std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, vtkPolyData* output);
 

@@ -30,7 +30,7 @@ namespace
 using morph::Error;
 using morph::Index;
 
-/// What the geometry of an input depends on beside its points and faces.
+/// The arrays and options that the geometry of an input depends on beside its points and faces.
 std::string geometryKey(vtkPointSet* input, const Geometry::Options& options)
 {
   std::ostringstream key;
@@ -72,7 +72,7 @@ vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int compo
   return array;
 }
 
-/// Coordinates that cannot be computed with are refused; `what`: "coordinates".
+/// Throws for coordinates that are not finite or too large; `what`: "coordinates".
 morph::Points moderatePoints(morph::Points points, const char* what)
 {
   std::vector<Index> notFinite, huge;
@@ -151,7 +151,7 @@ void BoundaryModel::Update(
     return;
   }
   State next;
-  std::swap(next, this->Kept); // so that nothing is left after an error
+  std::swap(next, this->Kept); // so that nothing is kept after an error
   next.Input = input;
   next.InputTime = input->GetMTime();
   next.InputVersion = ++this->Versions;

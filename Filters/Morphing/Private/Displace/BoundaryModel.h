@@ -13,33 +13,31 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-/// The boundary of a mesh with its geometry, from a grid or from a surface that was extracted from
-/// one before, and kept while they stay the same. Nodes are the input's points.
+/// The boundary of a mesh with its geometry, kept while the input stays the same. The input is a
+/// grid, or a surface that was extracted from one before. Nodes are the input's points.
 class BoundaryModel
 {
 public:
-  /// Takes the input over, a grid or polygonal data. What is kept is used again: all of it where
-  /// the input was not modified, and the geometry where the modified input has the same boundary
-  /// and the same arrays that tell its geometry. Throws morph::Error as Geometry::Classify() does,
-  /// for a grid without volume cells, and for a surface without polygons, MorphPointId or
-  /// RestPosition; then nothing is kept.
+  /// Copies the input, a grid or polygonal data. An unmodified input costs nothing. The geometry is
+  /// reused where a modified input has the same boundary and the same arrays that define its
+  /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells,
+  /// and for a surface without polygons, MorphPointId or RestPosition; then nothing is kept.
   void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor);
 
-  const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< where they are
-  /// Where they were: a surface's RestPosition, and a grid's own points.
+  const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< current positions
+  /// Undeformed positions: a surface's RestPosition, and a grid's own points.
   const morph::Points& Rest() const
   {
     return this->Kept.Mesh.numberOfCells() > 0 ? this->Kept.Mesh.points : this->Kept.Rest;
   }
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
-  /// Of a surface: at its RestPosition.
+  /// The geometry; that of a surface is found at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }
   const std::vector<morph::Index>& BodyOfNode() const { return this->Kept.BodyOfNode; }
-  /// As morph::faceAreas() has them, but outwards where cells are wound inside out.
+  /// The areas of morph::faceAreas(), but outwards where cells are wound inside out.
   morph::Points OutwardAreas(const morph::Points& points) const;
 
-  /// The boundary as vtkClassifyBoundary writes it, where the input's points are, with the input's
-  /// arrays.
+  /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
   vtkPolyData* Surface() const;
   /// The node of each point of Surface(), ascending.
   const std::vector<morph::Index>& NodeOfPoint() const { return this->Kept.NodeOfPoint; }
@@ -60,7 +58,7 @@ private:
     morph::Mesh Mesh; ///< of a surface: no cells
     morph::BoundaryFaces Faces;
     std::vector<std::int8_t> Orientation; ///< #faces
-    morph::Points Rest;                   ///< of a surface: what its geometry was found at
+    morph::Points Rest;                   ///< of a surface: where its geometry was found
     std::vector<morph::Index> BodyOfNode;
     std::string GeometryKey;
     morph::Classification Geometry;

@@ -12,7 +12,7 @@ class vtkImplicitFunction;
 class vtkPointSet;
 class vtkSelection;
 
-/// Which nodes of a boundary move, and which are held.
+/// The choice of the nodes of a boundary that move, and of those that are held.
 namespace morph::filters::Choice
 {
 enum class By
@@ -40,9 +40,10 @@ struct Result
   std::vector<std::uint8_t> IsMovingFace; ///< #faces
 };
 
-/// Nodes between corners (of quadratic cells) that all move, move too. A face moves if it is of a
-/// patch that does or, where something else than patches was chosen, if all of its corners do.
-/// Nodes of a held patch that are chosen to move, move. `input`: what `model` was made from. Throws
-/// morph::Error where nothing on the boundary is chosen, with what is missing.
+/// Chooses the nodes and faces that move. Nodes between corners (of quadratic cells) that all move,
+/// move too. A face moves if its patch is chosen or, if the choice is not by patches, if all of its
+/// corners move. Nodes of a held patch that are chosen to move, move. `input`: the data that
+/// `model` was made from. Throws morph::Error where nothing on the boundary is chosen, with what is
+/// missing.
 Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options);
 }

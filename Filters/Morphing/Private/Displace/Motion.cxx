@@ -30,7 +30,7 @@ Points transformed(const Points& from, vtkAbstractTransform* transform)
   return to;
 }
 
-/// What keeps an array from being the displacements of so many points; empty where nothing does.
+/// Why an array cannot hold the displacements of so many points; empty where it can.
 std::string problem(vtkAbstractArray* any, vtkIdType points)
 {
   if (!any)

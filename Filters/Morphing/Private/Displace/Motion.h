@@ -10,7 +10,7 @@
 class vtkAbstractTransform;
 class vtkPointSet;
 
-/// Where the moving part of a boundary goes.
+/// The motion of the moving part of a boundary.
 namespace morph::filters::Motion
 {
 enum class Kind
@@ -31,16 +31,17 @@ struct Options
   double ScaleFactor = 1;
 };
 
-/// New positions of choice.Moving: #Moving x 3, none beyond 1e50; for a ScaleFactor of 0 where they
-/// are and for 1 those of the motion, bit for bit. Normals are area-weighted over the faces that
-/// move, or, at nodes without one, over all faces. Throws morph::Error for places that are not
-/// finite or beyond 1e50, naming nodes, for arrays that are missing, not numeric or of the wrong
-/// length or number of components, and as morph::nodeNormals() does. Cost: one pass.
+/// The new positions of choice.Moving: #Moving x 3, none beyond 1e50. A ScaleFactor of 0 gives the
+/// current positions and 1 those of the motion, bit for bit. Normals are area-weighted over the
+/// faces that move or, at nodes without such a face, over all faces. Throws morph::Error for
+/// positions that are not finite or beyond 1e50, naming nodes. Throws it too for arrays that are
+/// missing, not numeric or of the wrong length or number of components, and as morph::nodeNormals()
+/// does. Cost: one pass.
 morph::Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Options& options);
 
-/// Cells of model.Surface() that have an area where they are and, all of their corners moving, none
-/// at `moved` (#nodes x 3): a morph cannot keep the cells behind them.
+/// The cells of model.Surface() that lose their area at `moved` (#nodes x 3), all of their corners
+/// moving. A morph cannot keep the volume cells behind them.
 std::vector<morph::Index> Collapsed(
   const BoundaryModel& model, const Choice::Result& choice, const morph::Points& moved);
 }

@@ -27,9 +27,9 @@ namespace
 constexpr const char* InsideName = "vtkInsidedness";
 const std::string OwnExtractor = "vtkExtractSelection";
 
-/// VTK's extractor does not look at what it gets: a node without a list, with one of text for
-/// numbers, or of a kind that it does not know, ends in an assertion or in memory that is not its
-/// own.
+/// Throws where VTK's extractor would crash, since it does not check its input. A node without a
+/// list, with a list of text instead of numbers, or of an unknown kind, ends in an assertion or in
+/// memory outside its arrays.
 void requireUsable(vtkSelectionNode* node, vtkExtractSelection* extractor)
 {
   vtkAbstractArray* list = node->GetSelectionList();
@@ -53,7 +53,7 @@ void requireUsable(vtkSelectionNode* node, vtkExtractSelection* extractor)
     case vtkSelectionNode::FRUSTUM:
       isUsable = numbers && numbers->GetNumberOfValues() >= 32;
       break;
-    case vtkSelectionNode::QUERY: // what ParaView's extractor knows, and VTK's own does not
+    case vtkSelectionNode::QUERY: // known to ParaView's extractor, and not to VTK's own
       isUsable = node->GetQueryString() && extractor->GetClassName() != OwnExtractor;
       break;
     default:

@@ -24,8 +24,8 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   return some;
 }
 
-/// Mid-side and face nodes that neither move nor are held go along with their corners: else the
-/// edges between moved and resting corners would bend.
+/// Moves mid-side and face nodes that neither move nor are held with their corners. Otherwise the
+/// edges between moved and fixed corners would bend.
 void moveBetween(const BoundaryModel& model, Surroundings::Result& result)
 {
   const morph::BoundaryFaces& faces = model.Faces();
@@ -145,7 +145,7 @@ void Surroundings::Fade(const BoundaryModel& model, const Choice::Result& choice
   if (key.MotionVersion != model.MotionVersion() || key.Radius != radius ||
       key.Moving != choice.Moving || key.Held != choice.Held)
   {
-    key = Key(); // should it throw
+    key = Key(); // in case it throws
     this->Others.clear();
     for (Index node : model.Faces().nodes)
     {

@@ -8,8 +8,8 @@
 
 namespace morph::filters
 {
-/// Where the rest of a boundary goes when a part of it moves. What depends on the part alone is
-/// kept.
+/// The motion of the rest of a boundary when a part of it moves. Weights that depend on the part
+/// alone are kept.
 class Surroundings
 {
 public:
@@ -27,7 +27,7 @@ public:
     double Radius = 0; ///< of Fade, in the unit of the points
   };
 
-  /// What a node does, as the output tells it.
+  /// What a node does; the values of the output's array Role.
   enum Role : signed char
   {
     Stays = 0,
@@ -42,21 +42,21 @@ public:
     std::vector<signed char> Roles; ///< #nodes
   };
 
-  /// `targets`: of choice.Moving. Moving nodes go there, and held ones stay, exactly. Of the other
-  /// nodes of the boundary
-  /// - Stay: all stay;
-  /// - Follow: all follow as vtkMorphBoundary's do, curves first, and vertices are held;
-  /// - Fade: those within the radius of a moving node follow it in part; see morph::Falloff.
+  /// Computes the positions of all nodes. `targets`: those of choice.Moving. Moving nodes go there,
+  /// and held nodes stay, exactly. The other nodes of the boundary
+  /// - with Stay: all stay;
+  /// - with Follow: all follow as vtkMorphBoundary's do, curves first, and vertices are held;
+  /// - with Fade: nodes within the radius of a moving node follow it in part; see morph::Falloff.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. A result
   /// does not depend on what is kept.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
     const morph::Points& targets, const Options& options, morph::Monitor& monitor);
 
-  /// How often weights were made so far: those of a surface, or those of the falloff.
+  /// How often weights were computed so far, those of a surface or of the falloff.
   int PrepareCount() const;
 
 private:
-  /// What the kept weights were made for.
+  /// What the kept weights depend on.
   struct Key
   {
     vtkIdType MotionVersion = -1;

@@ -60,8 +60,8 @@ public:
   }
 
 private:
-  // Some 20 microseconds: longer than the gap between two loops of a solver, shorter than a user's
-  // patience.
+  // Some 20 microseconds: longer than the gap between two loops of a solver, and too short to waste
+  // a core.
   static constexpr int Patience = 20000;
 
   void Announce()

@@ -5,7 +5,7 @@
 
 class vtkAlgorithm;
 
-/// The frame of every filter's RequestData: nothing that is thrown reaches VTK.
+/// The frame of every filter's RequestData: no exception reaches VTK.
 namespace morph::filters::Execution
 {
 enum class Outcome
@@ -15,11 +15,11 @@ enum class Outcome
   Failed
 };
 
-/// Calls `work` on each MPI process. Where it throws on any of them, all of them call `clear`, and
-/// one reports the error, as one of `filter`'s; where it was cancelled `clear` is called, and
-/// nobody is told: whoever cancelled knows. RequestData has to return 1 in any case: after a 0 the
-/// executive adds ten lines of its own. `task`: what there may be too little memory for ("morph
-/// this mesh").
+/// Calls `work` on each MPI process. If it throws on any of them, all of them call `clear`, and one
+/// reports the error as one of `filter`'s. If it was cancelled, `clear` is called without a
+/// message: whoever cancelled knows. RequestData has to return 1 in any case: after a 0 the
+/// executive adds ten lines of its own. `task`: the words after "not enough memory to" ("morph this
+/// mesh").
 Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
   const std::function<void()>& clear);
 }

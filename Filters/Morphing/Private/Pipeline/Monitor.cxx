@@ -56,7 +56,7 @@ void Monitor::progress(double fraction)
   }
   const double value =
     this->First + (this->Last - this->First) * std::min(std::max(fraction, 0.0), 1.0);
-  // Steps a user can see, and never backwards.
+  // Only steps that a user can see, and never backwards.
   if (value >= this->Reported + 0.005)
   {
     this->Reported = value;
@@ -110,7 +110,7 @@ void Monitor::parallelFor(morph::Index n, morph::Index grain,
   vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->Threads, backend(), false },
     [&]
     {
-      // In whole pieces: some backends halve ranges below the grain that they are given.
+      // In whole pieces: some backends split ranges below the grain that they are given.
       vtkSMPTools::For(0, (n + length - 1) / length, 1,
         [&](vtkIdType first, vtkIdType last)
         {

@@ -11,28 +11,28 @@ class vtkAlgorithm;
 
 namespace morph::filters
 {
-/// The core's monitor over VTK: threads through vtkSMPTools, progress and abort through an
+/// The core's monitor for VTK. Threads are those of vtkSMPTools; progress and abort go through an
 /// algorithm.
 class Monitor : public morph::Monitor
 {
 public:
-  /// `algorithm`: whose progress is updated and whose abort flag is read; null for neither.
-  /// `threads`: 0 = as many as vtkSMPTools would use at most with the backend that is used (all
-  /// cores, or VTK_SMP_MAX_THREADS).
+  /// `algorithm`: its progress is updated and its abort flag is read; null for neither. `threads`:
+  /// their number; 0 is the maximum of the backend of vtkSMPTools (all cores, or
+  /// VTK_SMP_MAX_THREADS).
   Monitor(vtkAlgorithm* algorithm, int threads);
 
-  /// The part of the algorithm's progress that the core's [0, 1] is mapped to from now on.
+  /// Sets the part of the algorithm's progress to which the core's [0, 1] is mapped from now on.
   void SetRange(double first, double last);
 
   void progress(double fraction) override;
   bool cancelled() override;
-  /// Kept until TakeWarnings(); the same text is kept once.
+  /// Keeps the message until TakeWarnings(); the same text is kept once.
   void warn(const std::string& message) override;
   std::vector<std::string> TakeWarnings();
 
-  /// Through the backend of vtkSMPTools, or STDThread where that is Sequential (as ParaView's is by
-  /// default). STDThread starts its threads for each call, about 70 microseconds: a range not
-  /// longer than `grain` runs in the caller's thread. An exception thrown by `body` arrives in the
+  /// Uses the backend of vtkSMPTools, or STDThread where that is Sequential (ParaView's default).
+  /// STDThread starts its threads for each call, about 70 microseconds: a range not longer than
+  /// `grain` runs in the caller's thread. An exception thrown by `body` arrives in the
   /// caller's thread once the other ranges have ended.
   void parallelFor(morph::Index n, morph::Index grain,
     const std::function<void(morph::Index first, morph::Index last)>& body) override;
@@ -41,7 +41,7 @@ protected:
   int GetThreads() const { return this->Threads; }
   /// Whether the user's backend computes with one thread only, so that this class brings its own.
   static bool IsSequential();
-  /// How long to make the ranges of a loop: a few ranges a thread even out their loads.
+  /// The length of the ranges of a loop: a few ranges a thread balance the load.
   morph::Index RangeLength(morph::Index n, morph::Index grain) const;
 
 private:

@@ -31,8 +31,8 @@ int Ports::FillInformation(int port, vtkInformation* info)
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   if (port > 0)
   {
-    // RequestData names a boundary that is missing better than the executive does. ParaView's
-    // dialog lets users forget it, and asks for the time steps before they can mend that.
+    // RequestData has a better message for a missing boundary than the executive has. ParaView's
+    // dialog lets users forget it, and asks for the time steps before they can correct that.
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   return 1;
@@ -73,8 +73,8 @@ int Ports::RequestUpdateExtent(
 {
   for (int port = 0; port < this->Filter->GetNumberOfInputPorts(); ++port)
   {
-    // The executive asks all ports for the extent of port 0: too little of a larger image behind
-    // another.
+    // The executive asks all ports for the extent of port 0, which may be only a part of a larger
+    // image on another port.
     vtkInformation* info = inputVector[port]->GetInformationObject(0);
     if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
     {
@@ -99,7 +99,7 @@ vtkDataObject* Ports::Fetch(int port, std::optional<double> time) const
   if (!upstream || !upstream->Update(source->GetIndex()))
   {
     std::ostringstream text;
-    text << (port == 0 ? "The mesh" : "The boundary") << " could not be had";
+    text << (port == 0 ? "The mesh" : "The boundary") << " is not available";
     if (time)
     {
       text << " at time " << *time;
@@ -146,7 +146,7 @@ int Ports::RequestData(
     task.Reset();
   };
   const Execution::Outcome outcome = Execution::Run(this->Filter, task.Name, work, clear);
-  // With an error too: they may explain it.
+  // After an error too: the warnings may explain it.
   for (const std::string& warning : monitor.TakeWarnings())
   {
     vtkWarningWithObjectMacro(this->Filter, << warning);

@@ -16,11 +16,11 @@ namespace morph::filters
 class Monitor;
 
 /// The pipeline passes of a filter with the undeformed mesh on port 0 and the moved boundary on
-/// port 1: types, time, the frame round its work.
+/// port 1. It checks types, asks for times, and frames the filter's work.
 class Ports
 {
 public:
-  /// `filter`: whose member this is.
+  /// `filter`: the owner of this object.
   explicit Ports(vtkAlgorithm* filter)
     : Filter(filter)
   {
@@ -29,7 +29,7 @@ public:
   static int FillInformation(int port, vtkInformation* info);
   static int RequestInformation(
     vtkInformationVector** inputVector, vtkInformationVector* outputVector);
-  /// For RequestUpdateExtent: what the output port is asked for that `request` comes from.
+  /// For RequestUpdateExtent: the information of the output port that `request` comes from.
   static vtkInformation* Asked(vtkInformation* request, vtkInformationVector* outputVector);
   /// The time that an output port is asked for.
   static std::optional<double> AskedTime(vtkInformation* output);
@@ -39,25 +39,25 @@ public:
 
   struct Task
   {
-    const char* Name; ///< what there may be too little memory for ("morph this mesh")
+    const char* Name; ///< the words after "not enough memory to" ("morph this mesh")
     int NumberOfThreads;
-    /// Takes the filter's results back to those of no result.
+    /// Resets the filter's results to those of no result.
     std::function<void()> Reset;
     /// Fills the output from the undeformed mesh and the boundary, which may be null.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
     /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any
-    /// type, null where it could not be had) and "Failed" or "Cancelled"; the outputs are empty.
+    /// type, null where it is not available) and "Failed" or "Cancelled"; the outputs are empty.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
   };
-  /// Calls `task.Work`, on the one MPI process with cells if there are several. After what it
-  /// throws the outputs are empty; errors and warnings are the filter's. Returns what RequestData
-  /// has to.
+  /// Calls `task.Work`, on the one MPI process with cells if there are several. After an exception
+  /// the outputs are empty; errors and warnings are the filter's. Returns the result of
+  /// RequestData.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
-  /// For the work of a task: what the input port has at another time, none for that of its own
-  /// choice. A repeated execution would not do: VTK's executive goes on for ever where the input
-  /// fails in one that continues another. Throws Error where it fails.
+  /// For the work of a task: updates an input port to another time and returns its data; no time
+  /// means the input's own choice. Repeating the execution instead would not do: VTK's executive
+  /// never ends where the input fails in a repetition. Throws Error where the input fails.
   vtkDataObject* Fetch(int port, std::optional<double> time) const;
 
 private:

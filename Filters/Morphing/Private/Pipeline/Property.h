@@ -3,8 +3,8 @@
 
 class vtkObject;
 
-/// Setters of properties that are floating-point numbers. vtkSetMacro and vtkSetClampMacro take a
-/// NaN, in every VTK release.
+/// Setters of properties that are floating-point numbers. VTK's own macros, vtkSetMacro and
+/// vtkSetClampMacro, accept a NaN.
 namespace morph::filters::Property
 {
 /// Whether `value` is finite and in [minimum, maximum]. If not, it raises an error of `filter` that
@@ -15,8 +15,8 @@ bool Accepts(vtkObject* filter, const char* property, double value, double curre
 bool Accepts(vtkObject* filter, const char* property, double value, double current);
 }
 
-/// Defines a filter's Set`name`(double), declared in its header. After the name: the least and the
-/// greatest value, or nothing.
+/// Defines a filter's Set`name`(double), declared in its header. After the name: the
+/// minimum and the maximum, or nothing.
 #define morphSetNumberMacro(filter, name, ...)                                            \
   void filter::Set##name(double value)                                                    \
   {                                                                                       \

@@ -12,21 +12,22 @@ class Steps
 {
 public:
   Steps() = default;
-  /// `number`: steps asked for, 0 for none; `boundary`: what its pipeline says, may be null. A
-  /// boundary with several time steps has its own; one with a time range alone is taken at the ends
-  /// of `number` equal parts of it; any other is still, and its motion is cut in `number` parts.
+  /// `number`: the number of steps, 0 for none. `boundary`: the boundary's pipeline information,
+  /// may be null. A boundary with several time steps keeps them. One with a time range alone is
+  /// taken at the ends of `number` equal parts of it. Any other is constant in time, and its motion
+  /// is divided into `number` equal parts.
   Steps(int number, vtkInformation* boundary);
 
-  /// How many meshes there are: one more than NumberOfSteps asks for.
+  /// The number of meshes, one more than NumberOfSteps.
   int Number() const { return this->Count; }
   bool Any() const { return this->Count > 0; }
-  /// Whether the boundary is another one at each step.
+  /// Whether the boundary varies in time.
   bool FromBoundary() const { return this->Varies; }
   double Time(int step) const;
-  /// Of the boundary's motion, at that step: 1 where the boundary itself varies.
+  /// The fraction of the boundary's motion at a step: 1 where the boundary itself varies.
   double Fraction(int step) const;
-  /// The step that `output` is asked for: the last not after its time, or the first. Where it is
-  /// asked for no time: the last of a still boundary's, the first of a varying one's. -1 where
+  /// The step that `output` is asked for: the last one not after its time, or the first. Without a
+  /// time it is the last step of a constant boundary, and the first of one that varies. -1 where
   /// there are no steps.
   int Asked(vtkInformation* output) const;
   /// Sets the output's time steps and range, where there are steps.

@@ -11,12 +11,12 @@ class vtkInformation;
 
 namespace morph::filters
 {
-/// The undeformed mesh at one time, the boundary at the time that is asked for.
+/// Gives the undeformed mesh at one time, and the boundary at the time that is asked for.
 ///
-/// If both ports hang on one reader, fetching the boundary leaves the reader's output, which is
-/// port 0's data, at the boundary's time. Then the mesh is fetched again, and the boundary once
-/// more after a shallow copy of the mesh was taken. If both ports are fed by one port of the
-/// reader, they can only be asked for one time at once: for the rest time, and the boundary is
+/// If one reader feeds both ports, fetching the boundary leaves the reader's output, which is port
+/// 0's data, at the boundary's time. Then the mesh is fetched again, and the boundary once more
+/// after a shallow copy of the mesh was taken. If one port of the reader feeds both ports, they can
+/// only be asked for one time at once. They are asked for the mesh's time, and the boundary is
 /// fetched after the copy.
 class Time
 {
@@ -29,17 +29,17 @@ public:
   /// Sets the time that an input is asked for, or none.
   static void Ask(vtkInformation* input, std::optional<double> time);
 
-  /// For RequestUpdateExtent: sets the times that the two ports are asked for, the boundary
-  /// `boundaryTime`, or none. The rest step is the last of the mesh's time steps that is not after
-  /// `restTime`, or the first.
+  /// For RequestUpdateExtent: sets the times that the two ports are asked for. The boundary is
+  /// asked for `boundaryTime`, or for none. The mesh is asked for the last of its time steps that
+  /// is not after `restTime`, or the first.
   void Request(double restTime, std::optional<double> boundaryTime, vtkInformation* mesh,
     vtkInformation* boundary);
 
-  /// Updates what an input port hangs on, asked for a time or for none, and returns its data.
+  /// Updates an input port, for a time or for none, and returns its data.
   using Fetch = std::function<vtkDataObject*(int port, std::optional<double> time)>;
-  /// For RequestData: the undeformed mesh, `mesh` itself or, of a mesh that varies, a shallow copy.
-  /// On several MPI ranks all fetch again, or none. The boundary's data object is at its time
-  /// afterwards, and may be another one than before.
+  /// For RequestData: returns the undeformed mesh, `mesh` itself or, if the mesh varies, a shallow
+  /// copy. On several MPI ranks all fetch again, or none. Afterwards the boundary's data are at its
+  /// time, and may be another object than before.
   vtkSmartPointer<vtkDataObject> TakeRest(vtkDataObject* mesh, const Fetch& fetch) const;
 
 private:

@@ -39,8 +39,8 @@ vtkSmartPointer<vtkPoints> makePoints(const morph::Points& x)
   return points;
 }
 
-/// For each point the one that stands for all within the rounding of single precision, in which STL
-/// files are written.
+/// Gives for each point the one that replaces all points within the rounding of single precision,
+/// in which STL files are written.
 std::vector<Index> mergedPoints(const morph::Points& x)
 {
   if (x.rows() == 0)
@@ -128,7 +128,7 @@ vtkIdType nearest(
 class Triangles
 {
 public:
-  /// Those of `faces` listed in `some`.
+  /// Takes the triangles of `faces` that are listed in `some`.
   Triangles(vtkPoints* points, const morph::Points& x, const morph::BoundaryFaces& faces,
     const std::vector<Index>& some)
     : Normals(static_cast<Index>(some.size()), 3)
@@ -168,13 +168,13 @@ public:
   Row Normal(vtkIdType triangle) const { return this->Normals.row(triangle); }
 
   /// Whether there is a triangle within `radius` that `fits`; `y` is then the nearest place on
-  /// those.
+  /// these triangles.
   template <typename Fits>
   bool NearestThat(const Row& x, double radius, const Fits& fits, Row& y) const
   {
     vtkNew<vtkIdList> near;
     vtkNew<vtkGenericCell> cell;
-    // Not by the cell locator, whose search in a box takes time quadratic in what it finds.
+    // Not by the cell locator: its search in a box takes time quadratic in the number found.
     this->CenterLocator->FindPointsWithinRadius(radius + this->Largest, x.data(), near);
     near->Sort(); // of equally near triangles the first
     double least = radius * radius;
@@ -333,7 +333,7 @@ void Target::Orient(const morph::Points& points, const morph::Points& normals)
   }
   Index agree = 0, disagree = 0;
   Row y;
-  const std::size_t stride = 1 + voters.size() / 2000; // as good as all of them
+  const std::size_t stride = 1 + voters.size() / 2000; // a sample is enough
   for (std::size_t k = 0; k < voters.size(); k += stride)
   {
     const Index i = voters[k];
@@ -389,7 +389,8 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
   {
     return first >= 0;
   }
-  // Another wall is nearer, or an edge where triangles meet: look further out among those that fit.
+  // Another wall is nearer, or an edge where triangles meet: search farther, and only triangles
+  // that fit.
   const double distance = (y - x).norm();
   for (double radius = std::max(2 * distance, 1e-3 * own.Reach);; radius *= 2)
   {

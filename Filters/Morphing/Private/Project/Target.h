@@ -9,9 +9,9 @@ class vtkPolyData;
 
 namespace morph::filters
 {
-/// Polygonal data as a surface to project boundary nodes onto. Polygons and strips are cut into
-/// triangles, and points in one place (within 1e-7 of the target's size) are one point, so the
-/// triangles of an STL file hang together.
+/// Polygonal data as a surface onto which boundary nodes are projected. Polygons and strips are cut
+/// into triangles. Points in one place (within 1e-7 of the target's size) are merged, so that the
+/// triangles of an STL file are connected.
 class Target : public morph::ProjectionTarget
 {
 public:
@@ -23,13 +23,13 @@ public:
     morph::Monitor& monitor);
   ~Target() override;
 
-  /// Turns the target's normals round if they disagree with those of most of the nodes: `normals`
-  /// and `points`, #nodes x 3; a zero normal has no say.
+  /// Reverses the target's normals if they disagree with those of most nodes. `points`, `normals`:
+  /// #nodes x 3; zero normals are ignored.
   void Orient(const morph::Points& points, const morph::Points& normals);
 
-  /// Lets each surface of `geometry` project onto one surface of the target, as its feature edges
-  /// part it: that on which most of the nodes on its curves lie, at `moved` (#nodes x 3), within
-  /// 1e-3 of the target's size, if that is more than half of them. Other surfaces project onto
+  /// Assigns one surface of the target to each surface of `geometry`. Feature edges split the
+  /// target into its surfaces. The assigned one holds more than half of the nodes on the surface's
+  /// curves, at `moved` (#nodes x 3), within 1e-3 of the target's size. Other surfaces project onto
   /// all of the target.
   void Assign(const morph::Classification& geometry, const morph::Points& moved);
 
