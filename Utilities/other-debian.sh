@@ -47,7 +47,9 @@ registry() {
 
 make_root() {
   local mirror options=()
-  if ! command -v mmdebstrap > /dev/null; then "$here/Utilities/install-packages.sh" --other-debian; fi
+  if ! command -v mmdebstrap > /dev/null; then
+    "$here/Utilities/install-packages.sh" --other-debian
+  fi
   mirror=$(registry)
   if [ -z "$mirror" ]; then unavailable "apt has no registry of Debian here."; fi
   # The index of sid may be older than it promises, where a registry keeps a copy.
