@@ -121,6 +121,39 @@ TEST(SimplexNaturalNeighbor, TheMemoryLimitChangesNoResult)
   }
 }
 
+TEST(SimplexNaturalNeighbor, WeightsOfEachNodeAreBarycentric)
+{
+  Mesh mesh = meshes::hexes(6, 5, 4);
+  meshes::jitterInterior(mesh, .2, meshes::seed());
+  const NodePartition partition = outerPartition(mesh);
+  for (const Kind kind : { Kind::Sibson, Kind::Laplace })
+  {
+    Monitor monitor;
+    SimplexNaturalNeighbor method;
+    method.setCoordinates(kind);
+    method.prepare(mesh, partition, monitor);
+    const Points sites = method.sites().coordinates();
+    std::vector<int> visits(partition.free.size());
+    method.forEachNode(
+      [&](Index place, const std::vector<std::int32_t>& ids, const std::vector<double>& weights)
+      {
+        ++visits[place];
+        ASSERT_EQ(ids.size(), weights.size());
+        Row position = Row::Zero();
+        double sum = 0;
+        for (std::size_t i = 0; i < ids.size(); ++i)
+        {
+          EXPECT_GE(weights[i], 0);
+          sum += weights[i];
+          position += weights[i] * sites.row(ids[i]);
+        }
+        EXPECT_NEAR(sum, 1, 1e-13);
+        EXPECT_LE((position - mesh.points.row(partition.free[place])).norm(), 1e-11);
+      });
+    EXPECT_EQ(visits, std::vector<int>(partition.free.size(), 1));
+  }
+}
+
 TEST(SimplexNaturalNeighbor, NodesOnTheHullAndBeyondAreCounted)
 {
   const Mesh mesh = meshes::hexes(6, 6, 6);

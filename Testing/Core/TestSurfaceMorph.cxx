@@ -239,6 +239,41 @@ TEST(SurfaceMorph, GivenNodesAreExactAndTheOthersBlend)
   }
 }
 
+TEST(SurfaceMorph, NodesOfAClosedCurveBlendAcrossItsStart)
+{
+  const Case hole(shapes::boxWithHole(32, 4, 3));
+  for (const GeometryCurve& curve : hole.geometry.curves)
+  {
+    if (!curve.loop)
+    {
+      continue;
+    }
+    const std::vector<Index> nodes(curve.nodes.begin(), curve.nodes.begin() + 32);
+    // Four nodes a quarter apart go up and down in turn, so that their affine fit vanishes.
+    const Index first = 3;
+    std::vector<Index> given;
+    for (Index k = 0; k < 4; ++k)
+    {
+      given.push_back(nodes[first + 8 * k]);
+    }
+    const Map saddle = [&](const Row& x)
+    {
+      const Row start = hole.mesh.points.row(given[0]);
+      const bool isUp = std::abs(x.head(2).dot(start.head(2))) > 0.5;
+      return Row(x + Row(0, 0, isUp ? 0.2 : -0.2));
+    };
+    BoundaryMotion motion = hole.begin(given, saddle);
+    Monitor monitor;
+    morphCurves(hole.geometry, UnattachedMotion::FollowAffinely, motion, monitor);
+    for (Index i = 0; i < 32; ++i)
+    {
+      const Index steps = (i - first + 32) % 16; // from a node that goes up to the next one
+      const double expected = 0.2 * (steps < 8 ? 1 - steps / 4. : steps / 4. - 3);
+      EXPECT_LE((motion.displacement.row(nodes[i]) - Row(0, 0, expected)).norm(), 1e-13) << i;
+    }
+  }
+}
+
 TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
 {
   const Case hole(shapes::boxWithHole(32, 4, 3));

@@ -5,7 +5,10 @@
 #include "vtkClassifyBoundary.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkExtractSelection.h>
 #include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -57,6 +60,32 @@ vtkSmartPointer<vtkBoundaryDisplacement> dragged(vtkDataObject* input, vtkTransf
   filter->SetTransform(transform);
   return filter;
 }
+
+/// Selects what the selection leaves out, and counts its executions.
+class InverseExtractor : public vtkExtractSelection
+{
+public:
+  static InverseExtractor* New();
+  vtkTypeMacro(InverseExtractor, vtkExtractSelection);
+  int Executions = 0;
+
+protected:
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override
+  {
+    ++this->Executions;
+    vtkInformation* info = inputVector[1]->GetInformationObject(0);
+    const vtkSmartPointer<vtkSelection> given = vtkSelection::GetData(info);
+    vtkNew<vtkSelection> inverse;
+    inverse->DeepCopy(given);
+    inverse->GetNode(0)->GetProperties()->Set(vtkSelectionNode::INVERSE(), 1);
+    info->Set(vtkDataObject::DATA_OBJECT(), inverse);
+    const int result = this->Superclass::RequestData(request, inputVector, outputVector);
+    info->Set(vtkDataObject::DATA_OBJECT(), given);
+    return result;
+  }
+};
+vtkStandardNewMacro(InverseExtractor);
 
 morph::Points result(vtkBoundaryDisplacement* filter)
 {
@@ -222,4 +251,32 @@ TEST(BoundaryDisplacementCaching, ASelectionThatChangesIsEvaluatedAgain)
   filter->Update();
   EXPECT_EQ(filter->GetMovingPoints(), 3);
   EXPECT_EQ(filter->GetChooseCount(), 2);
+}
+
+TEST(BoundaryDisplacementCaching, AnotherExtractorEvaluatesTheSelectionAgain)
+{
+  auto filter = displaced::make(grids::hexes(3));
+  filter->SetMovingToSelection();
+  filter->SetSelectionData(indices(vtkSelectionNode::POINT, { 0, 1 }));
+  filter->Update();
+  EXPECT_EQ(filter->GetMovingPoints(), 2);
+  vtkNew<InverseExtractor> extractor;
+  filter->SetSelectionExtractor(extractor);
+  filter->Update();
+  EXPECT_EQ(filter->GetMovingPoints(), 54); // of 56 points on the boundary
+  EXPECT_EQ(extractor->Executions, 1);
+  EXPECT_EQ(filter->GetChooseCount(), 2);
+  // The same extractor changes nothing, and a motion does not need it.
+  const vtkMTimeType time = filter->GetMTime();
+  filter->SetSelectionExtractor(extractor);
+  EXPECT_EQ(filter->GetMTime(), time);
+  filter->SetMotionToVector();
+  filter->SetVector(1, 0, 0);
+  filter->Update();
+  EXPECT_EQ(extractor->Executions, 1);
+  filter->SetSelectionExtractor(nullptr);
+  filter->Update();
+  EXPECT_EQ(filter->GetMovingPoints(), 2);
+  EXPECT_EQ(extractor->Executions, 1);
+  EXPECT_EQ(filter->GetChooseCount(), 3);
 }

@@ -4,6 +4,7 @@
 #include "AllFilters.h"
 #include "TestGrids.h"
 
+#include "../Core/BoundaryShapes.h"
 #include "vtkBoundaryDisplacement.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
@@ -315,6 +316,58 @@ TEST_F(MorphBoundaryInputs, HugeScaleFactorsGiveNoNaN)
     this->Filter->Update();
     EXPECT_EQ(listener.Errors.size(), scale > 1e50 ? 1u : 0u);
     expectFinite(this->Filter->GetOutput());
+  }
+}
+
+TEST(MorphBoundaryOutput, NodesThatFollowBeyondAllPlacesAreNamed)
+{
+  // The inner sphere is given; the outer one follows its expansion, twice as far.
+  auto grid = grids::make(shapes::hollowBall(8));
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetInputData(grid);
+  extract->Update();
+  const morph::Points x = grids::points(extract->GetOutput());
+  vtkDataArray* numbers = extract->GetOutput()->GetPointData()->GetArray("MorphPointId");
+  std::vector<morph::Index> ids;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x.row(i).norm() < 0.75)
+    {
+      ids.push_back(static_cast<morph::Index>(numbers->GetComponent(i, 0)));
+    }
+  }
+  const morph::Points all = grids::points(grid);
+  morph::Points inner(static_cast<morph::Index>(ids.size()), 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    inner.row(static_cast<morph::Index>(i)) = all.row(ids[i]);
+  }
+  for (const double factor : { 1e49, 1.5e50 })
+  {
+    auto moved = grids::cloud(factor * inner);
+    grids::addIds(moved, "MorphPointId", ids);
+    vtkNew<vtkMorphBoundary> filter;
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(moved);
+    filter->SetPrescribedDimension(2);
+    grids::Listener listener(filter);
+    filter->Update();
+    if (factor < 1e50)
+    {
+      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      const morph::Points result = grids::points(filter->GetOutput());
+      ASSERT_EQ(result.rows(), x.rows());
+      EXPECT_LE((result / factor - x).rowwise().norm().maxCoeff(), 1e-9);
+    }
+    else
+    {
+      ASSERT_EQ(listener.Errors.size(), 1u);
+      const std::string expected =
+        "The motion takes the boundary's nodes to places that are not finite or beyond 1e50";
+      EXPECT_NE(listener.Errors[0].find(expected), std::string::npos) << listener.Errors[0];
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+      EXPECT_EQ(filter->GetFoldedFaces(), -1);
+    }
   }
 }
 

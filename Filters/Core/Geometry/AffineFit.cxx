@@ -11,16 +11,6 @@ namespace morph
 {
 namespace
 {
-Points rowsOf(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (Index i = 0; i < some.rows(); ++i)
-  {
-    some.row(i) = all.row(ids[i]);
-  }
-  return some;
-}
-
 Eigen::RowVector3d sumOfRows(const Points& points)
 {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
@@ -59,11 +49,6 @@ AffineFit::AffineFit(const Eigen::RowVector3d& centre, const Eigen::RowVector3d&
   : centre_(centre)
   , mean_(mean)
   , gradient_(pseudoInverse(spread).first * stretch)
-{
-}
-
-AffineFit::AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement)
-  : AffineFit(AffineLeastSquares(rowsOf(rest, ids)).fit(displacement))
 {
 }
 

@@ -3,8 +3,6 @@
 
 #include "Support/Types.h"
 
-#include <vector>
-
 namespace morph
 {
 /// The affine displacement field u(x) = u_c + (x - c) G that fits given displacements by least
@@ -13,9 +11,6 @@ namespace morph
 class AffineFit
 {
 public:
-  /// `rest`: undeformed nodes, #nodes x 3; `ids`: nodes with a displacement; `displacement`: #ids x
-  /// 3.
-  AffineFit(const Points& rest, const std::vector<Index>& ids, const Points& displacement);
   /// Builds the fit from sums over points x with displacements d. `centre`, c: their mean position;
   /// `mean`, m: their mean displacement; `spread`: sum of (x - c)^T (x - c); `stretch`: sum of (x -
   /// c)^T (d - m).

@@ -152,11 +152,4 @@ int BlockCsr3f::solve(
   }
   return iteration;
 }
-
-std::size_t BlockCsr3f::memory() const
-{
-  return sizeof(Index) * (this->pattern_.offsets.size() + this->pattern_.placeOffsets.size()) +
-         sizeof(std::int32_t) * (this->pattern_.columns.size() + this->pattern_.places.size()) +
-         sizeof(float) * (this->values_.size() + this->scratch_.size());
-}
 }

@@ -79,8 +79,6 @@ public:
   /// Cost: one pass over the blocks an iteration.
   int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const;
 
-  std::size_t memory() const;
-
 private:
   std::uint64_t id_ = 0; ///< 0: no pattern
   BlockPattern pattern_;
