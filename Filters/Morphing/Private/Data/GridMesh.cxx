@@ -32,8 +32,8 @@ std::uint64_t bitsOf(double value)
   return bits;
 }
 
-/// Calls visit(values, count) with the array's values in memory, 64 or 32 bits wide. Arrays of other
-/// classes are copied: since VTK 9.6 offsets may be a formula and ids any array.
+/// Calls visit(values, count) with the array's values in memory, 64 or 32 bits wide. Arrays of
+/// other classes are copied: since VTK 9.6 offsets may be a formula and ids any array.
 template <typename Visitor>
 void visitIntegers(vtkDataArray* array, Visitor&& visit)
 {

@@ -12,8 +12,8 @@
 #include <vtkUnsignedCharArray.h>
 #endif
 
-/// The differences between the VTK releases that this module builds with. No other file tests
-/// VTK_VERSION_NUMBER.
+/// The differences between the VTK releases that this module builds with. No other file of the
+/// filters tests VTK_VERSION_NUMBER.
 namespace morph::filters::Version
 {
 /// True once the user asked this algorithm, or one upstream, to stop.
