@@ -1,44 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/SurfacePatches.h"
 
+#include "Support/UnionFind.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
 namespace
 {
-/// Disjoint sets of faces (union-find).
-class Sets
-{
-public:
-  explicit Sets(Index count)
-    : parent_(count)
-  {
-    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
-  }
-  Index root(Index i)
-  {
-    while (this->parent_[i] != i)
-    {
-      this->parent_[i] = this->parent_[this->parent_[i]];
-      i = this->parent_[i];
-    }
-    return i;
-  }
-  void join(Index a, Index b)
-  {
-    a = this->root(a);
-    b = this->root(b);
-    this->parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> parent_;
-};
-
 /// Numbers patches in the order of their lowest faces, compared by sorted node ids.
-void number(const BoundaryFaces& faces, Sets& sets, SurfacePatches& result)
+void number(const BoundaryFaces& faces, UnionFind<Index>& sets, SurfacePatches& result)
 {
   const Index count = static_cast<Index>(faces.offsets.size()) - 1;
   std::vector<Index> sorted = faces.connectivity;
@@ -91,7 +63,7 @@ SurfacePatches surfacePatches(const BoundaryFaces& faces, const SurfaceEdges& ed
   const auto isFeature = [&](Index e) { return edges.angle[e] > featureAngle; };
   const auto isKnown = [&](Index e) { return !curves.empty() && curves[e]; };
 
-  Sets sets(count);
+  UnionFind<Index> sets(count); // of faces
   for (Index e = 0; e < edges.count(); ++e)
   {
     const Index* at = edges.faces.begin(e);

@@ -35,10 +35,7 @@ Points BoundaryMotion::moved() const
       result.row(n) += this->displacement.row(n);
     }
   }
-  for (std::size_t i = 0; i < this->givenIds.size(); ++i)
-  {
-    result.row(this->givenIds[i]) = this->givenTargets.row(static_cast<Index>(i));
-  }
+  result(this->givenIds, Eigen::all) = this->givenTargets;
   return result;
 }
 

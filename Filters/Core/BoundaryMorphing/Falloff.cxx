@@ -68,13 +68,8 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
     }
   }
   monitor.check();
-  Points near(static_cast<Index>(this->reached_.size()), 3);
-  for (Index i = 0; i < near.rows(); ++i)
-  {
-    near.row(i) = places.row(this->reached_[i]);
-  }
-  this->weights_ =
-    inverseDistanceWeights(this->sites_, near, Neighborhood{ Neighbors, false }, monitor);
+  this->weights_ = inverseDistanceWeights(
+    this->sites_, places(this->reached_, Eigen::all), Neighborhood{ Neighbors, false }, monitor);
 }
 
 Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const

@@ -107,7 +107,7 @@ private:
       longest = std::max(longest, length(e));
     }
     const Index n = static_cast<Index>(this->corners_.size());
-    Points b = Points::Zero(n, 3), x = Points::Zero(n, 3), place(n, 3);
+    Points b = Points::Zero(n, 3), x = Points::Zero(n, 3);
     std::vector<Eigen::Triplet<double, int>> entries;
     double largestResidual = 0, largestMotion = 0;
     for (const Pair& e : edges)
@@ -136,17 +136,13 @@ private:
         }
       }
     }
-    for (Index i = 0; i < n; ++i)
-    {
-      place.row(i) = this->motion_.rest.row(this->corners_[i]);
-    }
     if (largestResidual > 1e-13 * largestMotion) // otherwise it is rounding
     {
       CsrMatrix matrix(n, n);
       matrix.setFromTriplets(entries.begin(), entries.end());
       SpdSolver solver;
       ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-      solver.prepare(matrix, place, first);
+      solver.prepare(matrix, this->motion_.rest(this->corners_, Eigen::all), first);
       solver.solve(b, x, 1e-12, 2000, second);
     }
     for (Index i = 0; i < n; ++i)

@@ -12,16 +12,6 @@ namespace morph
 {
 namespace
 {
-Points rows(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    some.row(static_cast<Index>(i)) = all.row(ids[i]);
-  }
-  return some;
-}
-
 bool isUnknown(const GeometrySurface& surface, const BoundaryMotion& motion)
 {
   return std::all_of(surface.nodes.begin(), surface.nodes.end(),
@@ -59,7 +49,7 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
   surface.fixed.clear(); // if prepare() throws, none are kept
   surface.residual.setNumberOfNeighbors(neighbors);
   surface.residual.prepare(
-    rows(rest, fixed), rows(rest, free), loopRows(faces, faceIds, fixed), monitor);
+    rest(fixed, Eigen::all), rest(free, Eigen::all), loopRows(faces, faceIds, fixed), monitor);
   surface.fixed = fixed;
   ++weights.prepared;
 }
@@ -68,7 +58,7 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
 bool moveByResidual(const SurfaceResidual& residual, const std::vector<Index>& fixed,
   const std::vector<Index>& free, BoundaryMotion& motion, Monitor& monitor)
 {
-  const Points target = rows(motion.rest, fixed) + rows(motion.displacement, fixed);
+  const Points target = motion.rest(fixed, Eigen::all) + motion.displacement(fixed, Eigen::all);
   Points moved;
   const bool replaced = residual.evaluate(target, moved, monitor).replaced();
   for (std::size_t i = 0; i < free.size(); ++i)

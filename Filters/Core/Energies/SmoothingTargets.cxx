@@ -14,30 +14,6 @@ namespace
 {
 constexpr double LeastVolume = 1e-3; // of the mean cell's
 
-/// Returns the corners of the shape with all edges of length 1, in VTK's order.
-const double (*unitShape(Shape shape))[3]
-{
-  static const double h = std::sqrt(.75), p = std::sqrt(.5), q = std::sqrt(2. / 3);
-  static const double hex[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
-    { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
-  static const double wedge[6][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, h, 0 }, { 0, 0, 1 },
-    { 1, 0, 1 }, { .5, h, 1 } };
-  static const double pyramid[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
-    { .5, .5, p } };
-  static const double tet[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, h, 0 }, { .5, h / 3, q } };
-  switch (shape)
-  {
-    case Shape::Hex:
-      return hex;
-    case Shape::Wedge:
-      return wedge;
-    case Shape::Pyramid:
-      return pyramid;
-    default:
-      return tet;
-  }
-}
-
 /// Returns the volume of each volume cell, 0 for other cells. Nearly flat cells get the mean.
 std::vector<double> volumes(const Mesh& rest)
 {
@@ -48,13 +24,7 @@ std::vector<double> volumes(const Mesh& rest)
   {
     const CellShape& shape = *cellShape(rest.types[c]);
     double x[8][3];
-    for (int a = 0; a < numberOfCorners(shape.shape); ++a)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        x[a][j] = rest.points(rest.cell(c)[shape.cornerNode[a]], j);
-      }
-    }
+    copyCorners(rest, c, shape, rest.points, x[0]);
     if (numberOfCorners(shape.shape) > 0)
     {
       result[c] = std::abs(signedVolume(shape.shape, x));
@@ -83,19 +53,17 @@ TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& or
   {
     const Shape shape = cellShape(rest.types[c])->shape;
     const int corners = cornerTetrahedra(shape);
-    const double(*unit)[3] = unitShape(shape);
-    const double size =
-      corners > 0 ? std::cbrt(volume[c] / std::abs(signedVolume(shape, unit))) : 1;
+    const CellCorners unit = idealShape(shape, Eigen::Vector3d::Ones());
+    double x[8][3];
+    std::copy(unit.data(), unit.data() + unit.size(), x[0]);
+    const double size = corners > 0 ? std::cbrt(volume[c] / std::abs(signedVolume(shape, x))) : 1;
     for (int t = 0; t < corners; ++t)
     {
       const int* corner = simplicialDecomposition(shape).tets[t].corner;
       Eigen::Matrix3d D;
       for (int k = 0; k < 3; ++k)
       {
-        for (int j = 0; j < 3; ++j)
-        {
-          D(j, k) = size * (unit[corner[k + 1]][j] - unit[corner[0]][j]);
-        }
+        D.col(k) = size * (unit.col(corner[k + 1]) - unit.col(corner[0]));
       }
       D.row(0) *= orientation[c];
       TargetMatrices::Tetrahedron tetrahedron;

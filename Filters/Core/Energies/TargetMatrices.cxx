@@ -23,7 +23,6 @@ constexpr double LeastQuality = 1e-3;
 // minimum volume of a tetrahedron, relative to the mean in its cell
 constexpr double LeastVolume = 1e-3;
 
-using Corners = Eigen::Matrix<double, 3, 8>;
 using Lengths = Eigen::Vector3d; // along the three axes of a cell
 
 /// The edges of a shape along each axis, in the direction of the axis.
@@ -65,7 +64,7 @@ const Axes* axesOf(Shape shape)
 
 /// Returns mean edge lengths along the axes. A wedge's triangle axes are equal, and so are all of a
 /// tetrahedron's.
-Lengths lengths(Shape shape, const Corners& x)
+Lengths lengths(Shape shape, const CellCorners& x)
 {
   const Axes& axes = *axesOf(shape);
   Lengths result = Lengths::Zero();
@@ -89,7 +88,7 @@ Lengths lengths(Shape shape, const Corners& x)
 
 /// Returns mean edge vectors along the axes. A pyramid's third axis connects the middle of its base
 /// to its apex.
-Eigen::Matrix3d frame(Shape shape, const Corners& x)
+Eigen::Matrix3d frame(Shape shape, const CellCorners& x)
 {
   const Axes& axes = *axesOf(shape);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
@@ -105,53 +104,15 @@ Eigen::Matrix3d frame(Shape shape, const Corners& x)
   return J;
 }
 
-/// Returns the right-angled or regular shape with these lengths along the axes, in VTK's order.
-Corners idealShape(Shape shape, const Lengths& length)
-{
-  const double a = length[0], b = length[1], c = length[2];
-  Corners x = Corners::Zero();
-  switch (shape)
-  {
-    case Shape::Hex:
-      x << 0, a, a, 0, 0, a, a, 0, //
-        0, 0, b, b, 0, 0, b, b,    //
-        0, 0, 0, 0, c, c, c, c;
-      break;
-    case Shape::Wedge:
-      // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive
-      // decomposition.
-      x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2,          //
-        0, 0, a * std::sqrt(.75), 0, 0, a * std::sqrt(.75), //
-        0, 0, 0, c, c, c;
-      break;
-    case Shape::Pyramid:
-    {
-      const double height2 = c * c - (a * a + b * b) / 4;
-      x.leftCols<5>() << 0, a, a, 0, a / 2, //
-        0, 0, b, b, b / 2,                  //
-        0, 0, 0, 0, height2 > c * c / 16 ? std::sqrt(height2) : c / 4;
-      break;
-    }
-    default:
-      x.leftCols<4>() << 0, a, a / 2, a / 2,              //
-        0, 0, a * std::sqrt(.75), a * std::sqrt(1. / 12), //
-        0, 0, 0, a * std::sqrt(2. / 3);
-  }
-  return x;
-}
-
-Corners cornersOf(const Mesh& mesh, Index cell, const Points& points)
+CellCorners cornersOf(const Mesh& mesh, Index cell, const Points& points)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
-  Corners x;
-  for (int a = 0; a < shape.numberOfCorners; ++a)
-  {
-    x.col(a) = points.row(mesh.cell(cell)[shape.cornerNode[a]]).transpose();
-  }
+  CellCorners x;
+  copyCorners(mesh, cell, shape, points, x.data());
   return x;
 }
 
-Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
+Eigen::Matrix3d edges(const WeightedTet& tet, const CellCorners& x)
 {
   Eigen::Matrix3d D;
   for (int k = 0; k < 3; ++k)
@@ -164,11 +125,7 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const Corners& x)
 std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
-  const int* corner = simplicialDecomposition(shape.shape).tets[tetrahedron].corner;
-  std::array<Index, 4> nodes;
-  std::transform(
-    corner, corner + 4, nodes.begin(), [&](int a) { return mesh.cell(cell)[shape.cornerNode[a]]; });
-  return nodes;
+  return nodesAt(mesh, cell, shape, simplicialDecomposition(shape.shape).tets[tetrahedron].corner);
 }
 
 bool isVolume(const Mesh& mesh, Index cell)
@@ -189,7 +146,7 @@ std::vector<char> validCells(
   return valid;
 }
 
-double meanVolume(const SimplicialDecomposition& parts, const Corners& x)
+double meanVolume(const SimplicialDecomposition& parts, const CellCorners& x)
 {
   double sum = 0;
   for (int t = 0; t < parts.count; ++t)
@@ -223,12 +180,12 @@ Lengths lengthsAround(
                    : lengths(shape.shape, cornersOf(rest, cell, rest.points));
 }
 
-Corners targetOf(
-  Shape shape, const Corners& rest, const Corners& guide, double sign, TargetConstruction target)
+CellCorners targetOf(Shape shape, const CellCorners& rest, const CellCorners& guide, double sign,
+  TargetConstruction target)
 {
   if (target == TargetConstruction::IdealSkew)
   {
-    Corners x = idealShape(shape, lengths(shape, guide));
+    CellCorners x = idealShape(shape, lengths(shape, guide));
     x.row(0) *= sign;
     return x;
   }
@@ -241,6 +198,40 @@ Corners targetOf(
   return J * ratio.cwiseMax(1 / MostStretch).cwiseMin(MostStretch).asDiagonal() * J.inverse() *
          rest;
 }
+}
+
+CellCorners idealShape(Shape shape, const Eigen::Vector3d& length)
+{
+  const double a = length[0], b = length[1], c = length[2];
+  CellCorners x = CellCorners::Zero();
+  switch (shape)
+  {
+    case Shape::Hex:
+      x << 0, a, a, 0, 0, a, a, 0, //
+        0, 0, b, b, 0, 0, b, b,    //
+        0, 0, 0, 0, c, c, c, c;
+      break;
+    case Shape::Wedge:
+      // Counter-clockwise from above: the triangle 0, 1, 2 is then the lower one of a positive
+      // decomposition.
+      x.leftCols<6>() << 0, a, a / 2, 0, a, a / 2,          //
+        0, 0, a * std::sqrt(.75), 0, 0, a * std::sqrt(.75), //
+        0, 0, 0, c, c, c;
+      break;
+    case Shape::Pyramid:
+    {
+      const double height2 = c * c - (a * a + b * b) / 4;
+      x.leftCols<5>() << 0, a, a, 0, a / 2, //
+        0, 0, b, b, b / 2,                  //
+        0, 0, 0, 0, height2 > c * c / 16 ? std::sqrt(height2) : c / 4;
+      break;
+    }
+    default:
+      x.leftCols<4>() << 0, a, a / 2, a / 2,              //
+        0, 0, a * std::sqrt(.75), a * std::sqrt(1. / 12), //
+        0, 0, 0, a * std::sqrt(2. / 3);
+  }
+  return x;
 }
 
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
@@ -287,7 +278,7 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
         }
         const Shape shape = cellShape(rest.types[c])->shape;
         const double sign = orientation[c];
-        Corners x;
+        CellCorners x;
         if (valid[c])
         {
           x = targetOf(

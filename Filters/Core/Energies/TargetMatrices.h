@@ -20,6 +20,13 @@ enum class TargetConstruction
   IdealSkew
 };
 
+/// The corners of a cell, one a column, in the order of its shape.
+using CellCorners = Eigen::Matrix<double, 3, 8>;
+
+/// A cell with right angles, or a regular tetrahedron, that has these mean edge lengths along its
+/// axes. Its corners are in VTK's order.
+CellCorners idealShape(Shape shape, const Eigen::Vector3d& lengths);
+
 /// Target matrices of all cells: for each tetrahedron of the averaged simplicial decompositions,
 /// the inverse of its target and a weight.
 struct TargetMatrices

@@ -2,6 +2,7 @@
 #include "Interpolation/InterpolationSites.h"
 
 #include "Support/Error.h"
+#include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -16,37 +17,6 @@ namespace morph
 namespace
 {
 constexpr double RelativeTolerance = 1e-12; // of the diagonal
-
-/// Groups of nodes that are one site: a forest whose roots are the first nodes of the groups.
-class Groups
-{
-public:
-  explicit Groups(Index n)
-    : parent_(n)
-  {
-    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
-  }
-
-  Index first(Index i)
-  {
-    while (this->parent_[i] != i)
-    {
-      this->parent_[i] = this->parent_[this->parent_[i]];
-      i = this->parent_[i];
-    }
-    return i;
-  }
-
-  void join(Index i, Index j)
-  {
-    i = this->first(i);
-    j = this->first(j);
-    this->parent_[std::max(i, j)] = std::min(i, j);
-  }
-
-private:
-  std::vector<Index> parent_;
-};
 
 /// A hash table of points by their cell in a regular grid. Its cost does not depend on which cells
 /// are occupied.
@@ -176,7 +146,7 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
   // edges.
   const double cell = extent > 0 ? 1024 * this->tolerance_ : 1;
   HashedGrid grid(places.colwise().minCoeff(), cell, n);
-  Groups groups(n);
+  UnionFind<Index> groups(n); // of nodes that are one site
   for (Index i = 0; i < n; ++i)
   {
     const Eigen::RowVector3d x = places.row(order[i]);
@@ -196,12 +166,12 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
     }
   }
 
-  std::vector<Index> siteOfFirst(n, -1);
+  std::vector<Index> siteOfRoot(n, -1);
   this->siteOf_.assign(n, -1);
   Index sites = 0;
   for (Index i = 0; i < n; ++i)
   {
-    Index& site = siteOfFirst[groups.first(i)];
+    Index& site = siteOfRoot[groups.root(i)];
     site = site < 0 ? sites++ : site;
     this->siteOf_[order[i]] = site;
   }

@@ -160,14 +160,9 @@ bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
-      const int n = numberOfCorners(shape.shape);
       double corners[8][3];
-      for (int a = 0; a < n; ++a)
-      {
-        const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
-        std::copy(point.data(), point.data() + 3, corners[a]);
-      }
-      return n == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
+      copyCorners(mesh, c, shape, mesh.points, corners[0]);
+      return numberOfCorners(shape.shape) == 0 ? 0. : std::abs(signedVolume(shape.shape, corners));
     });
   const auto& tetrahedra = delaunay.tetrahedra();
   const double hull = reproducibleSum(static_cast<Index>(tetrahedra.size()), monitor, 0.,

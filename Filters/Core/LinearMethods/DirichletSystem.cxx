@@ -24,16 +24,6 @@ void requireTolerance(double tolerance)
   }
 }
 
-Points rowPositions(const Points& points, const std::vector<Index>& rows)
-{
-  Points positions(static_cast<Index>(rows.size()), 3);
-  for (Index i = 0; i < positions.rows(); ++i)
-  {
-    positions.row(i) = points.row(rows[i]);
-  }
-  return positions;
-}
-
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
   const RowComponents& components, const CsrMatrix& coupling)
   : components_(components)
@@ -67,13 +57,7 @@ std::vector<AffineFit> AffineGuess::fits(const Points& prescribed) const
   result.reserve(this->coupled_.size());
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
-    const std::vector<int>& columns = this->coupled_[c];
-    Points displacement(static_cast<Index>(columns.size()), 3);
-    for (Index i = 0; i < displacement.rows(); ++i)
-    {
-      displacement.row(i) = prescribed.row(columns[i]);
-    }
-    result.push_back(this->leastSquares_[c].fit(displacement));
+    result.push_back(this->leastSquares_[c].fit(prescribed(this->coupled_[c], Eigen::all)));
   }
   return result;
 }

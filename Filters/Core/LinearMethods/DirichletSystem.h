@@ -17,9 +17,6 @@ namespace morph
 /// Throws Error unless the tolerance lies in (0, 1).
 void requireTolerance(double tolerance);
 
-/// Returns the positions of the rows' nodes, #rows x 3.
-Points rowPositions(const Points& points, const std::vector<Index>& rows);
-
 /// The first guess of A_I U_I = -A_B U_B: an affine displacement field in each component of the
 /// rows. It fits the prescribed nodes that A_B couples with the component. Affine motions solve the
 /// equations, so the iteration finds only the remainder.

@@ -112,10 +112,6 @@ int hexStiffness(const double (*x)[3], double* K)
   constexpr double P = 0.78867513459481288225; // (1 + 1/sqrt(3)) / 2
   constexpr double M = 0.21132486540518711775;
   constexpr double Share[2] = { P, M }; // weights of the near and far corner, or of far and near
-  // The four edges along each direction, by their ends, at (0,0), (1,0), (0,1), (1,1) of the other
-  // two.
-  constexpr int Edge[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
-    { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
   // Parametric gradients of the shape functions at the Gauss points q = u + 2 v + 4 w.
   static const auto gradients = []
   {
@@ -142,7 +138,7 @@ int hexStiffness(const double (*x)[3], double* K)
     {
       for (int j = 0; j < 3; ++j)
       {
-        edge[e][j] = x[Edge[d][e][1]][j] - x[Edge[d][e][0]][j];
+        edge[e][j] = x[HexAxisEdges[d][e][1]][j] - x[HexAxisEdges[d][e][0]][j];
       }
     }
     for (int u = 0; u < 2; ++u)

@@ -125,11 +125,7 @@ CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, M
           continue;
         }
         double corners[8][3];
-        for (int a = 0; a < n; ++a)
-        {
-          const auto point = mesh.points.row(mesh.cell(c)[shape.cornerNode[a]]);
-          std::copy(point.data(), point.data() + 3, corners[a]);
-        }
+        copyCorners(mesh, c, shape, mesh.points, corners[0]);
         sign[c] = static_cast<std::int8_t>(
           elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
         // The sign of a tetrahedron or pyramid is that of its corners.
@@ -344,7 +340,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rowPositions(rest.points, this->rows_);
+  const Points coordinates = rest.points(this->rows_, Eigen::all);
   this->coupling_.swap(system.coupling);
   try
   {

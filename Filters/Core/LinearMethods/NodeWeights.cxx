@@ -128,11 +128,9 @@ bool NodeWeights::stiffness(Index node)
     int column[8];
     for (int a = 0; a < n; ++a)
     {
-      const Index id = this->mesh_->cell(*cell)[shape.cornerNode[a]];
-      column[a] = this->numbers_->ofNode[id];
-      const double* point = this->mesh_->points.data() + 3 * id;
-      std::copy(point, point + 3, corners[a]);
+      column[a] = this->numbers_->ofNode[this->mesh_->cell(*cell)[shape.cornerNode[a]]];
     }
+    copyCorners(*this->mesh_, *cell, shape, this->mesh_->points, corners[0]);
     elementStiffness(shape.shape, corners, K);
     for (int a = 0; a < n; ++a)
     {

@@ -40,15 +40,9 @@ void WeightedResidual::setNumberOfNeighbors(Index count)
 
 void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const std::vector<Index>& free = this->partition().free;
-  const Index rows = static_cast<Index>(free.size());
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   this->fit_ = AffineLeastSquares(this->sites_.coordinates());
-  this->freePlaces_.resize(rows, 3);
-  for (Index i = 0; i < rows; ++i)
-  {
-    this->freePlaces_.row(i) = rest.points.row(free[i]);
-  }
+  this->freePlaces_ = rest.points(this->partition().free, Eigen::all);
   monitor.check();
 
   this->weights_ = inverseDistanceWeights(this->sites_, this->freePlaces_,

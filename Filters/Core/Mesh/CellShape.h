@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/Mesh.h"
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace morph
@@ -79,6 +83,37 @@ struct CellShape
 
 /// Returns null for a type that this library does not know (polyhedron, Lagrange, ...).
 const CellShape* cellShape(std::uint8_t type);
+
+/// Copies the positions of a cell's corners, in the order of its shape. `points`: #nodes x 3;
+/// `corners`: numberOfCorners x 3.
+template <typename Positions>
+void copyCorners(
+  const Mesh& mesh, Index cell, const CellShape& shape, const Positions& points, double* corners)
+{
+  for (int k = 0; k < shape.numberOfCorners; ++k)
+  {
+    const Index node = mesh.cell(cell)[shape.cornerNode[k]];
+    for (int j = 0; j < 3; ++j)
+    {
+      corners[3 * k + j] = points(node, j);
+    }
+  }
+}
+
+/// The node ids of four of a cell's corners, by their numbers in its shape.
+inline std::array<Index, 4> nodesAt(
+  const Mesh& mesh, Index cell, const CellShape& shape, const int (&corner)[4])
+{
+  std::array<Index, 4> nodes;
+  std::transform(
+    corner, corner + 4, nodes.begin(), [&](int k) { return mesh.cell(cell)[shape.cornerNode[k]]; });
+  return nodes;
+}
+
+/// The four edges of a hexahedron along each parametric direction, by their ends, at (0,0), (1,0),
+/// (0,1), (1,1) of the other two directions.
+inline constexpr int HexAxisEdges[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
+  { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
 
 /// Evaluates the linear shape functions N_a and their parametric gradients at `xi`. Volume shapes
 /// only. `xi`: VTK's parametric coordinates, in [0, 1]. `N`: numberOfCorners values. `dN`:

@@ -126,20 +126,13 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
 void HigherOrderNodes::apply(Points& displacement) const
 {
   const Points moved = this->weights_ * displacement;
-  for (std::size_t i = 0; i < this->ids_.size(); ++i)
-  {
-    displacement.row(this->ids_[i]) = moved.row(static_cast<Index>(i));
-  }
+  displacement(this->ids_, Eigen::all) = moved;
 }
 
 void HigherOrderNodes::applyTranspose(Points& gradient) const
 {
-  Points own(static_cast<Index>(this->ids_.size()), 3);
-  for (std::size_t i = 0; i < this->ids_.size(); ++i)
-  {
-    own.row(static_cast<Index>(i)) = gradient.row(this->ids_[i]);
-    gradient.row(this->ids_[i]).setZero();
-  }
+  const Points own = gradient(this->ids_, Eigen::all);
+  gradient(this->ids_, Eigen::all).setZero();
   gradient += this->weights_.transpose() * own;
 }
 }

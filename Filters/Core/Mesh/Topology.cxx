@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -237,17 +238,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
 ConnectedComponents connectedComponents(const Mesh& mesh)
 {
   const Index nodes = mesh.numberOfNodes();
-  std::vector<Index> parent(nodes);
-  std::iota(parent.begin(), parent.end(), Index(0));
-  const auto root = [&parent](Index n)
-  {
-    while (parent[n] != n)
-    {
-      parent[n] = parent[parent[n]];
-      n = parent[n];
-    }
-    return n;
-  };
+  UnionFind<Index> bodies(nodes);
 
   ConnectedComponents result;
   result.ofCell.assign(mesh.numberOfCells(), -1);
@@ -256,16 +247,10 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
   {
     if (const CellShape* shape = volumeShape(mesh, c))
     {
-      Index low = root(mesh.cell(c)[0]);
+      Index root = mesh.cell(c)[0];
       for (int k = 1; k < shape->numberOfCorners; ++k)
       {
-        if (parent[mesh.cell(c)[k]] == low) // nearly always true in an ordered numbering
-        {
-          continue;
-        }
-        const Index other = root(mesh.cell(c)[k]);
-        parent[std::max(low, other)] = std::min(low, other);
-        low = std::min(low, other);
+        root = bodies.join(root, mesh.cell(c)[k]);
       }
     }
   }
@@ -275,7 +260,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
   {
     if (const CellShape* shape = volumeShape(mesh, c))
     {
-      Index& body = number[root(mesh.cell(c)[0])];
+      Index& body = number[bodies.root(mesh.cell(c)[0])];
       if (body < 0)
       {
         body = result.count++;
@@ -307,13 +292,7 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
     if (const CellShape* shape = volumeShape(mesh, c))
     {
       double corners[8][3];
-      for (int k = 0; k < shape->numberOfCorners; ++k)
-      {
-        for (int j = 0; j < 3; ++j)
-        {
-          corners[k][j] = mesh.points(mesh.cell(c)[shape->cornerNode[k]], j);
-        }
-      }
+      copyCorners(mesh, c, *shape, mesh.points, corners[0]);
       Sum& sum = slot(c, shape->shape);
       sum.volume += signedVolume(shape->shape, corners);
       ++sum.cells;

@@ -21,16 +21,6 @@ void requireRows(const char* what, Index rows, Index expected)
   }
 }
 
-Points rowsOf(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    some.row(static_cast<Index>(i)) = all.row(ids[i]);
-  }
-  return some;
-}
-
 /// Returns the `ids` whose row of `some` is not finite.
 std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
 {
@@ -186,14 +176,8 @@ EvaluateReport Morpher::evaluate(
   else
   {
     Points all = Points::Zero(this->rest_.rows(), 3);
-    for (Index i = 0; i < freeDisplacement.rows(); ++i)
-    {
-      all.row(this->partition_.free[i]) = freeDisplacement.row(i);
-    }
-    for (Index i = 0; i < displacement.rows(); ++i)
-    {
-      all.row(ids[i]) = displacement.row(i);
-    }
+    all(this->partition_.free, Eigen::all) = freeDisplacement;
+    all(ids, Eigen::all) = displacement;
     this->higherOrderNodes_.apply(all);
     for (Index n = 0; n < all.rows(); ++n)
     {
@@ -202,10 +186,7 @@ EvaluateReport Morpher::evaluate(
   }
   // The undeformed position plus the displacement may differ from the given position in the last
   // bit.
-  for (Index i = 0; i < prescribed.rows(); ++i)
-  {
-    result.row(ids[i]) = prescribed.row(i);
-  }
+  result(ids, Eigen::all) = prescribed;
   if (&result == &fresh)
   {
     moved.swap(fresh);
@@ -226,12 +207,12 @@ EvaluateReport LinearMorpher::applyTranspose(
   }
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
   this->higherOrderNodes_.applyTranspose(all);
-  Points result = rowsOf(all, this->partition().prescribed);
+  Points result = all(this->partition().prescribed, Eigen::all);
   EvaluateReport report;
   if (!this->partition().free.empty())
   {
     ProgressRange whole(monitor, 0, 1);
-    report = this->displaceTranspose(rowsOf(all, this->partition().free), result, whole);
+    report = this->displaceTranspose(all(this->partition().free, Eigen::all), result, whole);
   }
   prescribed.swap(result);
   monitor.progress(1);

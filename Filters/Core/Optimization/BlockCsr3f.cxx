@@ -48,11 +48,6 @@ struct RowProduct
     }
   }
 };
-
-double dot(const Points& a, const Points& b, Monitor& monitor)
-{
-  return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
-}
 }
 
 PatternId::PatternId()

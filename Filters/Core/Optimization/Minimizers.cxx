@@ -18,11 +18,6 @@ constexpr int MostLinearIterations = 100;
 constexpr std::size_t Memory = 10; // of L-BFGS, in steps
 constexpr double FirstStep = 1e-3; // of the mesh's size
 
-double dot(const Points& a, const Points& b, Monitor& monitor)
-{
-  return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
-}
-
 void add(double factor, const Points& from, Points& to, Monitor& monitor)
 {
   monitor.parallelFor(to.rows(), Grain,
@@ -156,16 +151,6 @@ double diagonal(const Points& points)
 {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
-
-Points rowsOf(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (Index i = 0; i < some.rows(); ++i)
-  {
-    some.row(i) = all.row(ids[i]);
-  }
-  return some;
-}
 }
 
 Objective::~Objective() = default;
@@ -223,7 +208,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     }
     inverse.apply(gradient, direction, monitor);
     double slope = dot(gradient, direction, monitor);
-    const Points start = rowsOf(points, objective.free());
+    const Points start = points(objective.free(), Eigen::all);
     const double before = value.energy;
     bool found = lineSearch(objective, direction, slope, points, value, effort, monitor);
     if (!found && !inverse.empty())
@@ -240,7 +225,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     ++effort.steps;
     const Points old = gradient;
     objective.gradient(points, gradient, monitor);
-    inverse.remember(rowsOf(points, objective.free()) - start, gradient - old, monitor);
+    inverse.remember(points(objective.free(), Eigen::all) - start, gradient - old, monitor);
     if (progress.settled(before, value.energy, norm))
     {
       break;

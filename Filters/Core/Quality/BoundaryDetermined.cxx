@@ -70,17 +70,12 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
       continue;
     }
     const CellShape& shape = *cellShape(mesh.types[c]);
-    const Index* nodes = mesh.cell(c);
     const auto inverted = [&](const WeightedTet& tet)
     {
-      Index id[4];
-      for (int k = 0; k < 4; ++k)
+      const std::array<Index, 4> id = nodesAt(mesh, c, shape, tet.corner);
+      if (!std::all_of(id.begin(), id.end(), [&](Index node) { return prescribed[node] != 0; }))
       {
-        id[k] = nodes[shape.cornerNode[tet.corner[k]]];
-        if (!prescribed[id[k]])
-        {
-          return false;
-        }
+        return false;
       }
       const Eigen::RowVector3d o = points.row(id[0]);
       const Eigen::RowVector3d a = points.row(id[1]) - o, b = points.row(id[2]) - o,

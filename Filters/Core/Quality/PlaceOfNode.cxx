@@ -16,11 +16,10 @@ void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation
   const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
   for (int t = 0; t < cornerTetrahedra(shape.shape); ++t)
   {
-    Index id[4];
+    std::array<Index, 4> id = nodesAt(mesh, c, shape, tets[t].corner);
     int own = -1, prescribed = 0;
     for (int k = 0; k < 4; ++k)
     {
-      id[k] = mesh.cell(c)[shape.cornerNode[tets[t].corner[k]]];
       own = id[k] == node ? k : own;
       prescribed += isPrescribed[id[k]] ? 1 : 0;
     }

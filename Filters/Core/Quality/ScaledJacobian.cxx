@@ -19,14 +19,9 @@ using Vector = Eigen::Vector3d;
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 // The edges at each corner, ordered to make the triple product positive. The entry is e + 1 for
-// edge e, which goes from HexEdges[e][0] to HexEdges[e][1], or -(e + 1) if it ends at the corner.
-constexpr int HexEdges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 },
-  { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } };
-constexpr int HexCornerEdges[8][3] = { { 1, -4, 5 }, { 2, -1, 6 }, { 3, -2, 7 }, { 4, -3, 8 },
-  { -12, 9, -5 }, { -9, 10, -6 }, { -10, 11, -7 }, { -11, 12, -8 } };
-// The four edges along each parametric direction, at (0,0), (1,0), (0,1), (1,1) of the other two.
-constexpr int HexDirections[3][4][2] = { { { 0, 1 }, { 3, 2 }, { 4, 5 }, { 7, 6 } },
-  { { 0, 3 }, { 1, 2 }, { 4, 7 }, { 5, 6 } }, { { 0, 4 }, { 1, 5 }, { 3, 7 }, { 2, 6 } } };
+// edge e of the twelve in HexAxisEdges, or -(e + 1) if it ends at the corner.
+constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 }, { -5, 2, 11 },
+  { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
 // The three neighbors of each corner, in the same order.
 constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
   { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
@@ -94,7 +89,8 @@ double hex(const Vector* x, bool& collapsed)
   Vector direction[12];
   for (int e = 0; e < 12; ++e)
   {
-    const Vector edge = x[HexEdges[e][1]] - x[HexEdges[e][0]];
+    const int* ends = HexAxisEdges[e / 4][e % 4];
+    const Vector edge = x[ends[1]] - x[ends[0]];
     const double length = lengthOf(edge);
     collapsed = collapsed || length == 0;
     direction[e] = edge / length;
@@ -234,9 +230,9 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         // Measures a cell in mirrored order as its mirror image.
         const double sign = orientation.empty() ? 1 : orientation[c];
         Vector x[8];
+        copyCorners(mesh, c, *shape, points, x[0].data());
         for (int k = 0; k < shape->numberOfCorners; ++k)
         {
-          x[k] = points.row(mesh.cell(c)[shape->cornerNode[k]]).transpose();
           x[k].z() *= sign;
         }
         bool collapsed = false;
@@ -330,7 +326,7 @@ bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])
     {
       for (int k = 0; k < 4; ++k)
       {
-        edge(HexDirections[d][k][0], HexDirections[d][k][1], e[d][k]);
+        edge(HexAxisEdges[d][k][0], HexAxisEdges[d][k][1], e[d][k]);
       }
       for (int j = 0; j < 3; ++j)
       {

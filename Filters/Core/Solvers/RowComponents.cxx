@@ -2,39 +2,22 @@
 #include "Solvers/RowComponents.h"
 
 #include "Support/ReproducibleSum.h"
+#include "Support/UnionFind.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
 RowComponents rowComponents(const CsrMatrix& matrix)
 {
   const int rows = static_cast<int>(matrix.rows());
-  std::vector<int> parent(rows);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int row)
-  {
-    while (parent[row] != row)
-    {
-      parent[row] = parent[parent[row]];
-      row = parent[row];
-    }
-    return row;
-  };
+  UnionFind<int> components(rows);
   for (int row = 0; row < rows; ++row)
   {
-    int low = root(row);
+    int root = row;
     for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
     {
-      const int column = matrix.innerIndexPtr()[k];
-      if (parent[column] == low) // nearly always true, in an order that keeps neighbors near
-      {
-        continue;
-      }
-      const int other = root(column);
-      parent[std::max(low, other)] = std::min(low, other);
-      low = std::min(low, other);
+      root = components.join(root, matrix.innerIndexPtr()[k]);
     }
   }
 
@@ -43,7 +26,7 @@ RowComponents rowComponents(const CsrMatrix& matrix)
   number.resize(rows);
   for (int row = 0; row < rows; ++row)
   {
-    const int first = root(row); // the minimum row of its component
+    const int first = components.root(row); // the minimum row of its component
     number[row] = first == row ? static_cast<int>(result.count++) : number[first];
   }
   if (result.count < 2)

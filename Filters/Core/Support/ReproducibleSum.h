@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Support/Monitor.h"
+#include "Support/Types.h"
 
 #include <algorithm>
 #include <vector>
@@ -36,5 +37,11 @@ Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& 
     total += p;
   }
   return total;
+}
+
+/// The sum of the products of all entries.
+inline double dot(const Points& a, const Points& b, Monitor& monitor)
+{
+  return reproducibleSum(a.rows(), monitor, 0., [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 }

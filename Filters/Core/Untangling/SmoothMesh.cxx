@@ -36,13 +36,7 @@ double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, con
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
       double x[8][3];
-      for (int a = 0; a < numberOfCorners(shape.shape); ++a)
-      {
-        for (int j = 0; j < 3; ++j)
-        {
-          x[a][j] = points(mesh.cell(c)[shape.cornerNode[a]], j);
-        }
-      }
+      copyCorners(mesh, c, shape, points, x[0]);
       return numberOfCorners(shape.shape) > 0 ? orientation[c] * signedVolume(shape.shape, x) : 0;
     });
 }
