@@ -379,7 +379,7 @@ GeneralSolver::Report GeneralSolver::System::solve(
         fail(text.str());
       }
       before = now;
-      const int made = gmres.run(work->residual, norm2, goal2, work->solution, monitor);
+      const int made = gmres.run(b, norm2, goal2, work->solution, monitor);
       report.iterations += made;
       report.fallBackIterations += made;
       norm2 = this->trueResidual(b, *work, monitor);

@@ -16,10 +16,8 @@ namespace morph
 /// smoothed-aggregation multigrid of A, or of its transpose for the transposed system. Source: van
 /// der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644.
 ///
-/// Where that stagnates or breaks down, restarted GMRES (Saad and Schultz, SIAM J. Sci. Stat.
-/// Comput. 7 (1986) 856-869) takes over, preconditioned by an incomplete factorisation, which
-/// exists for every M-matrix (Meijerink and van der Vorst, Math. Comp. 31 (1977) 148-162). It is
-/// slower and partly sequential; a warning tells of it.
+/// Where that stagnates or breaks down, restarted GMRES with an incomplete factorisation takes over
+/// (Gmres.h). It is slower and sequential; a warning tells of it.
 class GeneralSolver
 {
 public:

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/IncompleteLU.h"
 #include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 
+#include <memory>
+
 namespace morph
 {
-/// GMRES (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869) for three right-hand sides
-/// at once, each with its own Krylov space, preconditioned from the right by an incomplete
-/// factorisation. What GeneralSolver falls back on: it cannot break down, and its residual never
-/// grows. Memory: up to 1 kB a row while it runs.
+/// Restarted GMRES (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869), preconditioned
+/// from the right by an incomplete factorisation with thresholds (Saad, Numer. Linear Algebra
+/// Appl. 1 (1994) 387-402). Eigen's, column by column; sequential. GeneralSolver falls back on it:
+/// unlike BiCGSTAB it does not break down. Memory while it runs: three times that of the matrix,
+/// and 250 bytes a row.
 class Gmres
 {
 public:
-  /// `matrix` must outlive this object.
+  /// Makes the factorisation. `matrix` must outlive this object.
   explicit Gmres(const CsrMatrix& matrix);
+  ~Gmres();
 
-  /// Up to 30 iterations, fewer where every column reaches its goal. `residual`: b - A x, `norm2`
-  /// and `goal2`: squared norms per column. Adds to `solution`. Returns the iterations made, at
-  /// least 1.
-  int run(const MultiVector& residual, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
-    MultiVector& solution, Monitor& monitor);
+  /// Makes up to 30 iterations for each column above its goal. `norm2` and `goal2`: squared norms
+  /// per column, of the residual b - A x and of what it should be; `x`: the guess in, the solution
+  /// out. Returns the most iterations made for a column, at least 1.
+  int run(const Points& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2, MultiVector& x,
+    Monitor& monitor);
 
 private:
-  const CsrMatrix* matrix_;
-  IncompleteLU preconditioner_;
-  std::vector<MultiVector> basis_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 }
