@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Geometry/OrientationPredicate.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"

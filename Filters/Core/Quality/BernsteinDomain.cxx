@@ -197,4 +197,19 @@ void BernsteinHalving::halve(const Part& part, Part& low, Part& high) const
   }
   low.halvings = high.halvings = part.halvings + 1;
 }
+
+double exactScale(const Eigen::Vector3d* points, int count)
+{
+  double largest = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    if (!points[i].allFinite())
+    {
+      return 1;
+    }
+    largest = std::max(largest, points[i].cwiseAbs().maxCoeff());
+  }
+  // Subnormal coordinates would ask for a power that is no double; 2^1023 takes them far enough.
+  return largest == 0 ? 1 : std::ldexp(1., std::min(299 - std::ilogb(largest), 1023));
+}
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -26,6 +28,11 @@ struct BernsteinDomain
 
 /// VTK's parametric domains: r, s, t in [0, 1]; r + s <= 1; r + s + t <= 1.
 extern const BernsteinDomain BoxDomain, WedgeDomain, TetDomain;
+
+/// Returns the power of two that scales the largest coordinate to [2^299, 2^300). It is 1 where all
+/// are 0 or one is not finite. Products of three scaled coordinates do not overflow, and they
+/// underflow only below 2^-600 of the largest. Scaling is exact but for coordinates smaller still.
+double exactScale(const Eigen::Vector3d* points, int count);
 
 using Exponents = std::array<std::int8_t, BernsteinDomain::MostSlots>;
 using Degrees = std::array<int, 3>; ///< of each simplex; 0 where there is none

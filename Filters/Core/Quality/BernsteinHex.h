@@ -10,7 +10,7 @@ namespace morph
 /// Proves the Jacobian determinant of a trilinear hexahedron positive, or finds it negative. The
 /// proof subdivides the Bernstein form and bounds the rounding of all coefficients and
 /// subdivisions. `x`: the eight corners in VTK's order, scaled by exactScale()
-/// (OrientationPredicate.h).
+/// (BernsteinDomain.h).
 Certificate certifyTrilinear(const Eigen::Vector3d* x);
 
 /// Bounds the rounding error of a Bernstein coefficient of a Jacobian determinant after at most 36

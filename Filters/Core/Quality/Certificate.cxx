@@ -4,6 +4,7 @@
 #include "Geometry/OrientationPredicate.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Quality/BernsteinDomain.h"
 #include "Quality/BernsteinHex.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Support/ReproducibleSum.h"
@@ -20,25 +21,15 @@ namespace
 {
 using Vector = Eigen::Vector3d;
 
-/// Returns Certified if all corner determinants are positive.
-Certificate certifyCorners(Shape shape, const Vector* x)
+bool areCornersPositive(Shape shape, const Vector* x)
 {
   const WeightedTet* tets = simplicialDecomposition(shape).tets;
-  Certificate result = Certificate::Certified;
-  for (int t = 0; t < cornerTetrahedra(shape); ++t)
-  {
-    const int* c = tets[t].corner;
-    const std::optional<int> sign = orientationSign(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-    if (!sign)
+  return std::all_of(tets, tets + cornerTetrahedra(shape),
+    [x](const WeightedTet& tet)
     {
-      result = Certificate::Undecided;
-    }
-    else if (*sign <= 0)
-    {
-      return Certificate::Inverted;
-    }
-  }
-  return result;
+      const int* c = tet.corner;
+      return orientationSign(x[c[0]], x[c[1]], x[c[2]], x[c[3]]) > 0;
+    });
 }
 
 /// Certifies b0 (1 - t)^2 + 2 b1 t (1 - t) + b2 t^2 on [0, 1]; coefficients have errors up to
@@ -83,10 +74,9 @@ Certificate certifyShape(Shape shape, Vector* x)
   {
     return Certificate::Undecided;
   }
-  const Certificate atCorners = certifyCorners(shape, x);
-  if (atCorners != Certificate::Certified)
+  if (!areCornersPositive(shape, x))
   {
-    return atCorners;
+    return Certificate::Inverted;
   }
   const double scale = exactScale(x, corners);
   std::for_each(x, x + corners, [scale](Vector& v) { v *= scale; });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/QuadraticJacobian.h"
 
-#include "Geometry/OrientationPredicate.h"
 #include "Quality/QuadraticMap.h"
 
 #include <Eigen/Geometry>

@@ -41,7 +41,7 @@ public:
     double largest[3];      ///< of the Bernstein coefficients' components, by magnitude
     double error[3];        ///< bounds of the components' rounding errors
   };
-  /// `x`: the nodes in VTK's order, scaled by exactScale() (OrientationPredicate.h).
+  /// `x`: the nodes in VTK's order, scaled by exactScale() (BernsteinDomain.h).
   Derivatives derivatives(const Vector* x) const;
 
   /// Computes the determinant's coefficients. Returns a bound of their errors after up to
