@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/SurfaceResidual.h"
 
+#include "Boundary/SurfaceEdges.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
 
@@ -77,21 +78,14 @@ Eigen::Matrix3d planeAxes(const Points& points)
   return columns;
 }
 
-Eigen::Vector3d vectorArea(const Points& points, const SurfaceResidual::Loops& loops)
+Eigen::Vector3d areaOf(const SurfaceResidual::Loops& loops, const Points& points)
 {
-  const Points arms = centred(points); // keeps the digits of surfaces far from the origin
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const std::vector<Index>& loop : loops)
   {
-    Eigen::Vector3d last = arms.row(loop.back());
-    for (Index row : loop)
-    {
-      const Eigen::Vector3d next = arms.row(row);
-      sum += last.cross(next) / 2;
-      last = next;
-    }
+    sum += vectorArea(points, loop.data(), static_cast<Index>(loop.size()));
   }
-  return sum;
+  return sum.transpose();
 }
 
 /// Returns the rotation times scale that fits the map from `rest` to `moved` (both centred), for
@@ -176,8 +170,8 @@ SurfaceResidual::Map SurfaceResidual::map(
     Eigen::Vector3d area = u.cross(v);
     Eigen::Vector3d movedArea = Eigen::Vector3d(u + map.gradient.transpose() * u)
                                   .cross(Eigen::Vector3d(v + map.gradient.transpose() * v));
-    const Eigen::Vector3d loopArea = vectorArea(this->prescribed_, this->loops_);
-    const Eigen::Vector3d movedLoopArea = vectorArea(prescribed, this->loops_);
+    const Eigen::Vector3d loopArea = areaOf(this->loops_, this->prescribed_);
+    const Eigen::Vector3d movedLoopArea = areaOf(this->loops_, prescribed);
     // The loops of a closed strip cancel and determine nothing.
     if (loopArea.norm() > Flat * (sites.rowwise() - map.centre).squaredNorm())
     {
