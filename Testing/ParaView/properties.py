@@ -166,7 +166,7 @@ class Properties(unittest.TestCase):
         with_results = 0
         for xml in proxies():
             sections = [xml.get("class")]
-            if xml.find("PropertyGroup[@label='Result']") is not None:
+            if xml.find("StringVectorProperty[@name='MorphStatus']") is not None:
                 sections.append("vtkMorphAlgorithm")
             groups = results(*sections)
             if not groups:
