@@ -314,6 +314,69 @@ TEST(QuadraticJacobian, WhatIsNotDecidedKeepsTheValueOfItsCorners)
   EXPECT_EQ(certificate(QuadraticTetra, cell), Certificate::Undecided);
 }
 
+TEST(QuadraticJacobian, StretchedCellsAreDecidedLikeTheCellsTheyComeFrom)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> power(-9, 9);
+  for (const quadratic::Type& type : quadratic::Types)
+  {
+    const int count = 100;
+    int undecided = 0;
+    for (Cell& cell : randomCells(type, count))
+    {
+      const Certificate expected = proof(type.type, cell).certificate;
+      const Vector factor(
+        std::pow(10, power(random)), std::pow(10, power(random)), std::pow(10, power(random)));
+      for (Vector& x : cell)
+      {
+        x = x.cwiseProduct(factor);
+      }
+      const QuadraticProof found = proof(type.type, cell);
+      undecided += found.certificate == Certificate::Undecided;
+      if (found.certificate != Certificate::Undecided && expected != Certificate::Undecided)
+      {
+        ASSERT_EQ(found.certificate, expected) << nameOf(type.type);
+      }
+      if (found.certificate == Certificate::Inverted)
+      {
+        EXPECT_LT(quadratic::determinant(type.type, cell, pointOf(found)), 0) << nameOf(type.type);
+        EXPECT_LE(quadraticScaledJacobian(type.type, cell.data(), 1), 0) << nameOf(type.type);
+      }
+    }
+    EXPECT_LE(undecided, .01 * count) << nameOf(type.type);
+  }
+}
+
+TEST(QuadraticJacobian, ANodeFarAwayDoesNotHideInvertedPoints)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> unit(-1, 1), power(3, 9);
+  for (const quadratic::Type& type : quadratic::Types)
+  {
+    const quadratic::Sampler sampler(
+      type.type, 6, [&type](const Point& at) { return quadratic::gradients(type.type, at); });
+    int inverted = 0;
+    for (Cell& cell : randomCells(type, 100))
+    {
+      cell[random() % cell.size()] +=
+        std::pow(10, power(random)) * Vector(unit(random), unit(random), unit(random));
+      Point worst;
+      if (!(sampler.minimum(cell, worst) < 0))
+      {
+        continue;
+      }
+      auto jacobian = quadratic::jacobian(cell, quadratic::gradients(type.type, worst));
+      if (jacobian.determinant() < -1e-3L * jacobian.colwise().norm().prod())
+      {
+        ++inverted;
+        EXPECT_EQ(certificate(type.type, cell), Certificate::Inverted) << nameOf(type.type);
+        EXPECT_LE(quadraticScaledJacobian(type.type, cell.data(), 1), 0) << nameOf(type.type);
+      }
+    }
+    EXPECT_GT(inverted, 10) << nameOf(type.type);
+  }
+}
+
 TEST(QuadraticJacobian, DegenerateCellsAreNotCertified)
 {
   Monitor monitor;

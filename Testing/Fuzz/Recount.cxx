@@ -378,6 +378,7 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
         cell->InterpolateDerivs(at, slopes.data());
       }
       Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+      Vector sizes = Vector::Zero(); // of the sums that give the columns
       for (int a = 0; a < nodes; ++a)
       {
         const int node = isVoxel ? shape.cornerNode[a] : a;
@@ -386,10 +387,15 @@ Index falselyCertified(const Mesh& mesh, const Points& reference, const Points& 
         for (int j = 0; j < 3; ++j)
         {
           jacobian.col(j) += x * slopes[j * nodes + a];
+          sizes[j] += x.norm() * std::abs(slopes[j * nodes + a]);
         }
       }
-      const double lengths =
-        jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
+      const Vector columns = jacobian.colwise().norm().transpose();
+      if ((columns.array() < 1e-6 * sizes.array()).any())
+      {
+        continue; // rounding gives the direction of a derivative that vanishes
+      }
+      const double lengths = columns.prod();
       if (sense[c] * jacobian.determinant() < -rounding * lengths)
       {
         return c;

@@ -19,11 +19,35 @@ using Part = BernsteinHalving::Part;
 
 constexpr int MostHalvings = 36, MostHalvingsNextToZero = 9;
 constexpr int MostParts = 2048;
+constexpr int PointsAlong = 8; ///< where to look for an inverted point: multiples of 1/8
 
+/// Returns a power of two that brings the extent of the nodes along an axis close to 2^299, and no
+/// coordinate above 2^340.
+double scaleOf(const Vector* nodes, int count, int axis)
+{
+  double low = nodes[0][axis], high = low;
+  for (int i = 1; i < count; ++i)
+  {
+    low = std::min(low, nodes[i][axis]);
+    high = std::max(high, nodes[i][axis]);
+  }
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (largest == 0)
+  {
+    return 1;
+  }
+  const double extent = high - low;
+  const int ofLargest = 340 - std::ilogb(largest);
+  return std::ldexp(1., extent > 0 ? std::min(299 - std::ilogb(extent), ofLargest) : ofLargest);
+}
+
+/// A cell with each coordinate scaled on its own: the determinant keeps its sign, and a flat cell's
+/// rounding errors become small compared with it.
 struct Cell
 {
   const QuadraticMap& map;
   Vector x[QuadraticMap::MostNodes];
+  Vector unscale; ///< factors that give the coordinates their ratios back
   QuadraticMap::Derivatives derivatives;
   bool isFinite;
 
@@ -35,9 +59,15 @@ struct Cell
       std::all_of(nodes, nodes + count, [](const Vector& v) { return v.allFinite(); });
     if (this->isFinite)
     {
-      const double scale = exactScale(nodes, count);
-      std::transform(
-        nodes, nodes + count, this->x, [scale](const Vector& v) -> Vector { return v * scale; });
+      const double common = exactScale(nodes, count);
+      Vector scale;
+      for (int j = 0; j < 3; ++j)
+      {
+        scale[j] = scaleOf(nodes, count, j);
+        this->unscale[j] = common / scale[j];
+      }
+      std::transform(nodes, nodes + count, this->x,
+        [&scale](const Vector& v) -> Vector { return v.cwiseProduct(scale); });
       this->derivatives = of.derivatives(this->x);
     }
   }
@@ -66,7 +96,42 @@ bool hasCollapsedEdge(const CellShape& shape, const Cell& cell, double (&middle)
   return false;
 }
 
-QuadraticProof prove(const CellShape& shape, const Cell& cell)
+/// Looks for an inverted point of a cell that the Bernstein form leaves undecided. The rounding
+/// error at one point is that of its own derivatives, which can be far smaller than the bound for
+/// the whole cell.
+bool findInvertedPoint(const CellShape& shape, const Cell& cell, double (&at)[3])
+{
+  const QuadraticMap::Magnitudes magnitudes = cell.map.magnitudes(cell.x);
+  for (int i = 0; i < cell.map.numberOfNodes(); ++i)
+  {
+    std::copy(cell.map.node(i), cell.map.node(i) + 3, at);
+    if (cell.map.isNegative(cell.derivatives, magnitudes, at))
+    {
+      return true;
+    }
+  }
+  const bool isTriangle = shape.shape == Shape::Tet || shape.shape == Shape::Wedge;
+  for (int i = 0; i <= PointsAlong; ++i)
+  {
+    for (int j = 0; j <= PointsAlong - (isTriangle ? i : 0); ++j)
+    {
+      const int most = PointsAlong - (shape.shape == Shape::Tet ? i + j : 0);
+      for (int k = 0; k <= most; ++k)
+      {
+        at[0] = i / double(PointsAlong);
+        at[1] = j / double(PointsAlong);
+        at[2] = k / double(PointsAlong);
+        if (cell.map.isNegative(cell.derivatives, magnitudes, at))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+QuadraticProof proveByHalving(const CellShape& shape, const Cell& cell)
 {
   QuadraticProof proof;
   const BernsteinHalving& halving = cell.map.halving();
@@ -129,6 +194,16 @@ QuadraticProof prove(const CellShape& shape, const Cell& cell)
   return proof;
 }
 
+QuadraticProof prove(const CellShape& shape, const Cell& cell)
+{
+  QuadraticProof proof = proveByHalving(shape, cell);
+  if (proof.certificate == Certificate::Undecided && findInvertedPoint(shape, cell, proof.at))
+  {
+    proof.certificate = Certificate::Inverted;
+  }
+  return proof;
+}
+
 double normalisation(Shape shape)
 {
   return shape == Shape::Hex ? 1 : shape == Shape::Wedge ? 2 / std::sqrt(3.) : std::sqrt(2.);
@@ -136,7 +211,7 @@ double normalisation(Shape shape)
 
 double normalisedDeterminant(const Cell& cell, const double (&at)[3])
 {
-  Eigen::Matrix3d jacobian = cell.map.jacobian(cell.derivatives, at);
+  Eigen::Matrix3d jacobian = cell.unscale.asDiagonal() * cell.map.jacobian(cell.derivatives, at);
   for (int j = 0; j < 3; ++j)
   {
     const double length = jacobian.col(j).norm();

@@ -447,6 +447,26 @@ QuadraticMap::Derivatives QuadraticMap::derivatives(const Vector* x) const
   return result;
 }
 
+QuadraticMap::Magnitudes QuadraticMap::magnitudes(const Vector* x) const
+{
+  Magnitudes result;
+  for (int coordinate = 0; coordinate < 3; ++coordinate)
+  {
+    const Derivative& derivative = this->derivative_[coordinate];
+    for (int term = 0; term < derivative.terms.size(); ++term)
+    {
+      Vector& sum = result.c[coordinate][term];
+      sum.setZero();
+      for (int i = derivative.first[term]; i < derivative.first[term + 1]; ++i)
+      {
+        const Weight& weight = derivative.weights[i];
+        sum += std::abs(weight.value) * (x[weight.node] - x[weight.reference]).cwiseAbs();
+      }
+    }
+  }
+  return result;
+}
+
 double QuadraticMap::determinant(
   const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const
 {
@@ -497,7 +517,9 @@ double QuadraticMap::determinant(
   return 1.01 * 6 * (roundings * Unit * exact + perturbation) + std::ldexp(1., -400);
 }
 
-Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const double (&at)[3]) const
+/// Calls sum(j, term, factor) for the terms of the three derivatives.
+template <typename Sum>
+void QuadraticMap::evaluate(const double (&at)[3], Sum&& sum) const
 {
   const BernsteinDomain& domain = *this->domain_;
   // A simplex's first slot has the rest of the barycentric coordinates, which sum to 1.
@@ -518,7 +540,6 @@ Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const dou
       coordinate[slot] -= coordinate[other];
     }
   }
-  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
   for (int j = 0; j < 3; ++j)
   {
     const BernsteinTerms& terms = this->derivative_[j].terms;
@@ -532,9 +553,38 @@ Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const dou
           factor *= coordinate[slot];
         }
       }
-      result.col(j) += factor * derivatives.c[j][term];
+      sum(j, term, factor);
     }
   }
+}
+
+Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const double (&at)[3]) const
+{
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  this->evaluate(
+    at, [&](int j, int term, double factor) { result.col(j) += factor * derivatives.c[j][term]; });
   return result;
+}
+
+bool QuadraticMap::isNegative(
+  const Derivatives& derivatives, const Magnitudes& magnitudes, const double (&at)[3]) const
+{
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero(), size = Eigen::Matrix3d::Zero();
+  this->evaluate(at,
+    [&](int j, int term, double factor)
+    {
+      J.col(j) += factor * derivatives.c[j][term];
+      size.col(j) += factor * magnitudes.c[j][term];
+    });
+  // The determinant with all its products added, which is at least the sum of their magnitudes.
+  double products = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int k = (i + 1) % 3, l = (i + 2) % 3;
+    products += size(i, 0) * (size(k, 1) * size(l, 2) + size(l, 1) * size(k, 2));
+  }
+  // An entry of J takes a rounding for each node and each term, three times for its factor, and a
+  // few more: fewer than 128. A product takes five, with three such entries.
+  return J.determinant() < -(3 * 128 + 8) * Unit * products;
 }
 }

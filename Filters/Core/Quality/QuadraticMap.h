@@ -41,8 +41,14 @@ public:
     double largest[3];      ///< of the Bernstein coefficients' components, by magnitude
     double error[3];        ///< bounds of the components' rounding errors
   };
-  /// `x`: the nodes in VTK's order, scaled by exactScale() (BernsteinDomain.h).
+  /// `x`: the nodes in VTK's order, each coordinate scaled to products that do not overflow.
   Derivatives derivatives(const Vector* x) const;
+  /// The sums that give the derivatives' terms, of magnitudes.
+  struct Magnitudes
+  {
+    Vector c[3][MostTerms];
+  };
+  Magnitudes magnitudes(const Vector* x) const;
 
   /// Computes the determinant's coefficients. Returns a bound of their errors after up to
   /// `halvings` successive subdivisions.
@@ -52,6 +58,10 @@ public:
   /// Returns the derivatives at a parametric point as the columns of a matrix. For pyramids, the
   /// derivatives along r and s lack their factor 1 - t.
   Eigen::Matrix3d jacobian(const Derivatives& derivatives, const double (&at)[3]) const;
+  /// Whether the determinant is certainly negative at a point whose coordinates are multiples of a
+  /// power of two.
+  bool isNegative(
+    const Derivatives& derivatives, const Magnitudes& magnitudes, const double (&at)[3]) const;
 
   const BernsteinHalving& halving() const { return this->halving_; }
   int numberOfNodes() const { return this->nodes_; }
@@ -76,6 +86,8 @@ private:
   };
   struct Rows;
 
+  template <typename Sum>
+  void evaluate(const double (&at)[3], Sum&& sum) const;
   void setDerivative(int coordinate, const Rows& rows);
   void setProduct();
 
