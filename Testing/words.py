@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-FOLDERS = ("Filters/Core",)
+FOLDERS = ("Examples", "Filters", "Plugin", "Programs", "Testing")
 
 # Pattern, what to write, a sentence to find.
 TABLE = (
@@ -26,7 +26,7 @@ TABLE = (
     (r"\bthreads? (do not |does not )?shows?\b", "does not depend on threads", "No thread shows."),
     (r"\bcarr(y|ies|ied|ying)( \w+)? along\b", "maps, moves or keeps", "It is carried along."),
 )
-COMMENT = re.compile(r"(?:^|\s)//+<?\s?(.*)$")
+COMMENT = re.compile(r"(?:(?:^|\s)//+<?|^\s*/?\*+(?!/))\s?(.*)$")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 

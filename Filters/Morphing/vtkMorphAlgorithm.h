@@ -3,73 +3,72 @@
  * @class   vtkMorphAlgorithm
  * @brief   moves the nodes of a volume mesh so that it follows a displaced boundary
  *
- * The superclass of all morphing filters. Port 0 takes the undeformed mesh (vtkUnstructuredGrid),
- * port 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells and arrays, and new
- * points: those of the boundary lie where port 1 puts them, those inside follow by the subclass's
- * method. The inputs are never touched.
+ * It is the superclass of all morphing filters. Port 0 takes the undeformed mesh
+ * (vtkUnstructuredGrid), port 1 the displaced boundary (vtkPointSet). Output 0 has the mesh's cells
+ * and arrays, and new points. Boundary nodes go where port 1 puts them; interior nodes follow by
+ * the subclass's method. The inputs are never modified.
  *
- * Which node a boundary point stands for is told by the first of these that is there:
+ * Boundary points are matched to nodes by the first of these that exists:
  * 1. the point array named by BoundaryIdArray;
  * 2. the point array `MorphPointId`, which vtkExtractMorphBoundary writes;
- * 3. the point's own number, where port 1 has as many points as the mesh: only nodes on the outer
- *    boundary are taken from it, for the inside of a warped copy of the mesh prescribes nothing;
+ * 3. the point's own number, if port 1 has as many points as the mesh. Only nodes on the outer
+ *    boundary are then prescribed, since the interior of a warped copy of the mesh is arbitrary;
  * 4. the point array `PointIds`, as ParaView's Generate Ids writes it;
  * 5. the point array `vtkOriginalPointIds`, with a warning, since filters pass it on after it has
  *    lost its meaning;
- * 6. where DisplacementArray is set, the node nearest to the point, within MatchTolerance; nodes on
- *    the outer boundary within MatchTolerance of that node, as where two bodies touch, go along
+ * 6. if DisplacementArray is set, the node nearest to the point, within MatchTolerance. Nodes on
+ *    the outer boundary within MatchTolerance of that node, as where two bodies touch, move with it
  *    unless they have a point of their own.
  *
- * Where port 1 has a point array `RestPosition` (the first three components count) ids are verified
- * against it. Nodes inside the mesh may be prescribed too. A node may be named more than once if
- * the targets agree within MatchTolerance; the first one counts.
+ * If port 1 has a point array `RestPosition` (the first three components count), ids are verified
+ * against it. Interior nodes may be prescribed too. A node may be named more than once if the
+ * targets agree within MatchTolerance; the first one counts.
  *
- * Target positions are the points of port 1 or, where DisplacementArray is set, the rest position
- * plus that vector.
+ * Target positions are the points of port 1 or, if DisplacementArray is set, the undeformed
+ * position plus that vector.
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
  * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
  * BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
- * MorphStatus and LargestValidStep. The same numbers are there as getters after an execution.
- * Mid-side, face and body nodes of quadratic cells that are not prescribed keep their place in the
- * cell. Cells of lower dimension pass through.
+ * MorphStatus and LargestValidStep. The same numbers have getters after an execution. Mid-side,
+ * face and body nodes of quadratic cells that are not prescribed keep their place in the cell.
+ * Cells of lower dimension pass through.
  *
- * Output 1 holds output 0's inverted and degenerate cells (ScaledJacobian of 0 or less) with their
- * points and arrays, to be looked at; added are the cell array `MorphCellId` and the point array
- * `MorphPointId`, ids in output 0. It is empty where there are none.
+ * Output 1 holds the inverted and degenerate cells of output 0 (ScaledJacobian of 0 or less) with
+ * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are
+ * added, ids in output 0. It is empty if there are no such cells.
  *
- * What the method prepares (a matrix and its preconditioner, weights, ...) is kept, and used again
- * while the rest points, the cells, the set of prescribed nodes and the method's options have the
- * same content, whatever their modification times. So moving the same boundary again only costs the
- * evaluation; see GetPrepareCount().
+ * What the method prepares (a matrix and its preconditioner, weights, ...) is kept. It is reused
+ * while the undeformed points, the cells, the set of prescribed nodes and the method's options have
+ * the same content, whatever their modification times. Moving the same boundary again then costs
+ * only the evaluation; see GetPrepareCount().
  *
- * Time: the outputs have the time steps of port 1, or NumberOfSteps of its own where port 1 is
- * still. Port 0 is always asked for RestTime. Stepping tells whether a step starts from the
- * undeformed mesh or from the mesh of the step before.
+ * Time: the outputs have the time steps of port 1, or NumberOfSteps of their own if port 1 does not
+ * vary in time. Port 0 is always asked for RestTime. Stepping defines whether a step starts from
+ * the undeformed mesh or from the mesh of the step before.
  *
- * After an error there is one message, and output 0 is the undeformed mesh, as port 0 has it, or
- * empty where that cannot be read; MorphStatus is "Failed", and InvertedCells and MinScaledJacobian
- * are -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
+ * After an error there is one message, and output 0 is the undeformed mesh of port 0, or empty if
+ * that cannot be read. MorphStatus is then "Failed", and InvertedCells and MinScaledJacobian are
+ * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
  * the errors: composite data (use Merge Blocks first), no points, no volume cells, cells of other
  * types than tetrahedra, hexahedra, voxels, wedges, pyramids and their quadratic forms, no way to
  * match the boundary, a node with two targets, ids that RestPosition contradicts, cells on more
  * than one MPI rank, relative steps after a boundary that varies in time on several processes. Data
- * sets on any port are refused where an array has fewer values than there are points or cells,
- * where cells name points that do not exist, where coordinates are not finite or above 1e50, and
- * where their largest extent is below 1e-50 but not 0; so are motions beyond 1e50, and in single
- * precision beyond 3.4e38. An execution that is aborted gives the undeformed mesh (MorphStatus
- * "Cancelled", the same -1) and no message. Inverted cells are no error by themselves: see
- * Validity.
+ * sets on any port are refused if an array has fewer values than there are points or cells, if
+ * cells name points that do not exist, or if coordinates are not finite or above 1e50. An extent
+ * below 1e-50 other than 0 is refused too. So are motions beyond 1e50, and in single precision
+ * beyond 3.4e38. An execution that is aborted gives the undeformed mesh (MorphStatus "Cancelled",
+ * the same -1) and no message. Inverted cells are no error by themselves: see Validity.
  *
- * A property that is a floating-point number takes no NaN, no infinity and nothing outside its
- * range: the setter raises an error, and the old value stays. Integers outside their range become
- * the nearest end of it, as usual in VTK.
+ * A property that is a floating-point number accepts neither NaN, nor infinity, nor values outside
+ * its range: the setter raises an error, and the old value stays. Integers outside their range
+ * become the nearest bound, as usual in VTK.
  *
- * Where a port's data have to be had at another time than the pipeline has left them at (one reader
- * on both ports, relative steps that were skipped), this filter updates what is connected to it
- * from within RequestData. CONTINUE_EXECUTING is not used: VTK's executive repeats without end
- * where the input fails in a repeated execution.
+ * If a port's data are needed at another time than the pipeline has left them at (one reader on
+ * both ports, relative steps that were skipped), this filter updates its input from within
+ * RequestData. CONTINUE_EXECUTING is not used: VTK's executive repeats without end if the input
+ * fails in a repeated execution.
  *
  * With several MPI processes an execution is collective: it has to take place on all of them.
  *
@@ -115,9 +114,9 @@ public:
 
   ///@{
   /**
-   * Name of the point array of port 1 that holds, for each of its points, the id of a node of port
-   * 0: one component, whole numbers. Empty or "None": look for the arrays named in the class
-   * description. Default: none.
+   * Name of the point array of port 1 with the id of a node of port 0 for each point: one
+   * component, whole numbers. Empty or "None": use the arrays named in the class description.
+   * Default: none.
    */
   vtkSetStringMacro(BoundaryIdArray);
   vtkGetStringMacro(BoundaryIdArray);
@@ -126,7 +125,7 @@ public:
   ///@{
   /**
    * Name of a point array of port 1 with three components, in the unit of the points: nodes go to
-   * their rest position plus this vector. Empty or "None": they go to the points of port 1.
+   * their undeformed position plus this vector. Empty or "None": they go to the points of port 1.
    * Default: none.
    */
   vtkSetStringMacro(DisplacementArray);
@@ -135,8 +134,8 @@ public:
 
   ///@{
   /**
-   * How much of the boundary's motion to apply: target = rest + ScaleFactor (target - rest). 0
-   * gives the rest positions and 1 the targets, bit for bit. Default 1, any finite number.
+   * The factor of the boundary's motion: target = rest + ScaleFactor (target - rest). 0 gives the
+   * undeformed positions and 1 the targets, bit for bit. Default 1, any finite number.
    */
   virtual void SetScaleFactor(double value);
   vtkGetMacro(ScaleFactor, double);
@@ -144,13 +143,12 @@ public:
 
   ///@{
   /**
-   * Steps that the motion of a boundary which does not vary in time is cut into, equal in length:
-   * the output then has the time steps 0 (at rest), 1, ..., NumberOfSteps, and at step i the
-   * boundary has made i / NumberOfSteps of ScaleFactor's motion. Between steps the one before
-   * counts; where no time is asked for, the last. A boundary with several time steps has its own
-   * and this is without effect; one with a time range alone is taken at the ends of that many equal
-   * parts of it. Default 0: no steps. Range [0, 1000000]; what is beyond it becomes the nearest
-   * end.
+   * The number of equal steps of a boundary that does not vary in time. The output then has the
+   * time steps 0 (undeformed), 1, ..., NumberOfSteps, and at step i the boundary has made i /
+   * NumberOfSteps of ScaleFactor's motion. Between steps the one before counts; without a time, the
+   * last. A boundary with several time steps keeps them, and this has no effect. One with a time
+   * range alone is taken at the ends of that many equal parts of it. Default 0: no steps. Range [0,
+   * 1000000]; values outside become the nearest bound.
    */
   vtkSetClampMacro(NumberOfSteps, int, 0, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -164,14 +162,13 @@ public:
 
   ///@{
   /**
-   * From which mesh a step starts. Absolute: from the undeformed mesh. Relative: from the mesh of
-   * the step before, in double precision, for which the method is prepared again, and the first
-   * from the undeformed mesh; cells are still measured against, and vtkInversionFreeMorph still
-   * aims for, the undeformed mesh. A relative step is the same whether all steps before it were
-   * asked for or none: those that are missing are computed, the boundary being asked for their
-   * times (on one MPI process only, if it varies in time). PrepareSeconds and EvaluateSeconds are
-   * those of the last step alone, 0 where it was kept. Has no effect without steps. Default
-   * Absolute.
+   * The mesh from which a step starts. Absolute: the undeformed mesh. Relative: the mesh of the
+   * step before, in double precision, for which the method is prepared again; the first step starts
+   * from the undeformed mesh. The undeformed mesh remains the reference of the measures and of
+   * vtkInversionFreeMorph's targets. A relative step does not depend on the steps that were asked
+   * for: missing ones are computed, the boundary being asked for their times (on one MPI process
+   * only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step
+   * alone, 0 where it was kept. Has no effect without steps. Default Absolute.
    */
   vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);
   vtkGetMacro(Stepping, int);
@@ -181,9 +178,9 @@ public:
 
   ///@{
   /**
-   * Megabytes (10^6 bytes) that the meshes of a relative run may take, 24 bytes a node and step.
-   * Beyond it every other one is dropped, and going back to it takes some steps again; the result
-   * does not depend on it. The last one is kept in any case. Default 1000, range [0, 1e12].
+   * The memory for the meshes of a relative run in megabytes (10^6 bytes), 24 bytes a node and
+   * step. Beyond it every other mesh is dropped, and going back to it repeats some steps; the
+   * result does not depend on it. The last mesh is always kept. Default 1000, range [0, 1e12].
    */
   virtual void SetStepMemoryLimit(double value);
   vtkGetMacro(StepMemoryLimit, double);
@@ -191,8 +188,8 @@ public:
 
   ///@{
   /**
-   * How far a boundary point may be from the node it stands for: its RestPosition or, where nodes
-   * are found by position, the point itself. In units of the diagonal of the bounding box of the
+   * The largest distance of a boundary point from its node: of its RestPosition or, where nodes are
+   * found by position, of the point itself. In units of the diagonal of the bounding box of the
    * volume cells' nodes. Default 1e-6, range [0, 1].
    */
   virtual void SetMatchTolerance(double value);
@@ -201,10 +198,10 @@ public:
 
   ///@{
   /**
-   * Whether nodes on the mesh's outer faces that port 1 does not name stay where they are. Mid-side
-   * and face nodes of quadratic cells stay only where all corners of their edge or face do; the
-   * others keep their place in the cell. Off: they are solved for like the nodes inside, and leave
-   * the original surface. Default on.
+   * Whether nodes on the mesh's outer faces that port 1 does not name are held. Mid-side and face
+   * nodes of quadratic cells are held only where all corners of their edge or face are; the others
+   * keep their place in the cell. Off: they are solved for like the interior nodes, and leave the
+   * original surface. Default on.
    */
   vtkSetMacro(HoldUnnamedBoundary, bool);
   vtkGetMacro(HoldUnnamedBoundary, bool);
@@ -225,16 +222,16 @@ public:
    * What to do where the method leaves inverted or degenerate cells.
    * None: nothing; InvertedCells counts them.
    * Report: a warning names the ten worst of them.
-   * SubStep: halve the motion, and go on from the last valid mesh, whose method is prepared again
-   * at each step.
-   * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; where
-   * that fails, sub-steps of vtkInversionFreeMorph.
+   * SubStep: halve the motion, and continue from the last valid mesh, for which the method is
+   * prepared again at each step.
+   * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; if that
+   * fails, sub-steps of vtkInversionFreeMorph.
    * Refuse: an error that names them, and the undeformed mesh.
    *
-   * With the last three a boundary that inverts cells by itself, at corners whose nodes it all
-   * prescribes, is refused at once, naming these cells. Where SubStep and Repair find no valid mesh
-   * for the whole motion there is an error, but the output is the valid mesh of the largest step
-   * that was reached; see MorphStatus. Default Report.
+   * The last three refuse at once a boundary that inverts cells by itself, at corners whose nodes
+   * are all prescribed; the error names these cells. If SubStep and Repair find no valid mesh for
+   * the whole motion, there is an error, but the output is the valid mesh of the largest step that
+   * was reached; see MorphStatus. Default Report.
    */
   vtkSetClampMacro(Validity, int, VALIDITY_NONE, VALIDITY_REFUSE);
   vtkGetMacro(Validity, int);
@@ -248,9 +245,10 @@ public:
   ///@{
   /**
    * Whether to prove for each cell of the output that its Jacobian determinant is positive
-   * everywhere, not at the corners alone (cell array JacobianCertificate: 1 certified, 0 undecided,
-   * -1 inverted; field data CertifiedCells, UncertifiedCells, UndecidedCells; see
-   * vtkScaledJacobian). Cost: about a microsecond a cell. Default off, in vtkInversionFreeMorph on.
+   * everywhere, not only at its corners. The cell array JacobianCertificate is 1 certified, 0
+   * undecided, -1 inverted; the field data are CertifiedCells, UncertifiedCells and UndecidedCells;
+   * see vtkScaledJacobian. Cost: about a microsecond a cell. Default off, in vtkInversionFreeMorph
+   * on.
    */
   vtkSetMacro(Certify, bool);
   vtkGetMacro(Certify, bool);
@@ -259,7 +257,7 @@ public:
 
   ///@{
   /**
-   * Most sub-steps to try, failed ones included. Default 64, range [1, VTK_INT_MAX].
+   * The maximum number of sub-steps, failed ones included. Default 64, range [1, VTK_INT_MAX].
    */
   vtkSetClampMacro(MaximumSubSteps, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumSubSteps, int);
@@ -267,12 +265,11 @@ public:
 
   ///@{
   /**
-   * Whether to smooth the mesh that the method made, before Validity looks at it: prescribed nodes
-   * stay, inverted cells are untangled where that can be done, and then cells are brought closer,
-   * on average, to their shapes at rest (see vtkSmoothingMorph, TargetShape Initial). A smoothed
-   * mesh with more inverted cells, or as many and a lower minimum scaled Jacobian, is dropped. The
-   * field data PostSmoothSteps has the steps that led to the output, 0 where it was dropped.
-   * Default off.
+   * Whether to smooth the method's mesh before Validity checks it. Prescribed nodes stay, inverted
+   * cells are untangled if possible, and then cells are improved, on average, towards their
+   * undeformed shapes (see vtkSmoothingMorph, TargetShape Initial). A smoothed mesh with more
+   * inverted cells, or as many and a lower minimum scaled Jacobian, is discarded. The field data
+   * PostSmoothSteps has the steps that led to the output, 0 where it was discarded. Default off.
    */
   vtkSetMacro(PostSmooth, bool);
   vtkGetMacro(PostSmooth, bool);
@@ -281,8 +278,9 @@ public:
 
   ///@{
   /**
-   * Most steps of PostSmooth, in each of which every node moves once; it ends before that once no
-   * node moves farther than a thousandth of its edges. Default 20, range [1, 100000].
+   * The maximum number of steps of PostSmooth, in each of which every node moves once. It ends
+   * earlier once no node moves farther than a thousandth of its edges. Default 20, range [1,
+   * 100000].
    */
   vtkSetClampMacro(PostSmoothIterations, int, 1, 100000);
   vtkGetMacro(PostSmoothIterations, int);
@@ -290,9 +288,9 @@ public:
 
   ///@{
   /**
-   * The time at which port 0 is at rest: the last of its time steps that is not after it, or the
-   * first step where all are after it. Default -1e300, so the first. Has no effect where port 0 has
-   * no time steps.
+   * The time at which port 0 is undeformed: the last of its time steps that is not after it, or the
+   * first step if all are after it. Default -1e300, so the first. Has no effect if port 0 has no
+   * time steps.
    */
   virtual void SetRestTime(double value);
   vtkGetMacro(RestTime, double);
@@ -300,9 +298,9 @@ public:
 
   ///@{
   /**
-   * Threads to compute with, by the backend that vtkSMPTools uses, or, where that is Sequential (as
-   * ParaView's is by default), by std::threads. 0 means as many as the backend has, or all cores.
-   * The result depends neither on it nor on the backend. Default 0, range [0, VTK_INT_MAX].
+   * Threads to compute with, by the backend of vtkSMPTools or, if that is Sequential (ParaView's
+   * default), by std::threads. 0 means as many as the backend has, or all cores. The result depends
+   * neither on it nor on the backend. Default 0, range [0, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
@@ -311,8 +309,8 @@ public:
   ///@{
   /**
    * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION for that of the input's (double where they are neither). Computed is always
-   * in double. Default DEFAULT_PRECISION.
+   * DEFAULT_PRECISION for that of the input's (double where they are neither). Computation is
+   * always in double. Default DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
@@ -320,8 +318,8 @@ public:
 
   ///@{
   /**
-   * Quality of the output as of the last execution; see vtkScaledJacobian. Where there was no
-   * result all are -1 but the mean, which is NaN: no test for 0 passes after an error.
+   * Quality of the output of the last execution; see vtkScaledJacobian. Without a result the mean
+   * is NaN and the others are -1, so that no test for 0 passes after an error.
    */
   double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
@@ -331,17 +329,17 @@ public:
   ///@}
 
   /**
-   * Cells of the last execution's output that no method could have kept valid: at one of their
-   * corners all four nodes are prescribed and span no positive volume, or a single free node has no
-   * place where its corners are positive. Filled where an execution is refused because of them,
-   * too. Field data BoundaryInvertedCells.
+   * Cells of the last execution's output that no method can keep valid. At one of their corners all
+   * four nodes are prescribed and span no positive volume, or a single free node has no place where
+   * its corners are positive. Also set where an execution is refused because of them. Field data
+   * BoundaryInvertedCells.
    */
   vtkIdType GetBoundaryInvertedCells() const { return this->GetInteger("BoundaryInvertedCells"); }
 
   /**
    * As of the last execution: bodies whose cells of a type are all inverted in VTK's order, as in a
-   * mirrored mesh. They are morphed and measured as if they were not, InvertedCells does not count
-   * them, and a warning says so. Field data MirroredBodies; see vtkScaledJacobian.
+   * mirrored mesh. They are morphed and measured as if they were not mirrored. InvertedCells does
+   * not count them, and a warning is raised. Field data MirroredBodies; see vtkScaledJacobian.
    */
   vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
 
@@ -357,7 +355,7 @@ public:
   ///@{
   /**
    * As of the last execution, with Certify on: number of cells whose Jacobian determinant is
-   * positive everywhere, of those where it is not, and of those for which neither was proved.
+   * positive everywhere, of cells where it is not, and of cells where neither was proved.
    */
   vtkIdType GetCertifiedCells() const { return this->GetInteger("CertifiedCells"); }
   vtkIdType GetUncertifiedCells() const { return this->GetInteger("UncertifiedCells"); }
@@ -366,19 +364,19 @@ public:
 
   ///@{
   /**
-   * How the last execution ended: "Valid"; "Inverted", with cells that are; "SubStepped" or
-   * "Repaired", valid with the help of Validity; "Partial", valid but not all the way; "Cancelled"
-   * or, after an error, "Failed", with the undeformed mesh; "None" before there was an execution.
-   * The field data MorphStatus holds it too.
+   * How the last execution ended. "Valid"; "Inverted", with inverted cells; "SubStepped" or
+   * "Repaired", valid with the help of Validity; "Partial", valid for a part of the motion;
+   * "Cancelled" or, after an error, "Failed", with the undeformed mesh; "None" before an execution.
+   * Field data MorphStatus.
    */
   const char* GetMorphStatus() const;
   ///@}
 
   ///@{
   /**
-   * As of the last execution: the part of the motion, with relative steps of the last step's, that
-   * the valid output has made, 1 for all of it, and NaN where it has inverted cells (field data
-   * LargestValidStep); and the sub-steps tried.
+   * As of the last execution: the part of the motion that the valid output has made, 1 for all of
+   * it, and NaN if it has inverted cells (field data LargestValidStep); and the sub-steps tried.
+   * With relative steps it is the part of the last step's motion.
    */
   double GetLargestValidStep() const { return this->GetNumber("LargestValidStep"); }
   vtkIdType GetSubSteps() const { return this->GetInteger("SubSteps"); }
@@ -390,30 +388,30 @@ public:
   int GetSolverIterations() const { return static_cast<int>(this->GetInteger("SolverIterations")); }
 
   /**
-   * How often this object has prepared its method since it was made.
+   * How often this object has prepared its method.
    */
   int GetPrepareCount() const { return static_cast<int>(this->GetInteger("PrepareCount")); }
 
   ///@{
   /**
-   * As of the last execution: nodes whose positions were prescribed, held ones included, and points
-   * of port 1 that were near no node and left out.
+   * As of the last execution: nodes whose positions were prescribed, held nodes included, and
+   * points of port 1 that were ignored because no node is near.
    */
   vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }
   vtkIdType GetUnmatchedPoints() const { return this->GetInteger("UnmatchedPoints"); }
   ///@}
 
   /**
-   * The adjoint of a linear method, for shape optimisation: from the derivatives of an objective
-   * with respect to the position of each node of the morphed mesh to those with respect to the
-   * position (or displacement) of each point of the boundary. `rest` and `boundary`: as on the two
-   * ports, which are not looked at. `gradient`: #nodes tuples of 3. `boundaryGradient`: becomes
-   * #points of the boundary tuples of 3; a point that stands for no node gets 0, and so does each
-   * but the first of several that stand for one. Times ScaleFactor. What an execution prepared is
-   * used again, and the reverse, as between executions; the cost beyond that is that of an
-   * evaluation. False after an error, which is reported as in an execution: those of an execution,
-   * a gradient of the wrong size or not finite, a method that is not linear, relative steps. With
-   * absolute steps it is that of the whole motion.
+   * The adjoint of a linear method, for shape optimisation. It takes the derivatives of an
+   * objective with respect to the position of each node of the morphed mesh, and computes those
+   * with respect to the position (or displacement) of each point of the boundary. `rest` and
+   * `boundary`: as on the two ports, which are not used. `gradient`: #nodes tuples of 3.
+   * `boundaryGradient`: becomes #points of the boundary tuples of 3, with the factor ScaleFactor; a
+   * point that stands for no node gets 0, and so does each but the first of several points of one
+   * node. What an execution prepared is reused, and the reverse; the further cost is that of an
+   * evaluation. Returns false after an error, which is reported as in an execution: the errors of
+   * an execution, a gradient of the wrong size or not finite, a method that is not linear, relative
+   * steps. With absolute steps the adjoint is that of the whole motion.
    *
    * @sa vtkMorphAdjoint
    */

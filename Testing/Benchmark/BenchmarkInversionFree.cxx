@@ -7,8 +7,8 @@
 int main(int argc, char** argv)
 {
   return benchmark::commandLine(argc, argv, "benchmark-inversion-free",
-    "Measures the inversion-free morph on twisted cubes of hexahedra whose inner nodes start at "
-    "rest, and\n"
+    "Measures the inversion-free morph on twisted cubes of hexahedra whose inner nodes start "
+    "undeformed, and\n"
     "prints figures beside their targets. Both minimisers stop by the same criteria.\n",
     "", benchmark::measureInversionFreeFigures);
 }

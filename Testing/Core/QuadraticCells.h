@@ -42,7 +42,7 @@ Gradients gradients(std::uint8_t type, const Point& at);
 Eigen::Matrix<long double, 3, 3> jacobian(const Cell& cell, const Gradients& gradients);
 long double determinant(std::uint8_t type, const Cell& cell, const Point& at);
 
-/// The least determinant of cells of one type on a fixed lattice of their domain.
+/// The minimum determinant of cells of one type on a fixed lattice of their domain.
 class Sampler
 {
 public:
@@ -56,6 +56,6 @@ private:
   Eigen::MatrixXd gradients_[3]; ///< #points x #nodes
 };
 
-/// The least determinant that a search with ever shorter steps finds from `from`.
+/// The minimum determinant that a search with ever shorter steps finds from `from`.
 long double searchedMinimum(std::uint8_t type, const Cell& cell, const Point& from);
 }

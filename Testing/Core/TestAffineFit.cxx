@@ -37,7 +37,7 @@ TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
     const AffineLeastSquares leastSquares(rest);
     EXPECT_EQ(leastSquares.rank(), dimension);
     const AffineFit fit = leastSquares.fit(u);
-    // The means taken off, the gradient is a least-squares problem of its own.
+    // Without the means, the gradient is a least-squares problem of its own.
     const Eigen::MatrixXd arms = rest.rowwise() - rest.colwise().mean();
     const Eigen::MatrixXd right = u.rowwise() - u.colwise().mean();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;

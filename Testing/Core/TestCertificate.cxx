@@ -84,7 +84,7 @@ bool isInside(std::uint8_t type, const Vector& at)
   return at.minCoeff() >= 0 && at.maxCoeff() <= 1 && (type != Wedge || at[0] + at[1] <= 1);
 }
 
-/// The least determinant on a lattice, then by a search from the best of its points with ever
+/// The minimum determinant on a lattice, then by a search from the best of its points with ever
 /// shorter steps.
 double sampledMinimum(std::uint8_t type, const Cell& cell, int lattice, bool search)
 {
@@ -367,7 +367,7 @@ TEST(Certificate, AZeroInsideIsNotCertified)
     wedge[k] = Vector(-wedge[k][0], -wedge[k][1], 1);
   }
   EXPECT_NE(certified(Wedge, wedge), Certificate::Certified);
-  // The cube's top turned likewise: the middle section is a point.
+  // The cube's top rotated in the same way: the middle section is a point.
   Cell hex = Cube;
   for (int k = 4; k < 8; ++k)
   {

@@ -122,7 +122,7 @@ TEST(ElementStiffness, BadCellsGiveAPositiveMatrixAndSaySo)
 
 TEST(FemWarp, AffineIsExactThroughTheEquationsToo)
 {
-  // Not by the affine first guess alone: A_I x_I + A_B x_B vanishes for the rest positions.
+  // Not by the affine first guess alone: A_I x_I + A_B x_B vanishes for the undeformed positions.
   for (const auto& [name, mesh] : jittered())
   {
     const NodePartition partition = outerPartition(mesh);

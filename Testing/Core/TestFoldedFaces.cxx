@@ -94,7 +94,7 @@ TEST(FoldedFaces, QuadrilateralsWithOneCornerTurnedOver)
 
 TEST(FoldedFaces, ASurfaceThatBendsIsNotFolded)
 {
-  // A strip rolled up by three quarters of a circle: by the sign alone many faces are turned over.
+  // A strip rolled up by three quarters of a circle: by the sign alone many faces are reversed.
   const Boundary b(meshes::hexes(24, 4, 1));
   const Points moved = b.moved(
     [](const Row& x)

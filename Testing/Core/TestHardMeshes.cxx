@@ -59,7 +59,7 @@ Outcome morphOuter(const Mesh& mesh, Eigen::RowVector3d (*map)(const Eigen::RowV
   return result;
 }
 
-/// A mesh of hexahedra round the z axis whose innermost cells are collapsed to wedges, or the same
+/// A mesh of hexahedra about the z axis whose innermost cells are collapsed to wedges, or the same
 /// cells as wedges.
 Mesh polar(bool asWedges)
 {

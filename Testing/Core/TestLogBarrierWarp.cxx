@@ -37,7 +37,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   return result;
 }
 
-/// Rows of (I - W_I) x_I - W_B x_B at rest: how far the weights miss their nodes.
+/// Rows of (I - W_I) x_I - W_B x_B, undeformed: how far the weights miss their nodes.
 double missed(const LogBarrierWarp& method, const Mesh& mesh)
 {
   const Points residual = method.solver().matrix() * rows(mesh.points, method.rows()) +

@@ -47,7 +47,7 @@ Points neighborhood(int k, std::mt19937& random)
   std::uniform_real_distribution<double> value(-1, 1);
   Points d(k, 3);
   d = d.unaryExpr([&](double) { return normal(random); });
-  for (int c = 0; c < 4; ++c) // a tetrahedron round the node, so that it lies inside
+  for (int c = 0; c < 4; ++c) // a tetrahedron around the node, so that it lies inside
   {
     d.row(c) = Eigen::RowVector3d(c & 1 ? 1 : -1, c & 2 ? 1 : -1, (c == 0 || c == 3) ? 1 : -1) +
                0.3 * Eigen::RowVector3d(value(random), value(random), value(random));

@@ -54,8 +54,8 @@ struct Surface
   SurfaceResidual::Loops loops;
 };
 
-/// A disc of radius 2 round its rim, with a hole of radius 1; the points between the circles raised
-/// to a dome of height `rise`.
+/// A disc of radius 2 with a hole of radius 1; the points between the circles are raised to a dome
+/// of height `rise`.
 Surface annulus(double rise, bool withLoops)
 {
   constexpr int Around = 24;
@@ -308,7 +308,7 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
   swapped.col(1) *= -1;
   EXPECT_FALSE(morphed(flat, swapped).report.replaced());
   EXPECT_FALSE(morphed(annulus(.3, false), swapped).report.replaced());
-  // The rim alone is turned over, and it is the only loop: normal and affine map disagree.
+  // Only the rim is reversed, and it is the only loop: normal and affine map disagree.
   Surface partly = annulus(.3, true);
   partly.loops.resize(1);
   partly.prescribed.bottomRows(24) *= 1.9;

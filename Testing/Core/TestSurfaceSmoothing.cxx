@@ -157,7 +157,7 @@ TEST(SurfaceSmoothing, FoldsOpenInThePlane)
       {
         EXPECT_EQ(motion.state[n], BoundaryMotion::OnSurface);
         EXPECT_NEAR(motion.displacement(n, 2), 0, 1e-12);
-        // Two faces round the folded ones, and no further.
+        // Two faces around the folded ones, and no further.
         EXPECT_LT((c.mesh.points.row(n) - Row(4, 4, 2)).cwiseAbs().maxCoeff(), 4);
       }
       else

@@ -25,8 +25,8 @@ int role(vtkPolyData* output, vtkIdType point);
 /// Points where `is` holds.
 std::vector<morph::Index> nodesWhere(
   vtkPointSet* data, const std::function<bool(const grids::Row&)>& is);
-/// "Surface 3": the surface all of whose nodes are at rest where `is` holds. Executes a copy of the
-/// filter that moves nothing.
+/// "Surface 3": the surface whose nodes all satisfy `is` in their undeformed positions. Executes a
+/// copy of the filter that moves nothing.
 std::string surfaceName(
   vtkBoundaryDisplacement* filter, const std::function<bool(const grids::Row&)>& is);
 

@@ -38,8 +38,8 @@ bool onTop(const Row& x)
   return x[2] == 4;
 }
 
-/// Checks that exactly the nodes at rest where `moves` says so have moved by `Up`, and that the
-/// others have stayed.
+/// Checks that exactly the nodes whose undeformed positions satisfy `moves` have moved by `Up`, and
+/// that the others have stayed.
 void expectMoved(vtkBoundaryDisplacement* filter, const std::function<bool(const Row&)>& moves)
 {
   vtkPolyData* output = filter->GetOutput();
@@ -285,7 +285,7 @@ TEST(BoundaryDisplacement, AlongNormals)
     }
   }
 
-  // Nodes without a moving face take all faces round them.
+  // Nodes without a moving face take all faces around them.
   filter->SetMovingToSelection();
   filter->SetSelectionData(indices(vtkSelectionNode::POINT, { 4 })); // in the middle of the bottom
   filter->SetScaleFactor(1);

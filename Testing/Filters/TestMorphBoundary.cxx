@@ -35,7 +35,7 @@ vtkSmartPointer<vtkMorphBoundary> morpher(vtkUnstructuredGrid* grid, vtkDataObje
   return filter;
 }
 
-/// Largest distance of the output's points from the map of their rest positions.
+/// Largest distance of the output's points from the map of their undeformed positions.
 double worst(vtkPolyData* output, const grids::Map& map)
 {
   const morph::Points x = grids::points(output);

@@ -267,7 +267,7 @@ TEST_P(MorphFilters, MirroredGridCountsAsValid)
   filter->Update();
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 1e-14);
-  // The signs are those at rest: a reflected boundary does invert the cells.
+  // The signs are those of the undeformed mesh: a reflected boundary does invert the cells.
   filter->SetBoundaryData(
     grids::boundary(grid, [](const grids::Row& x) { return grids::Row(x[0], x[1], -x[2]); }));
   filter->Update();

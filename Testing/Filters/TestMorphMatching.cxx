@@ -117,7 +117,7 @@ TEST_F(MorphMatching, WarpedCopyOfTheGridGivesItsOuterNodes)
   }
   auto warped = grids::copy(this->Grid);
   warped->SetPoints(grids::cloud(all)->GetPoints());
-  // Comes before PointIds, which a copy of a copy may carry along.
+  // Comes before PointIds, which a copy of a copy may still have.
   grids::addIds(warped, "PointIds", std::vector<Index>(this->Mesh.numberOfNodes(), 0));
   EXPECT_TRUE(this->Run(warped) == this->Expected);
   EXPECT_EQ(this->Filter->GetPrescribedPoints(), static_cast<vtkIdType>(this->Outer.size()));

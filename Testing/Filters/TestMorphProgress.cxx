@@ -57,7 +57,7 @@ void expectRise(vtkAlgorithm* filter)
   EXPECT_EQ(last, 1);
 }
 
-/// Steep enough for inverted cells, so that what mends them tells its progress, too.
+/// Steep enough for inverted cells, so that their repair reports its progress, too.
 grids::Row waves(const grids::Row& x)
 {
   return { x[0], x[1], x[2] + 1.6 * std::sin(M_PI / 2 * x[0]) };

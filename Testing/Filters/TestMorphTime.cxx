@@ -210,7 +210,7 @@ TEST(MorphTime, RestTime)
   mesh->Steps = { 1, 3, 5 };
   vtkNew<vtkFEMWarpMorph> filter;
   filter->SetInputConnection(mesh->GetOutputPort());
-  // Each rest time, and the step it stands for.
+  // Each rest time, and the time step that it selects.
   const std::vector<std::pair<double, double>> cases = { { filter->GetRestTime(), 1 }, { -7, 1 },
     { 1, 1 }, { 2.9, 1 }, { 3, 3 }, { 4, 3 }, { 5, 5 }, { 1e9, 5 } };
   for (const auto& [restTime, step] : cases)

@@ -221,7 +221,7 @@ TEST_F(MorphValidity, WhatTheBoundaryInvertsIsCountedWhereNoResultIs)
     EXPECT_EQ(filter->GetBoundaryDeterminedCells(), 1);
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   }
-  // The next run is not told by the last one.
+  // The next run does not depend on the last one.
   filter->SetBoundaryData(grids::boundary(this->Grid, grids::affine));
   filter->Update();
   EXPECT_EQ(filter->GetBoundaryInvertedCells(), 0);
@@ -230,8 +230,8 @@ TEST_F(MorphValidity, WhatTheBoundaryInvertsIsCountedWhereNoResultIs)
 
 TEST_F(MorphValidity, ATangledMeshThatCannotBeUntangledGivesTheBestMeshAndAnError)
 {
-  // Interior nodes thrown about, and a node of the top past its neighbor: no valid mesh, neither at
-  // rest nor then.
+  // Interior nodes thrown about, and a node of the top past its neighbor: no valid mesh, neither
+  // before the motion nor after it.
   morph::Mesh mesh = meshes::hexes(6, 6, 6);
   meshes::jitterInterior(mesh, 0.9, meshes::seed());
   auto grid = grids::make(mesh);

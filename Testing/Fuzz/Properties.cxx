@@ -188,7 +188,7 @@ double wildValue(const Property& property, Random& random)
   return values[random.below(11)];
 }
 
-/// Values that make a run last for as long as it was told to are no endless runs.
+/// Whether a value asks for a long run, which is not an endless one.
 bool isTooLong(const Property& property, double value)
 {
   return (property.name == "NumberOfSteps" && value > 50) ||

@@ -436,8 +436,8 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
   {
     boundary.isRight = false;
   }
-  // Several nodes may lie where one is; and the float nearest to a rest position is not that
-  // position.
+  // Several nodes may lie in one place; and the float nearest to an undeformed position is not
+  // that position.
   boundary.isExact = boundary.isExact && ids != 6;
   if (hostile)
   {

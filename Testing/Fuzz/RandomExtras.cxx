@@ -37,7 +37,7 @@ Row middleOf(const RandomGrid& grid)
                                        : Row(0, 0, 0);
 }
 
-/// A wavy sheet, or a rough sphere, round the mesh.
+/// A wavy sheet, or a rough sphere, around the mesh.
 vtkSmartPointer<vtkPolyData> surface(Random& random, const RandomGrid& grid)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();

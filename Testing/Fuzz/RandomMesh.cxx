@@ -45,7 +45,7 @@ Mesh voxels(int nx, int ny, int nz)
   return mesh;
 }
 
-/// Each box in six pyramids round its centre.
+/// Each box in six pyramids about its centre.
 Mesh pyramids(int nx, int ny, int nz)
 {
   const Mesh hexes = meshes::hexes(nx, ny, nz);

@@ -19,7 +19,7 @@ struct Recount
   std::vector<std::int8_t> bad; ///< #cells: 1 surely, 0 surely not, -1 either
 };
 
-/// `reference`: positions that tell which way round the cells of a body are. `skip`: #cells or
+/// `reference`: the positions that give the sense of the cells of a body. `skip`: #cells or
 /// empty.
 Recount recount(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::Points& points, const std::vector<std::uint8_t>& skip = {});

@@ -8,7 +8,7 @@
 namespace fuzz
 {
 /// A boundary that varies in time: at time i of 0, 1, ..., `Steps` its points have made i / Steps
-/// of the way from their rest positions to those of `data`.
+/// of the way from their undeformed positions to those of `data`.
 class VaryingBoundary : public vtkPointSetAlgorithm
 {
 public:

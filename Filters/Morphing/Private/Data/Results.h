@@ -16,7 +16,7 @@ class vtkDataObject;
 
 namespace morph::filters
 {
-/// What a result is: its type in the field data.
+/// The type of a result in the field data.
 enum class ResultKind
 {
   Double, ///< vtkDoubleArray
@@ -57,7 +57,7 @@ public:
   void SetNumber(const char* name, double value);
   void SetInteger(const char* name, vtkIdType value);
   void SetText(const char* name, std::string value);
-  /// What the method itself counts, under its own names.
+  /// Sets the method's own counts, under their names.
   void SetCounts(std::vector<morph::Statistic> counts);
   /// Minimum, mean, inverted and degenerate cells, worst cell.
   void Set(const morph::Quality& quality);
@@ -70,8 +70,8 @@ public:
   /// One of the counts; 0 where there is none of that name.
   vtkIdType Count(const char* name) const;
 
-  /// Adds what was set since the last Reset() to the field data, and the rows that are there
-  /// always, each at its place. Arrays of these names are replaced.
+  /// Adds the results set since the last Reset() to the field data, and the rows that are always
+  /// there, each at its place. Arrays of these names are replaced.
   void Write(vtkDataObject* output) const;
   /// A line for each row, and for each of the counts.
   void Print(std::ostream& os, vtkIndent indent) const;

@@ -302,17 +302,16 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
         "None of the boundary's " + std::to_string(positions.rows()) +
         " points is within MatchTolerance (" + text(options.MatchTolerance) +
         " of the grid's size) of a node of the grid. Where a DisplacementArray is set, the points "
-        "have to be at rest.");
+        "have to be undeformed.");
     }
     return pairs;
   }
-  throw Error(
-    "Nothing says which nodes the boundary's " + std::to_string(positions.rows()) +
-    " points are (the grid has " + std::to_string(nodes) +
-    " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
-    pointArrays(boundary) +
-    ". Make the boundary with Extract Morph Boundary, or set BoundaryIdArray, or give rest "
-    "positions with a DisplacementArray.");
+  throw Error("Nothing says which nodes the boundary's " + std::to_string(positions.rows()) +
+              " points are (the grid has " + std::to_string(nodes) +
+              " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
+              pointArrays(boundary) +
+              ". Make the boundary with Extract Morph Boundary, or set BoundaryIdArray, or give "
+              "undeformed points with a DisplacementArray.");
 }
 
 /// Ids that were made from another mesh, or went stale when a filter changed the points.

@@ -9,8 +9,8 @@
 
 class vtkPointSet;
 
-/// Finds which nodes of the undeformed mesh the points of a displaced boundary stand for, and where
-/// those nodes go.
+/// Matches the points of a displaced boundary to nodes of the undeformed mesh, and computes the
+/// nodes' targets.
 namespace morph::filters::BoundaryMatch
 {
 struct Options
@@ -31,13 +31,14 @@ struct Result
   std::vector<std::string> Warnings;
 };
 
-/// `outer`, `size`: of the undeformed mesh; see GridMesh::Size. Ids come from the first of: the
+/// Matches the points of `boundary`. `outer`, `size`: of the undeformed mesh; see GridMesh::Size.
+/// Ids come from the first of: the
 /// array BoundaryIdArray; MorphPointId; the point's own number where the boundary has as many
 /// points as the mesh (outer nodes only); PointIds; vtkOriginalPointIds, with a warning; the
-/// nearest node within MatchTolerance, where there is a DisplacementArray, together with the outer
-/// nodes within MatchTolerance of that one that have no point of their own. A node that is named
-/// more than once goes where it is named first. With HoldUnnamedBoundary all other outer nodes are
-/// held, except those in the middle of an edge or face one of whose corners moves. Throws
+/// nearest node within MatchTolerance, if there is a DisplacementArray. The outer nodes within
+/// MatchTolerance of that node move with it, unless they have a point of their own. A node that is
+/// named more than once goes where it is named first. With HoldUnnamedBoundary all other outer
+/// nodes are held, except those in the middle of an edge or face one of whose corners moves. Throws
 /// morph::Error naming ids and the remedy where none of these works, and for arrays that are not
 /// numeric or not as long as the boundary has points. Cost: one pass over the boundary; by position
 /// also a point locator over the mesh.

@@ -17,7 +17,7 @@ class Results;
 class Session;
 struct StepResult;
 
-/// The outputs of vtkMorphAlgorithm, and the results that go with them.
+/// Writes the outputs of vtkMorphAlgorithm and their results.
 namespace MorphOutput
 {
 /// Writes a step's mesh and its inverted cells. `precision`: of the points, as
@@ -27,8 +27,8 @@ void Write(const Session& session, const StepResult& step, int precision, bool c
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
 
-/// Writes the undeformed mesh, where `input` can be read as one, without a result.
-/// `boundaryInverted`: how many cells the boundary itself inverts, where that is why.
+/// Writes the undeformed mesh, if `input` is a readable mesh, without a result.
+/// `boundaryInverted`: the number of cells that the boundary itself inverts, if that is the reason.
 void WriteUndeformed(vtkDataObject* input, const char* status, morph::Index boundaryInverted,
   Results& results, vtkUnstructuredGrid* output);
 }

@@ -10,7 +10,7 @@
 
 namespace morph::filters
 {
-/// A step's mesh, and how it came about.
+/// The mesh of one step, with the numbers of its computation.
 struct StepResult
 {
   morph::Points Moved; ///< #nodes x 3
@@ -22,17 +22,17 @@ struct StepResult
   morph::Index BoundaryInverted = 0; ///< see vtkMorphAlgorithm::GetBoundaryInvertedCells()
 };
 
-/// The meshes of a run in which each step starts from the mesh of the one before, as many as memory
-/// may hold: the last one, and of the others every first, second, fourth, ... Going back costs less
-/// than that many steps.
+/// The meshes of a run in which each step starts from the mesh of the step before. As many are kept
+/// as the memory allows: the last one, and of the others every first, second, fourth, ... Going
+/// back costs fewer steps than that number.
 class Series
 {
 public:
   using Step = std::shared_ptr<const StepResult>;
 
   void Clear();
-  /// Keeps a step's mesh; others make room for it. `megabytes`: of 10^6 bytes, for all meshes; the
-  /// last one is kept besides.
+  /// Keeps a step's mesh, and drops others if necessary. `megabytes`: the memory for all meshes in
+  /// 10^6 bytes; the last one is kept besides.
   void Keep(int number, Step step, double megabytes);
   /// The nearest step that is kept, `number` itself or one before it: its number, or -1 and null.
   std::pair<int, Step> LastUntil(int number) const;
@@ -40,7 +40,7 @@ public:
 private:
   std::map<int, Step> Kept;
   int Stride = 1;
-  /// the step that came last: of the kept ones the only one that may be between strides
+  /// the last step: the only kept one that may be between strides
   int Last = 0;
 
   /// Drops all but every Stride-th and the last one.

@@ -25,8 +25,8 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-/// A mesh with the method that is prepared for it, and the steps of a series, kept from one motion
-/// to the next. It knows no pipeline: what it needs comes with the motion.
+/// A mesh, the method prepared for it, and the steps of a series, kept from one motion to the next.
+/// It knows no pipeline: its inputs come with the motion.
 class Session
 {
 public:
@@ -39,11 +39,11 @@ public:
     bool PostSmooth = false;
     int PostSmoothIterations = 0;
     double StepMemoryLimit = 0; ///< megabytes
-    /// Tells apart any two settings of the options that prepare() reads.
+    /// A text that differs for any two settings of the options that prepare() reads.
     std::string PrepareOptions;
-    /// A method with these options.
+    /// Makes a method with these options.
     std::function<std::unique_ptr<morph::Morpher>()> CreateMorpher;
-    /// Hands over the options that evaluate() alone reads.
+    /// Sets the options that only evaluate() reads.
     std::function<void(morph::Morpher&)> SetEvaluateOptions;
   };
 
@@ -51,7 +51,7 @@ public:
   struct Motion
   {
     int Step = 0;        ///< the one that is asked for
-    bool Varies = false; ///< the boundary is another one at each step
+    bool Varies = false; ///< the boundary varies in time
     std::function<double(int step)> Fraction;
     std::function<vtkPointSet*(int step)> Boundary;
   };
@@ -62,7 +62,7 @@ public:
   {
   }
 
-  /// Takes the grid over, unless it is what is kept already.
+  /// Copies the grid, unless it is the same as the kept one.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
   const morph::Mesh& GetMesh() const { return this->Mesh; }
   /// #cells; see Topology.h.
@@ -87,13 +87,13 @@ public:
   int LastStepUntil(int step) const { return this->Steps.LastUntil(step).first; }
 
 private:
-  /// Finds which nodes go where, in that fraction of their motion.
+  /// Matches the boundary, for that fraction of its motion.
   BoundaryMatch::Result Match(
     vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor) const;
   /// `first`, `last`: of the progress.
   StepResult MorphStep(const morph::Mesh& from, const BoundaryMatch::Result& match,
     const Options& options, double first, double last, morph::Monitor& monitor);
-  /// Sees to it that the method is prepared for the mesh, with its own points or others.
+  /// Prepares the method for the mesh, with its own points or others, unless it is prepared.
   void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
     const Options& options, morph::Monitor& monitor);
 

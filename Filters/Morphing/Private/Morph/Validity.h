@@ -14,7 +14,7 @@
 
 namespace morph::filters
 {
-/// What vtkMorphAlgorithm does where a method leaves inverted cells.
+/// Treats the inverted cells that a method leaves, as vtkMorphAlgorithm::SetValidity() asks for.
 class Validity
 {
 public:
@@ -28,12 +28,12 @@ public:
   const std::vector<std::int8_t>& Orientation;
   const morph::Points& Targets;      ///< #prescribed x 3
   const morph::BoundaryFaces& Faces; ///< of Mesh
-  /// the method is the inversion-free one, which is not told to use itself
+  /// the method is the inversion-free one, which messages do not recommend to itself
   bool IsInversionFree = false;
-  /// A method with its options, not prepared yet.
+  /// Makes a method with its options, not prepared yet.
   std::function<std::unique_ptr<morph::Morpher>()> Make;
 
-  /// No result, since the boundary itself inverts cells.
+  /// The error of a boundary that itself inverts cells: there is no result.
   struct Infeasible : morph::Error
   {
     Infeasible(const std::string& message, morph::Index cells)
@@ -50,29 +50,28 @@ public:
     double LargestValidStep = 1;
     morph::Index SubSteps = 0;
     std::string Warning; ///< of inverted cells, where Mode asks for a report
-    /// Not empty: the mesh has not gone all the way, or Mode asks for a valid one and it is not.
+    /// Not empty if the mesh has made a part of the motion, or if it is not valid as Mode asks.
     std::string Error;
     morph::Quality Measured; ///< of the method's own mesh where that is the result; else empty
   };
 
-  /// Before the method is evaluated, where Mode asks for a valid mesh: throws Infeasible naming
-  /// the
-  /// cells that the targets themselves invert.
+  /// Throws Infeasible if Mode asks for a valid mesh and the targets themselves invert cells; the
+  /// message names these cells. To be called before the method is evaluated.
   void RequireFeasible() const;
-  /// After that: `moved`, #nodes x 3, becomes what Mode asks for or, where that is not found, the
-  /// best mesh that was; Outcome::Error says so. Throws morph::Error where it is refused.
+  /// Makes `moved`, #nodes x 3, the mesh that Mode asks for. If that is not found, it becomes the
+  /// best mesh found, and Outcome::Error has the reason. Throws morph::Error where Mode refuses.
   Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
 
 private:
   bool AsksForValidMesh() const;
-  /// The worst of these cells, a line for each.
+  /// Describes the worst of these cells, a line for each.
   std::string Describe(const std::vector<morph::Index>& inverted, const morph::Quality& quality,
     const morph::Points& points) const;
-  /// Takes a repaired mesh over where it has fewer bad cells. Returns whether none are left.
+  /// Repairs the mesh, if that leaves fewer bad cells. Returns whether none are left.
   bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
   Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
     morph::Points& moved, morph::Monitor& monitor) const;
-  /// Of a mesh that stays as it is though Mode asks for a valid one. `reason`: why it does.
+  /// The outcome of a mesh that stays invalid though Mode asks for a valid one. `reason`: why.
   Outcome Remaining(
     const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const;
   /// "N cells are inverted or degenerate ...", and the worst of them.
