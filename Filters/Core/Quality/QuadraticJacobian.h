@@ -31,9 +31,10 @@ struct QuadraticProof
 /// Proves the determinant positive, or finds a point where it is not. It subdivides the Bernstein
 /// form (QuadraticMap.h) and bounds the rounding of all coefficients and subdivisions. Where that
 /// decides nothing, it looks at the nodes and at a lattice of points, with the rounding bound of
-/// each point. The result is Undecided if a coordinate is not finite, or if the minimum is too close
-/// to 0 for the bound. `type`: one of QuadraticMap.h; `x`: all nodes of the cell in VTK's order.
-/// Cost: about 5 microseconds for a well-shaped cell, up to about 5 milliseconds if undecided.
+/// each point. The result is Undecided if a coordinate is not finite, or if the minimum is too
+/// close to 0 for the bound. `type`: one of QuadraticMap.h; `x`: all nodes of the cell in VTK's
+/// order. Cost: about 5 microseconds for a well-shaped cell, up to about 5 milliseconds if
+/// undecided.
 QuadraticProof proveQuadratic(std::uint8_t type, const Eigen::Vector3d* x);
 
 /// Returns the scaled Jacobian of a quadratic cell whose corner cell has the value `ofCorners`:
