@@ -89,7 +89,7 @@ bool isInside(std::uint8_t type, const Vector& at)
 double sampledMinimum(std::uint8_t type, const Cell& cell, int lattice, bool search)
 {
   double least = std::numeric_limits<double>::infinity();
-  Vector best;
+  Vector best = Vector::Zero();
   const auto probe = [&](const Vector& at)
   {
     if (!isInside(type, at))

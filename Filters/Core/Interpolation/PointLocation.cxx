@@ -61,14 +61,14 @@ public:
 
 private:
   Row origin_;
-  Eigen::Matrix3d edges_, inverse_;
+  Eigen::Matrix3d edges_, inverse_ = Eigen::Matrix3d::Zero();
   bool flat_;
 };
 
 struct Place
 {
   int tetrahedron = Delaunay::Outside;
-  Eigen::RowVector4d barycentric;
+  Eigen::RowVector4d barycentric = Eigen::RowVector4d::Zero();
 };
 
 double residual(const Delaunay& delaunay, const Place& at, const Row& x)

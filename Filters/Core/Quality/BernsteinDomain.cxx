@@ -31,13 +31,15 @@ void enumerate(const BernsteinDomain& domain, int slot, Degrees left, Exponents&
     return;
   }
   const int simplex = domain.simplex[slot];
-  const bool isLast = slot + 1 == domain.slots || domain.simplex[slot + 1] != simplex;
+  const int next = slot + 1;
+  const bool isLast =
+    next >= BernsteinDomain::MostSlots || next == domain.slots || domain.simplex[next] != simplex;
   const int all = left[simplex];
   for (int power = isLast ? all : 0; power <= all; ++power)
   {
     exponents[slot] = static_cast<std::int8_t>(power);
     left[simplex] = all - power;
-    enumerate(domain, slot + 1, left, exponents, result);
+    enumerate(domain, next, left, exponents, result);
   }
   exponents[slot] = 0;
 }
