@@ -20,7 +20,7 @@ namespace
 }
 }
 
-Results::Results(std::vector<ResultRow> rows)
+Results::Results(const std::vector<ResultRow>& rows)
 {
   for (const ResultRow& row : rows)
   {

@@ -49,7 +49,7 @@ std::vector<ResultRow> vtkScaledJacobian();
 class Results
 {
 public:
-  explicit Results(std::vector<ResultRow> rows);
+  explicit Results(const std::vector<ResultRow>& rows);
 
   /// Gives each row its value without a result.
   void Reset();
