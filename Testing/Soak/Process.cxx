@@ -27,6 +27,9 @@ int entries(const std::string& folder)
 
 bool measure(Process& now)
 {
+#ifdef SOAK_HAS_MALLINFO2
+  malloc_trim(0); // what is free goes back, so that what is resident is held
+#endif
   std::ifstream statm("/proc/self/statm");
   std::size_t size = 0, resident = 0;
   if (!(statm >> size >> resident))
