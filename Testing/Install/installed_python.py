@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python module as it is installed: README.md's example, numpy there and back, docstrings, and
-what the module refuses.
+"""The Python module as it is installed: the example of Documentation/Install.md, numpy there and
+back, docstrings, and what the module refuses.
 
 Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models>
          python3 installed_python.py
@@ -19,7 +19,7 @@ from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util import numpy_support
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+ROOT = Path(__file__).resolve().parents[2]
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
 METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph,
            meshmorphing.vtkSimplexLinearMorph, meshmorphing.vtkSimplexNaturalNeighborMorph,
@@ -41,9 +41,9 @@ def boundary_of(grid):
 
 
 class InstalledPython(unittest.TestCase):
-    def test_readme_example(self):
-        blocks = re.findall(r"^```py\n(.*?)^```", README.read_text(encoding="utf-8"),
-                            re.MULTILINE | re.DOTALL)
+    def test_documented_example(self):
+        page = (ROOT / "Documentation/Install.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```py\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
         lines = [line for line in blocks[0].splitlines()
                  if line and not line.startswith(("import", "from"))]
@@ -64,7 +64,7 @@ class InstalledPython(unittest.TestCase):
 
     def test_every_result_has_a_getter(self):
         section, getters = None, 0
-        table = README.parent / "Filters/Morphing/Results.txt"
+        table = ROOT / "Filters/Morphing/Results.txt"
         for line in table.read_text(encoding="utf-8").splitlines():
             if line.startswith("["):
                 section = line.strip("[]")
