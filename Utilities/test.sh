@@ -6,17 +6,19 @@ cd "$(dirname "$0")/.."
 # Minutes on two cores, without ccache.
 debian_budget=35
 sanitizer_budget=12
+debian13_budget=18
 
 usage() {
   cat <<END
-Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package] [-j N]
-From a bare Debian 12 to tested builds: installs the packages, then
+Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
+               [--debian13] [-j N]
+From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
 - builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
   of $sanitizer_budget minutes is left;
-- unpacks Debian's VTK 9.1, builds the library and the Python module with it (preset vtk91), and
-  runs core, filters, fuzz, programs and install;
+- on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
+  vtk91), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine.
 The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a
 stage that takes longer than its budget is named, but is no failure.
@@ -25,6 +27,8 @@ stage that takes longer than its budget is named, but is no failure.
   --asan-filters  the filters with sanitizers however long that takes
   --no-plain-vtk  leave VTK 9.1 out
   --no-package    leave the Debian package out
+  --debian13      the first of these in Debian 13 as well, in a root file system of its own (see
+                  other-debian.sh)
   -j N            processes to build and to test with (default: all cores)
 END
 }
@@ -33,6 +37,7 @@ install=yes
 package=yes
 asan_filters=no
 presets=(paraview asan vtk91)
+debian13=no
 jobs=$(nproc)
 leave_out() {
   for i in "${!presets[@]}"; do
@@ -47,11 +52,16 @@ while [ $# -gt 0 ]; do
     --asan-filters) asan_filters=yes ;;
     --no-plain-vtk) leave_out vtk91 ;;
     --no-package) package=no ;;
+    --debian13) debian13=yes ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
   esac
   shift
 done
+
+if [ "$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")" != "debian 12" ]; then
+  leave_out vtk91
+fi
 
 stages=() # "seconds group name" of each
 left_out=()
@@ -73,6 +83,14 @@ status=0
 build() { cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
 # The log of several runs of one preset is one: they are summed up together.
 tests() { ctest --preset "$1" -j "$jobs" "${@:2}" 2>&1 | tee -a "build/$1/ctest.log"; }
+
+summary() {
+  if [ -e "$1" ]; then
+    awk '/^Test project/ { on = 0 } / tests passed/ { on = 1 } on' "$1"
+  else
+    echo "not reached"
+  fi
+}
 
 sanitized() {
   stage sanitizers "build asan (core, fuzz)" \
@@ -115,16 +133,32 @@ if [ "$package" = yes ]; then
   if [ "$package_status" -ne 0 ] && [ "$package_status" -ne 77 ]; then status=1; fi
 fi
 
+if [ "$debian13" = yes ]; then
+  debian13_status=0
+  stage debian13 "Debian 13" Utilities/other-debian.sh trixie test -j "$jobs" ||
+    debian13_status=$?
+  if [ "$debian13_status" -eq 77 ]; then
+    left_out+=("Debian 13: no root file system can be made, or the registry does not answer")
+    debian13=no
+  elif [ "$debian13_status" -ne 0 ]; then
+    status=1
+  fi
+fi
+
+if [ "$debian13" = yes ]; then
+  printf '\n== Debian 13, preset paraview\n'
+  summary build/trixie/MeshMorphing/build/paraview/ctest.log
+fi
 for preset in "${presets[@]}"; do
   printf '\n== preset %s\n' "$preset"
-  awk '/^Test project/ { on = 0 } / tests passed/ { on = 1 } on' "build/$preset/ctest.log"
+  summary "build/$preset/ctest.log"
 done
 printf '\n== Debian package\n%s\n\n== Minutes\n' "$package_summary"
 for one in "${stages[@]}"; do
   read -r seconds group name <<< "$one"
   printf '%-26s%6s\n' "$name" "$(minutes "$seconds")"
 done
-for group in "debian $debian_budget" "sanitizers $sanitizer_budget"; do
+for group in "debian $debian_budget" "sanitizers $sanitizer_budget" "debian13 $debian13_budget"; do
   read -r group budget <<< "$group"
   taken=$(seconds_of "$group")
   if [ "$taken" -eq 0 ]; then continue; fi
