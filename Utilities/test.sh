@@ -12,7 +12,7 @@ usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
                [--debian13] [-j N]
-From a bare Debian 12 or 13 to tested builds: installs the packages, then
+From a bare Debian 12 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
 - builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
