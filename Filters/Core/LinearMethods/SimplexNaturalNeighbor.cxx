@@ -2,9 +2,11 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 
 #include "Geometry/SpatialOrder.h"
+#include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <sstream>
 #include <utility>
 
@@ -13,10 +15,30 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 128;
-constexpr Index Stretch = 64; // blocks between two chances to cancel
 constexpr Index Samples = 64;
 // of the transposed product: fixed, so that results do not depend on threads
 constexpr Index Sums = 32;
+
+/// Calls work(first, last) in parallel on ranges that cover [0, blocks). A block takes microseconds
+/// or milliseconds, so the blocks between two chances to cancel go by the clock; the ranges do not
+/// show in a result.
+template <typename Work>
+void inStretches(Index blocks, Monitor& monitor, Work&& work)
+{
+  using Clock = std::chrono::steady_clock;
+  Index length = 16;
+  for (Index begin = 0, end = 0; begin < blocks; begin = end)
+  {
+    monitor.check();
+    end = std::min(begin + length, blocks);
+    const auto start = Clock::now();
+    monitor.parallelFor(
+      end - begin, 1, [&](Index first, Index last) { work(begin + first, begin + last); });
+    monitor.progress(static_cast<double>(end) / static_cast<double>(blocks));
+    const std::chrono::duration<double> taken = Clock::now() - start;
+    length = taken.count() < 0.02 ? 2 * length : taken.count() < 0.05 ? length : (length + 1) / 2;
+  }
+}
 
 /// Returns the indices in `ids` in spatial order of the nodes.
 std::vector<Index> placesInOrder(const Points& points, const std::vector<Index>& ids)
@@ -138,21 +160,16 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
 
   std::vector<WeightMatrix> stored(store ? this->blocks() : 0);
   std::atomic<Index> barycentric{ 0 };
-  for (Index begin = 0; store && begin < this->blocks(); begin += Stretch)
-  {
-    const Index end = std::min(begin + Stretch, this->blocks());
-    monitor.check();
-    monitor.parallelFor(end - begin, 1,
-      [&](Index first, Index last)
+  ProgressRange weighting(monitor, 0.05, 1);
+  inStretches(static_cast<Index>(stored.size()), weighting,
+    [&](Index first, Index last)
+    {
+      NaturalNeighbors::Workspace work(this->neighbors_);
+      for (Index block = first; block < last; ++block)
       {
-        NaturalNeighbors::Workspace work(this->neighbors_);
-        for (Index block = begin + first; block < begin + last; ++block)
-        {
-          barycentric += this->computeBlock(block, work, stored[block]);
-        }
-      });
-    monitor.progress(0.05 + 0.95 * static_cast<double>(end) / static_cast<double>(this->blocks()));
-  }
+        barycentric += this->computeBlock(block, work, stored[block]);
+      }
+    });
   this->barycentric_ = barycentric;
   this->stored_.swap(stored);
 }
@@ -162,26 +179,21 @@ EvaluateReport SimplexNaturalNeighbor::displace(
 {
   const Points displacement = this->sites_.average(prescribed);
   std::atomic<Index> barycentric{ this->barycentric_ };
-  for (Index begin = 0; begin < this->blocks(); begin += Stretch)
-  {
-    const Index end = std::min(begin + Stretch, this->blocks());
-    monitor.check();
-    monitor.parallelFor(end - begin, 1,
-      [&](Index first, Index last)
-      {
-        Monitor serial;
-        Points moved;
-        barycentric += this->forEachBlock(begin + first, begin + last,
-          [&](Index block, const WeightMatrix& weights)
+  inStretches(this->blocks(), monitor,
+    [&](Index first, Index last)
+    {
+      Monitor serial;
+      Points moved;
+      barycentric += this->forEachBlock(first, last,
+        [&](Index block, const WeightMatrix& weights)
+        {
+          weights.multiply(displacement, moved, serial);
+          for (Index i = 0; i < moved.rows(); ++i)
           {
-            weights.multiply(displacement, moved, serial);
-            for (Index i = 0; i < moved.rows(); ++i)
-            {
-              free.row(this->order_[block * BlockLength + i]) = moved.row(i);
-            }
-          });
-      });
-  }
+            free.row(this->order_[block * BlockLength + i]) = moved.row(i);
+          }
+        });
+    });
   EvaluateReport report;
   report.bytesMoved = 72. * static_cast<double>(free.rows());
   for (const WeightMatrix& weights : this->stored_)
