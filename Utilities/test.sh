@@ -101,7 +101,7 @@ sanitized() {
     left_out+=("filters with sanitizers: less than half of the budget was left")
     return
   fi
-  stage sanitizers "build asan (filters)" build asan --target MeshMorphingFiltersTests
+  stage sanitizers "build asan (filters)" build asan --target MeshMorphingFiltersTests soak
   stage sanitizers "tests asan (filters)" tests asan -L filters || status=1
 }
 

@@ -15,6 +15,6 @@ struct Process
   int threads = 0;
 };
 
-/// False where the system has no /proc.
+/// False where the system has no /proc, and with the address sanitizer, which keeps what is freed.
 bool measure(Process& now);
 }

@@ -23,8 +23,8 @@ int usage()
   {
     std::cerr << ' ' << method.name;
   }
-  std::cerr << "\nExits with 0 if nothing grew, or every abort was right; with 77 where the system "
-               "has no /proc.\n";
+  std::cerr << "\nExits with 0 if nothing grew, or every abort was right; with 77 where memory "
+               "cannot be measured.\n";
   return 2;
 }
 }
@@ -82,7 +82,8 @@ int main(int argc, char* argv[])
   soak::Process now;
   if (what == "memory" && !soak::measure(now))
   {
-    std::cout << "This system has no /proc to read memory, handles and threads from.\n";
+    std::cout << "Not measured: this system has no /proc, or the address sanitizer keeps what is "
+                 "freed.\n";
     return Skipped;
   }
   bool any = false, isRight = true;
