@@ -347,6 +347,24 @@ TEST(QuadraticJacobian, StretchedCellsAreDecidedLikeTheCellsTheyComeFrom)
   }
 }
 
+TEST(QuadraticJacobian, ExtentsWithoutAFiniteInverseAreDecided)
+{
+  for (const quadratic::Type& type : quadratic::Types)
+  {
+    Cell cell = quadratic::ideal(type.type);
+    for (Vector& x : cell)
+    {
+      x[2] *= 1e-222; // 2^-737: a power of two that takes it to 2^299 is no double
+    }
+    EXPECT_EQ(proof(type.type, cell).certificate, Certificate::Certified) << nameOf(type.type);
+    for (Vector& x : cell)
+    {
+      x[1] = -x[1];
+    }
+    EXPECT_EQ(proof(type.type, cell).certificate, Certificate::Inverted) << nameOf(type.type);
+  }
+}
+
 TEST(QuadraticJacobian, ANodeFarAwayDoesNotHideInvertedPoints)
 {
   std::mt19937 random(meshes::seed());

@@ -37,8 +37,12 @@ double scaleOf(const Vector* nodes, int count, int axis)
     return 1;
   }
   const double extent = high - low;
-  const int ofLargest = 340 - std::ilogb(largest);
-  return std::ldexp(1., extent > 0 ? std::min(299 - std::ilogb(extent), ofLargest) : ofLargest);
+  int power = std::min(340 - std::ilogb(largest), 1023); // the largest power that is a double
+  if (extent > 0)
+  {
+    power = std::min(299 - std::ilogb(extent), power);
+  }
+  return std::ldexp(1., power);
 }
 
 /// A cell with each coordinate scaled on its own: the determinant keeps its sign, and a flat cell's
