@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 usage() {
   cat <<END
 Usage: demo.sh [--no-install] [--output DIR] [--steps N] [--no-picture | --picture-each]
-From a bare Debian 12 to a morphed mesh: installs the packages, builds the plugin under
+From a bare Debian 12 or 13 to a morphed mesh: installs the packages, builds the plugin under
 build/paraview, morphs the bore with each method, prints quality before and after, and writes
 meshes, series and a picture (see demo.py).
   --no-install   leave the packages alone

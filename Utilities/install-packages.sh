@@ -4,12 +4,14 @@ set -euo pipefail
 
 usage() {
   cat <<END
-Usage: install-packages.sh [--benchmark] [--developer]
-Installs the Debian 12 packages that MeshMorphing is built and tested with, as root or through sudo.
+Usage: install-packages.sh [--benchmark] [--developer] [--other-debian]
+Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed.
   --benchmark   also the solvers that the benchmark compares with (SuiteSparse, OpenBLAS)
   --developer   also what format.sh, lint.sh and check-documentation.sh need (clang-format,
                 clang-tidy, doxygen)
+  --other-debian  also what other-debian.sh needs (mmdebstrap)
+Knows Debian 12, 13 and unstable.
 END
 }
 
@@ -24,14 +26,19 @@ packages=(
   libavutil-dev libswscale-dev libboost-dev python3-mpi4py
   libgtest-dev gmsh python3-gmsh python3-matplotlib xvfb xauth imagemagick)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
+qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
 case "$release" in
   "debian 12")
     packages+=(
       qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
       libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
-  "debian 13") packages+=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev) ;;
-  *) # Debian's unstable suite has no number; its paraview-dev stands on the system's VTK.
-    packages+=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev libvtk9-dev xsltproc) ;;
+  "debian 13") packages+=("${qt6[@]}" mount) ;;
+  *) # The paraview-dev of Debian's unstable suite stands on the system's VTK.
+    packages+=("${qt6[@]}" mount libvtk9-dev xsltproc)
+    if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then
+      echo "install-packages.sh: written for Debian, this is '$release'. Going on; package names" \
+        "may differ." >&2
+    fi ;;
 esac
 
 for option in "$@"; do
@@ -48,11 +55,6 @@ if ! command -v apt-get > /dev/null; then
   echo "install-packages.sh: no apt-get here. Install what these Debian packages hold:" \
     "${packages[*]}" >&2
   exit 1
-fi
-release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")
-if [ "$release" != "debian 12" ]; then
-  echo "install-packages.sh: written for Debian 12, this is '$release'. Going on; package names" \
-    "may differ." >&2
 fi
 
 missing=()

@@ -10,7 +10,7 @@ Usage: other-debian.sh SUITE [test|demo|shell] [OPTION...]
 Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
 root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
 the project's sources into it, and runs there
-  test    Utilities/test.sh (default; without the sanitizers, VTK 9.1 and the Debian package)
+  test    Utilities/test.sh (default; without the sanitizers and the Debian package)
   demo    Utilities/demo.sh
   shell   bash, in the copy of the project
 with the options that follow. The root file system and its builds, some gigabytes, are kept for the
@@ -94,7 +94,7 @@ inside() {
 if [ ! -e "$root/etc/debian_version" ]; then make_root; fi
 copy_sources
 case "$command" in
-  test) inside Utilities/test.sh --no-asan --no-plain-vtk --no-package "$@" ;;
+  test) inside Utilities/test.sh --no-asan --no-package "$@" ;;
   demo) inside Utilities/demo.sh "$@" ;;
   shell) if [ $# -gt 0 ]; then inside "$@"; else inside bash; fi ;;
 esac

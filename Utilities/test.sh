@@ -11,15 +11,17 @@ debian13_budget=18
 usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
-               [--debian13] [-j N]
-From a bare Debian 12 to tested builds: installs the packages, then
+               [--no-debian13] [-j N]
+From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
 - builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
   of $sanitizer_budget minutes is left;
 - on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
   vtk91), and runs core, filters, fuzz, programs and install;
-- makes the Debian package, and installs, tries and removes it in a private view of the machine.
+- makes the Debian package, and installs, tries and removes it in a private view of the machine;
+- on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
+  other-debian.sh). Where none can be made, the summary says so.
 The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a
 stage that takes longer than its budget is named, but is no failure.
   --no-install    leave the packages alone
@@ -27,8 +29,7 @@ stage that takes longer than its budget is named, but is no failure.
   --asan-filters  the filters with sanitizers however long that takes
   --no-plain-vtk  leave VTK 9.1 out
   --no-package    leave the Debian package out
-  --debian13      the first of these in Debian 13 as well, in a root file system of its own (see
-                  other-debian.sh)
+  --no-debian13   leave Debian 13 out
   -j N            processes to build and to test with (default: all cores)
 END
 }
@@ -37,7 +38,7 @@ install=yes
 package=yes
 asan_filters=no
 presets=(paraview asan vtk91)
-debian13=no
+debian13=yes
 jobs=$(nproc)
 leave_out() {
   for i in "${!presets[@]}"; do
@@ -52,7 +53,7 @@ while [ $# -gt 0 ]; do
     --asan-filters) asan_filters=yes ;;
     --no-plain-vtk) leave_out vtk91 ;;
     --no-package) package=no ;;
-    --debian13) debian13=yes ;;
+    --no-debian13) debian13=no ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -61,6 +62,7 @@ done
 
 if [ "$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")" != "debian 12" ]; then
   leave_out vtk91
+  debian13=no
 fi
 
 stages=() # "seconds group name" of each
@@ -84,9 +86,13 @@ build() { cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
 # The log of several runs of one preset is one: they are summed up together.
 tests() { ctest --preset "$1" -j "$jobs" "${@:2}" 2>&1 | tee -a "build/$1/ctest.log"; }
 
+# CTest's summary, and the end of what the failed tests said.
 summary() {
   if [ -e "$1" ]; then
     awk '/^Test project/ { on = 0 } / tests passed/ { on = 1 } on' "$1"
+    awk '/^ *[0-9]+\/[0-9]+ Test +#|^ +Start +[0-9]+: |^[0-9]+% tests/ {
+           on = /\*\*\*(Failed|Timeout|Exception)/
+         } on' "$1" | tail -n 40
   else
     echo "not reached"
   fi
