@@ -37,6 +37,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from .columns import columns
 from .model import Counts, Curve, Model
 from .shape import Shape
 from .structured import revolved
@@ -130,8 +131,9 @@ class Bore(Model):
     def locate(self, points, tolerance=1e-9):
         """Tolerance: as a fraction of the height."""
         length = tolerance * self.initial.height
-        radius = np.hypot(points[:, 0], points[:, 1])
-        flat = np.column_stack([radius, points[:, 2]])
+        x, y, z = columns(points)
+        radius = np.hypot(x, y)
+        flat = np.column_stack([radius, z])
         profile = circle_profile(self.initial)
 
         start, end = profile[SURFACE_CIRCLES[:, 0]], profile[SURFACE_CIRCLES[:, 1]]
@@ -149,14 +151,14 @@ class Bore(Model):
         along = along[nodes, surface]
         on_circle = np.linalg.norm(flat[:, None] - profile, axis=2).min(axis=1) <= length
         along[on_circle] = np.round(along[on_circle])
-        angle = np.arctan2(points[:, 1], points[:, 0])
+        angle = np.arctan2(y, x)
         angle[on_circle & (radius * np.abs(angle) <= length)] = 0
         return np.column_stack([surface, along, angle])
 
     def positions(self, places, shape):
-        surface, along, angle = places[:, 0].astype(int), places[:, 1, None], places[:, 2]
-        first, second = circle_profile(shape)[SURFACE_CIRCLES[surface].T]
-        radius, z = ((1 - along) * first + along * second).T
+        surface, along, angle = columns(places)
+        first, second = circle_profile(shape)[SURFACE_CIRCLES[surface.astype(int)].T]
+        radius, z = (1 - along) * first.T + along * second.T
         return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
 
     def on_surfaces(self, places):
@@ -176,7 +178,8 @@ class Bore(Model):
         half = np.radians(shape.cone_angle) / 2
         radial, upward = np.array([
             (-np.cos(half), np.sin(half)), (-1, 0), (1, 0), (0, 1), (0, -1)])[surfaces].T
-        angle = np.arctan2(points[:, 1], points[:, 0])
+        x, y, _ = columns(points)
+        angle = np.arctan2(y, x)
         return np.column_stack([radial * np.cos(angle), radial * np.sin(angle), upward])
 
     def volume(self, shape):

@@ -14,6 +14,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from .columns import columns
 from .model import Counts, Curve, Model, snapped
 from .shape import Shape
 from .structured import revolved
@@ -61,8 +62,9 @@ class BoreTwist(Model):
         """Tolerance: as a fraction of the height."""
         shape = self.initial
         length = tolerance * shape.height
-        radius, angle = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
-        rise = snapped(points[:, 2] / shape.height, tolerance)
+        x, y, z = columns(points)
+        radius, angle = np.hypot(x, y), np.arctan2(y, x)
+        rise = snapped(z / shape.height, tolerance)
         depth = (radius - shape.bore_radius) / (self._outer(rise, shape) - shape.bore_radius)
         depth = snapped(depth, length / (shape.foot_radius - shape.bore_radius))
         angle[radius * np.abs(angle) <= length] = 0
@@ -78,14 +80,14 @@ class BoreTwist(Model):
         return (1 - rise) * shape.foot_radius + rise * shape.top_radius
 
     def positions(self, places, shape):
-        depth, rise, angle = places.T
+        depth, rise, angle = columns(places)
         angle = angle + np.radians(shape.twist - self.initial.twist) * rise
         radius = (1 - depth) * shape.bore_radius + depth * self._outer(rise, shape)
         return np.column_stack(
             [radius * np.cos(angle), radius * np.sin(angle), rise * shape.height])
 
     def on_surfaces(self, places):
-        depth, rise, _ = places.T
+        depth, rise, _ = columns(places)
         return np.column_stack([depth == 0, depth == 1, rise == 0, rise == 1])
 
     def angles(self, places):
@@ -95,7 +97,8 @@ class BoreTwist(Model):
         slope = np.arctan2(shape.top_radius - shape.foot_radius, shape.height)
         radial, upward = np.array([
             (-1, 0), (np.cos(slope), -np.sin(slope)), (0, -1), (0, 1)])[surfaces].T
-        angle = np.arctan2(points[:, 1], points[:, 0])
+        x, y, _ = columns(points)
+        angle = np.arctan2(y, x)
         return np.column_stack([radial * np.cos(angle), radial * np.sin(angle), upward])
 
     def volume(self, shape):

@@ -22,6 +22,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from .columns import columns
 from .model import Counts, Curve, Model, snapped
 from .shape import Shape
 from .structured import revolved
@@ -78,7 +79,7 @@ class Canister(Model):
         """Tolerance: as a fraction of the radius."""
         shape = self.initial
         length = tolerance * shape.radius
-        x, y, z = points.T
+        x, y, z = columns(points)
         radius, angle = np.hypot(x, y), np.arctan2(y, x)
         f = (radius - shape.hole_radius) / (shape.radius - shape.hole_radius)
         f, zeta = snapped(f, tolerance), snapped(z / shape.height, tolerance)
@@ -91,14 +92,14 @@ class Canister(Model):
         return np.column_stack([f, zeta, angle])
 
     def positions(self, places, shape):
-        f, zeta, angle = places.T
+        f, zeta, angle = columns(places)
         radius = (1 - f) * shape.hole_radius + f * shape.radius
         shift = (1 - f) * shape.offset
         return np.column_stack(
             [shift + radius * np.cos(angle), radius * np.sin(angle), zeta * shape.height])
 
     def on_surfaces(self, places):
-        f, zeta, _ = places.T
+        f, zeta, _ = columns(places)
         return np.column_stack([f == 0, f == 1, zeta == 0, zeta == 1])
 
     def angles(self, places):
@@ -106,7 +107,8 @@ class Canister(Model):
 
     def normals(self, surfaces, points, shape):
         axis = np.where(surfaces == Surface.HOLE, shape.offset, 0.0)
-        angle = np.arctan2(points[:, 1], points[:, 0] - axis)
+        x, y, _ = columns(points)
+        angle = np.arctan2(y, x - axis)
         radial, upward = np.array([(-1, 0), (1, 0), (0, -1), (0, 1)])[surfaces].T
         return np.column_stack([radial * np.cos(angle), radial * np.sin(angle), upward])
 

@@ -7,6 +7,7 @@ from enum import IntEnum
 import numpy as np
 
 from .canister import Canister
+from .columns import columns
 from .model import Curve, snapped
 from .sweep import swept
 
@@ -33,7 +34,7 @@ class CanisterBlind(Canister):
     def locate(self, points, tolerance=1e-9):
         shape = self.initial
         length = tolerance * shape.radius
-        x, y, z = points.T
+        x, y, z = columns(points)
         radius, angle = np.hypot(x, y), np.arctan2(y, x)
         beyond = radius - shape.hole_radius
         f = beyond / np.where(beyond < 0, shape.hole_radius, shape.radius - shape.hole_radius)
@@ -48,7 +49,7 @@ class CanisterBlind(Canister):
         return places
 
     def positions(self, places, shape):
-        f, zeta, angle = places.T
+        f, zeta, angle = columns(places)
         outside = np.maximum(f, 0)
         radius = ((1 - outside) * shape.hole_radius + outside * shape.radius
                   + np.minimum(f, 0) * shape.hole_radius)
@@ -57,7 +58,7 @@ class CanisterBlind(Canister):
             [shift + radius * np.cos(angle), radius * np.sin(angle), zeta * shape.height])
 
     def on_surfaces(self, places):
-        f, zeta, _ = places.T
+        f, zeta, _ = columns(places)
         inside = (f >= -1) & (f <= 1) & (zeta >= 0) & (zeta <= 1)
         return inside[:, None] & np.column_stack([
             (f == 0) & (zeta >= FLOOR), f == 1, zeta == 0, (zeta == 1) & (f >= 0),

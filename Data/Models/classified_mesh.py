@@ -40,9 +40,7 @@ class ClassifiedMesh(ModelMesh):
         faces = mesh.boundary_faces()
         nodes, corners = np.unique(faces, return_inverse=True)
         corners = corners.reshape(faces.shape)
-        # Column by column: with AVX-512 the sines of NumPy 1.24 differ in the last bit from call
-        # to call where an array is strided.
-        places = np.asfortranarray(model.locate(np.asfortranarray(mesh.points[nodes])))
+        places = model.locate(mesh.points[nodes])
         mesh.points[nodes] = model.positions(places, model.initial)
         boundary = mesh.points[nodes]
         found = owners(model, places, boundary)

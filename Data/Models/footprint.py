@@ -19,6 +19,8 @@ fold: each rectangle goes to a convex quadrilateral, each ray to a ray.
 
 import numpy as np
 
+from .columns import columns
+
 # Numbers of the grid's lines (see above).
 LEFT, RIGHT = 0, 9
 RIB_X, SLOT_X = (3, 6), (4, 5)
@@ -69,7 +71,7 @@ def locate(points, shape, tolerance):
     for part, sign in zip(BOSSES, (-1, 1)):
         local = points - (sign * shape.boss_spacing / 2, 0)
         inside = np.abs(local).max(axis=1) <= shape.square / 2 + tolerance
-        x, y = local[inside].T
+        x, y = columns(local[inside])
         radius, angle = np.hypot(x, y), np.arctan2(y, x)
         angle[radius * np.abs(angle) <= tolerance] = 0
         knots = _knots(angle, shape)
@@ -84,7 +86,7 @@ def locate(points, shape, tolerance):
 
 def positions(places, shape, initial):
     """(n, 2): positions on `shape` of places found on the initial one."""
-    part, first, second = places.T
+    part, first, second = columns(places)
     corners = crossings(shape, initial)
     i = np.clip(first.astype(int), 0, len(corners) - 2)
     j = np.clip(second.astype(int), 0, corners.shape[1] - 2)

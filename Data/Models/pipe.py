@@ -20,6 +20,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from .columns import columns
 from .model import Counts, Curve, Model, snapped
 from .shape import Shape
 from .structured import around_axis
@@ -97,7 +98,7 @@ def _center_line(station, shape):
 
 def _unbent(points, shape):
     """station, u, y of points: u towards the elbow's centre and y across the centre line."""
-    x, y, z = points.T
+    x, y, z = columns(points)
     straight, elbow = shape.straight, shape.elbow_radius
     along, aside = z - straight, elbow - x
     phi = np.arctan2(along, aside)
@@ -138,14 +139,14 @@ class Pipe(Model):
         return np.column_stack([station, depth, angle])
 
     def positions(self, places, shape):
-        station, depth, angle = places.T
+        station, depth, angle = columns(places)
         center, phi = _center_line(station, shape)
         radius = (1 - depth) * shape.inner_radius + depth * shape.outer_radius
         u, v = radius * np.cos(angle), radius * np.sin(angle)
         return center + np.column_stack([u * np.cos(phi), v, -u * np.sin(phi)])
 
     def on_surfaces(self, places):
-        station, depth, _ = places.T
+        station, depth, _ = columns(places)
         parts = [(station >= part) & (station <= part + 1) for part in range(3)]
         walls = [part & (depth == side) for side in (0, 1) for part in parts]
         return np.column_stack([*walls, station == 0, station == 3])

@@ -96,6 +96,16 @@ class MeshChecks:
         rest = self.mesh.points[self.mesh.nodes]
         self.assertTrue(np.array_equal(self.mesh.boundary_positions(0), rest))
 
+    def test_positions_are_the_same_at_each_call(self):
+        places, shape = np.tile(self.mesh.places, (4, 1)), self.geometry.parameters(0.37)
+        first = self.geometry.positions(places, shape)
+        sizes = np.random.default_rng(7).integers(1, 200_000, (150, 6))
+        for row in sizes:
+            others = [np.empty(size) for size in row]  # so that addresses change
+            again = self.geometry.positions(places.copy(), shape)
+            self.assertTrue(np.array_equal(again, first))
+            del others
+
     def test_positions_lie_on_their_surfaces(self):
         mesh = self.mesh
         pairs = [(row, surface) for row, node in enumerate(mesh.nodes)
@@ -122,9 +132,13 @@ class MeshChecks:
         node = mesh.faces[np.arange(len(corner)), corner]
         self.assertTrue(np.array_equal(mesh.geometry_id[node], mesh.face_surface))
 
+    def mesh_beyond(self):
+        """The mesh that is moved beyond t = 1, where what it bears depends on each of its faces."""
+        return self.mesh
+
     def test_no_face_turns_over(self):
-        mesh = self.mesh
         for t in [*STEPS, self.furthest or self.geometry.last]:
+            mesh = self.mesh if t <= 1 else self.mesh_beyond()
             points = mesh.moved(t)
             centers = points[mesh.faces].mean(axis=1)
             true = model_equations.normals(

@@ -24,17 +24,19 @@ class Readme(unittest.TestCase):
         blocks = re.findall(r"^```python\n(.*?)^```", README.read_text(encoding="utf-8"),
                             re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
-        paths = re.findall(r'LoadPlugin\("(.*?)"', blocks[0])
-        self.assertEqual(len(paths), 1)
-        # The folder before these, lib, depends on the install prefix.
-        self.assertEqual(Path(paths[0]).parts[-4:], PLUGIN.parts[-4:])
+        patterns = re.findall(r'glob\("(.*?)"', blocks[0])
+        self.assertEqual(len(patterns), 1)
+        # From the folder lib on, which the built plugin is in.
+        pattern = patterns[0].partition("/lib/")[2]
+        lib = next(folder for folder in PLUGIN.parents if folder.name == "lib")
+        self.assertIn(PLUGIN, lib.glob(pattern))
 
         with tempfile.TemporaryDirectory() as folder:
             part = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6])])
             # Appended data, the default, cannot be read back with Debian's expat.
             simple.SaveData(os.path.join(folder, "part.vtu"), proxy=part, DataMode="Binary")
             script = Path(folder, "example.py")
-            script.write_text(blocks[0].replace(paths[0], str(PLUGIN)), encoding="utf-8")
+            script.write_text(blocks[0].replace(patterns[0], str(PLUGIN)), encoding="utf-8")
             result = subprocess.run([shutil.which("pvpython"), str(script)], cwd=folder,
                                     capture_output=True, text=True, timeout=120)
             self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)

@@ -79,16 +79,15 @@ class Window(unittest.TestCase):
             events.set("ScaleFactor/DoubleLineEdit0", "set_string", "0.5")
             events.apply()
             self.expect(events, half)
+            events.menu("menu_Edit", "actionEditUndo")
+            events.expect(PANEL + "ScaleFactor/DoubleLineEdit0", "1")
+            events.menu("menu_Edit", "actionEditRedo")
+            events.expect(PANEL + "ScaleFactor/DoubleLineEdit0", "0.5")
             events.menu("menuTools", "actionToolsStartStopTrace")
             editor = MAIN + "1pqPythonScriptEditor0/"
             events.do(editor + "PythonScriptEditorMenuBar", "activate", "File")
             events.do(editor + "PythonScriptEditorMenuBar/File", "activate", "Save &As...")
             events.do(editor + "FileOpenDialog", "filesSelected", str(folder / "trace.py"))
-
-            events.menu("menu_Edit", "actionEditUndo")
-            events.expect(PANEL + "ScaleFactor/DoubleLineEdit0", "1")
-            events.menu("menu_Edit", "actionEditRedo")
-            events.expect(PANEL + "ScaleFactor/DoubleLineEdit0", "0.5")
 
             events.select("/0:0/0:0/0:0/0:0")
             events.set("Function/Function/OneLiner", "set_string", FOLDED)
