@@ -218,4 +218,54 @@ EvaluateReport LinearMorpher::applyTranspose(
   monitor.progress(1);
   return report;
 }
+
+Points LinearMorpher::mode(
+  const Points& displacement, EvaluateReport& report, Monitor& monitor) const
+{
+  const NodePartition& partition = this->partition();
+  requireRows("The array of boundary displacements", displacement.rows(),
+    static_cast<Index>(partition.prescribed.size()));
+  if (!displacement.allFinite())
+  {
+    throw Error("Boundary displacements that are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(displacement, partition.prescribed)) + ".");
+  }
+  Points free(static_cast<Index>(partition.free.size()), 3);
+  if (free.rows() > 0)
+  {
+    report = this->displace(displacement, free, monitor);
+  }
+  if (!free.allFinite())
+  {
+    throw Error("The displacements found are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(free, partition.free)) +
+                ". The motion, or the mesh, is too large to compute with: scale it down.");
+  }
+  Points all = Points::Zero(this->restPoints().rows(), 3);
+  all(partition.free, Eigen::all) = free;
+  all(partition.prescribed, Eigen::all) = displacement;
+  this->higherOrderNodes_.apply(all);
+  return all;
+}
+
+std::vector<Points> LinearMorpher::basis(const std::vector<Points>& displacements, Monitor& monitor,
+  std::vector<EvaluateReport>* reports) const
+{
+  this->requirePrepared();
+  std::vector<Points> modes;
+  std::vector<EvaluateReport> found(displacements.size());
+  const auto count = static_cast<double>(displacements.size());
+  for (std::size_t i = 0; i < displacements.size(); ++i)
+  {
+    const auto done = static_cast<double>(i);
+    ProgressRange part(monitor, done / count, (done + 1) / count);
+    modes.push_back(this->mode(displacements[i], found[i], part));
+  }
+  if (reports)
+  {
+    reports->swap(found);
+  }
+  monitor.progress(1);
+  return modes;
+}
 }

@@ -98,9 +98,21 @@ public:
   EvaluateReport applyTranspose(
     const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const;
 
+  /// Returns the mode of each boundary displacement: the displacement of every node of the mesh.
+  /// `displacements`: #prescribed x 3 each, in the order of NodePartition::prescribed. The modes
+  /// are #nodes x 3; prescribed nodes move exactly as given, and nodes outside the partition not at
+  /// all. blend() adds weighted modes. `reports`: null, or becomes one report a mode. A mode does
+  /// not depend on the others. Cost: one solve each, whose three coordinates share each pass over
+  /// the matrix; 24 bytes a node and mode. Throws Error as evaluate() does.
+  std::vector<Points> basis(const std::vector<Points>& displacements, Monitor& monitor,
+    std::vector<EvaluateReport>* reports = nullptr) const;
+
 protected:
   /// Adds M^T free to `prescribed` (#prescribed x 3); `free`: #free x 3.
   virtual EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const = 0;
+
+private:
+  Points mode(const Points& displacement, EvaluateReport& report, Monitor& monitor) const;
 };
 }
