@@ -16,8 +16,9 @@ esac
 sources() {
   find Examples Filters Plugin Programs Testing \( -name '*.h' -o -name '*.cxx' \) -print0
 }
+# States that ParaView wrote are as it wrote them.
 scripts() {
-  find . \( -path ./build -o -name '.?*' \) -prune -o \
+  find . \( -path ./build -o -path './Testing/ParaView/states-*' -o -name '.?*' \) -prune -o \
     \( -name '*.py' -o -name '*.py.in' -o -name '*.sh' -o -name '*.cmake' -o -name '*.cmake.in' \
     -o -name CMakeLists.txt \) -print0
 }

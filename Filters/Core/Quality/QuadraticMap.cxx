@@ -497,16 +497,15 @@ double QuadraticMap::determinant(
   // A coefficient is a weighted mean of determinants of derivatives' coefficients, and so is each
   // sum of absolute products. So it is at most 6 P, with P the product of the largest components.
   // The derivatives' own errors come in addition.
-  double product = 1, exact = 1;
+  double exact = 1;
   for (int j = 0; j < 3; ++j)
   {
-    product *= derivatives.largest[j];
     exact *= derivatives.largest[j] + derivatives.error[j];
   }
   double perturbation = 0;
   for (int j = 0; j < 3; ++j)
   {
-    // Computes exact - product without the cancellation of that difference.
+    // Computes exact - P without the cancellation of that difference.
     perturbation += derivatives.error[j] *
                     (derivatives.largest[(j + 1) % 3] + derivatives.error[(j + 1) % 3]) *
                     (derivatives.largest[(j + 2) % 3] + derivatives.error[(j + 2) % 3]);
