@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameData.h"
 
+#include "Private/Data/Version.h"
+
 #include <vtkBitArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -96,7 +98,7 @@ std::string difference(vtkCellArray* a, vtkCellArray* b)
   {
     return a == b ? "" : "cells are missing";
   }
-  if (a->IsStorage64Bit() != b->IsStorage64Bit())
+  if (a->GetOffsetsArray()->GetDataTypeSize() != b->GetOffsetsArray()->GetDataTypeSize())
   {
     return "storage of cells";
   }
@@ -123,7 +125,7 @@ std::string difference(vtkPointSet* a, vtkPointSet* b)
   {
     auto* other = vtkUnstructuredGrid::SafeDownCast(b);
     const std::string types = difference(
-      static_cast<vtkAbstractArray*>(grid->GetCellTypesArray()), other->GetCellTypesArray());
+      morph::filters::Version::CellTypes(grid), morph::filters::Version::CellTypes(other));
     return types.empty() ? difference(grid->GetCells(), other->GetCells()) : "cell types";
   }
   if (auto* surface = vtkPolyData::SafeDownCast(a))
