@@ -72,13 +72,15 @@ struct ChoiceKey
   vtkIdType InputVersion = -1;
   int Moving = -1;
   std::set<std::string> Patches, HeldPatches;
+  std::string Array;
   vtkMTimeType Region = 0, Selection = 0;
 
   bool operator==(const ChoiceKey& other) const
   {
     return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
            this->Patches == other.Patches && this->HeldPatches == other.HeldPatches &&
-           this->Region == other.Region && this->Selection == other.Selection;
+           this->Array == other.Array && this->Region == other.Region &&
+           this->Selection == other.Selection;
   }
 };
 
@@ -149,6 +151,7 @@ vtkBoundaryDisplacement::vtkBoundaryDisplacement()
 
 vtkBoundaryDisplacement::~vtkBoundaryDisplacement()
 {
+  this->SetMovingArray(nullptr);
   this->SetDisplacementArray(nullptr);
   this->SetSurfaceIdArray(nullptr);
 }
@@ -380,6 +383,10 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
     key.Region = timeOf(own.Region);
     options.Region = own.Region;
   }
+  else if (this->Moving == MOVE_ARRAY)
+  {
+    key.Array = options.ArrayName = filters::Input::ArrayName(this->MovingArray);
+  }
   if (!(key == own.ChosenFrom))
   {
     own.ChosenFrom = ChoiceKey(); // in case the choice throws
@@ -469,6 +476,7 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
     os << "\n";
   };
   os << indent << "Moving: " << this->Moving << "\n";
+  os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   list("Patches", this->Internals->Patches);
   list("HeldPatches", this->Internals->HeldPatches);
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";

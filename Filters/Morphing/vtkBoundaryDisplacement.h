@@ -92,19 +92,24 @@ public:
     MOVE_EVERYTHING = 0,
     MOVE_SELECTION = 1,
     MOVE_PATCHES = 2,
-    MOVE_REGION = 3
+    MOVE_REGION = 3,
+    MOVE_ARRAY = 4,
+    MOVE_NOTHING = 5
   };
   ///@{
   /**
    * What moves: the whole boundary; what is selected; the patches of AddPatch(); what is inside
-   * Region. Default MOVE_EVERYTHING.
+   * Region; nodes where MovingArray is not zero; or nothing, to see the boundary with its patches.
+   * Default MOVE_EVERYTHING.
    */
-  vtkSetClampMacro(Moving, int, MOVE_EVERYTHING, MOVE_REGION);
+  vtkSetClampMacro(Moving, int, MOVE_EVERYTHING, MOVE_NOTHING);
   vtkGetMacro(Moving, int);
   void SetMovingToEverything() { this->SetMoving(MOVE_EVERYTHING); }
   void SetMovingToSelection() { this->SetMoving(MOVE_SELECTION); }
   void SetMovingToPatches() { this->SetMoving(MOVE_PATCHES); }
   void SetMovingToRegion() { this->SetMoving(MOVE_REGION); }
+  void SetMovingToArray() { this->SetMoving(MOVE_ARRAY); }
+  void SetMovingToNothing() { this->SetMoving(MOVE_NOTHING); }
   ///@}
 
   ///@{
@@ -139,6 +144,15 @@ public:
    */
   void SetRegion(vtkImplicitFunction* region);
   vtkImplicitFunction* GetRegion();
+  ///@}
+
+  ///@{
+  /**
+   * Name of the point array of MOVE_ARRAY: a node moves where one of its components is not zero.
+   * Empty or "None": none. Default: none.
+   */
+  vtkSetStringMacro(MovingArray);
+  vtkGetStringMacro(MovingArray);
   ///@}
 
   enum Motions
@@ -361,6 +375,7 @@ private:
   void Choose(vtkPointSet* input, vtkSelection* selection);
 
   int Moving = MOVE_EVERYTHING;
+  char* MovingArray = nullptr;
   int Motion = MOTION_TRANSFORM;
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;

@@ -7,6 +7,7 @@
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
@@ -25,7 +26,6 @@
 #include "vtkWeightedResidualMorph.h"
 
 #include <vtkAlgorithmOutput.h>
-#include <vtkCallbackCommand.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
@@ -89,73 +89,6 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
-/// Removes the source file, line and object with which VTK's messages begin.
-std::string withoutOrigin(const std::string& message)
-{
-  const auto end = message.find("): ");
-  std::string text = end == std::string::npos ? message : message.substr(end + 3);
-  text.erase(text.find_last_not_of(" \n") + 1);
-  return text;
-}
-
-/// Observes a filter that runs inside another one. It keeps the filter's messages off the console,
-/// and passes progress and abort on.
-class Follower
-{
-public:
-  Follower(vtkMorphAlgorithm* filter, morph::Monitor& monitor)
-    : Filter(filter)
-    , Monitor(monitor)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(Follower::Called);
-    for (const auto event :
-      { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
-    {
-      this->Tags.push_back(filter->AddObserver(event, this->Command));
-    }
-  }
-  ~Follower()
-  {
-    for (const unsigned long tag : this->Tags)
-    {
-      this->Filter->RemoveObserver(tag);
-    }
-  }
-  Follower(const Follower&) = delete;
-  void operator=(const Follower&) = delete;
-
-  /// The filter's messages, errors first.
-  std::vector<std::string> Messages() const
-  {
-    std::vector<std::string> all = this->Errors;
-    all.insert(all.end(), this->Warnings.begin(), this->Warnings.end());
-    return all;
-  }
-
-private:
-  static void Called(vtkObject*, unsigned long event, void* self, void* data)
-  {
-    auto* follower = static_cast<Follower*>(self);
-    if (event == vtkCommand::ProgressEvent)
-    {
-      follower->Monitor.progress(*static_cast<double*>(data));
-      follower->Filter->SetAbortExecute(follower->Monitor.cancelled());
-    }
-    else
-    {
-      (event == vtkCommand::ErrorEvent ? follower->Errors : follower->Warnings)
-        .push_back(withoutOrigin(static_cast<const char*>(data)));
-    }
-  }
-
-  vtkMorphAlgorithm* Filter;
-  morph::Monitor& Monitor;
-  std::vector<std::string> Errors, Warnings;
-  vtkNew<vtkCallbackCommand> Command;
-  std::vector<unsigned long> Tags;
-};
-
 vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
@@ -177,11 +110,12 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
     monitor.check();
     const double done = static_cast<double>(i);
     morph::ProgressRange part(monitor, done / number, (done + 1) / number);
-    Follower follower(filter, part);
+    filters::Follower follower(filter, part);
     filter->UpdateTimeStep(times[i]);
     monitor.check();
     const bool failed = std::string(filter->GetMorphStatus()) == "Failed";
-    const std::vector<std::string> messages = follower.Messages();
+    std::vector<std::string> messages = follower.Errors();
+    messages.insert(messages.end(), follower.Warnings().begin(), follower.Warnings().end());
     for (const std::string& message : messages)
     {
       if (told.insert(message).second)

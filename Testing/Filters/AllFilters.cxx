@@ -10,6 +10,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphBoundary.h"
+#include "vtkMorphMesh.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -37,6 +38,13 @@ vtkSmartPointer<vtkAlgorithm> makeCompare()
   filter->RelativeOff();
   filter->SmoothingOff();
   filter->InversionFreeOff();
+  return filter;
+}
+
+vtkSmartPointer<vtkAlgorithm> makeMesh()
+{
+  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+  filter->SetMovingToEverything();
   return filter;
 }
 
@@ -73,6 +81,7 @@ const std::vector<AnyFilter>& allFilters()
     { "LBWarp", make<vtkLBWarpMorph>, true },
     { "MorphAdjoint", makeAdjoint, true },
     { "MorphBoundary", make<vtkMorphBoundary>, true },
+    { "MorphMesh", makeMesh, false },
     { "ScaledJacobian", make<vtkScaledJacobian>, false },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, true },
     { "SimplexNaturalNeighbor", make<vtkSimplexNaturalNeighborMorph>, true },

@@ -10,6 +10,7 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundary.h"
+#include "vtkMorphMesh.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -125,6 +126,16 @@ TEST(Properties, OfTheBoundaryFilters)
   EXPECT_REFUSED(vtkBoundaryDisplacement, FalloffRadius, 0, 10, 0.5);
   EXPECT_REFUSED(vtkBoundaryDisplacement, Distance, -Any, Any, 2);
   EXPECT_REFUSED(vtkBoundaryDisplacement, ScaleFactor, -Any, Any, 2);
+}
+
+TEST(Properties, OfMorphMesh)
+{
+  EXPECT_REFUSED(vtkMorphMesh, FeatureAngle, 0, 180, 30);
+  EXPECT_REFUSED(vtkMorphMesh, CornerAngle, 0, 180, 30);
+  EXPECT_REFUSED(vtkMorphMesh, FalloffRadius, 0, 10, 0.5);
+  EXPECT_REFUSED(vtkMorphMesh, Distance, -Any, Any, 2);
+  EXPECT_REFUSED(vtkMorphMesh, ScaleFactor, -Any, Any, 2);
+  EXPECT_REFUSED(vtkMorphMesh, RestTime, -Any, Any, 2);
 }
 
 TEST(Properties, VectorsAreRefusedAsAWhole)

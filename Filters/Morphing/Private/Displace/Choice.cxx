@@ -4,7 +4,9 @@
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
 
+#include <vtkDataArray.h>
 #include <vtkImplicitFunction.h>
+#include <vtkPointData.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -44,6 +46,32 @@ std::vector<std::uint8_t> insideRegion(const BoundaryModel& model, vtkImplicitFu
   return isInside;
 }
 
+std::vector<std::uint8_t> markedBy(vtkPointSet* input, const std::string& name)
+{
+  if (name.empty())
+  {
+    throw Error("No array is named that marks what moves: set MovingArray to a point array of the "
+                "input. Nodes move where it is not zero.");
+  }
+  vtkDataArray* array = input->GetPointData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
+  {
+    throw Error("MovingArray names '" + name + "', which is " +
+                (array ? "not as long as the input has points." : "no point array of the input."));
+  }
+  std::vector<std::uint8_t> isMarked(input->GetNumberOfPoints(), 0);
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    for (int j = 0; j < array->GetNumberOfComponents(); ++j)
+    {
+      // A NaN marks nothing.
+      const double value = array->GetComponent(i, j);
+      isMarked[i] = isMarked[i] || value < 0 || value > 0;
+    }
+  }
+  return isMarked;
+}
+
 void addNodesBetween(const morph::BoundaryFaces& faces, std::vector<std::uint8_t>& isChosen)
 {
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
@@ -76,6 +104,10 @@ std::vector<std::uint8_t> facesWithin(
     throw Error("None of the selected points, or of the points of the selected cells, is on the "
                 "boundary of the input. Select something on its surface.");
   }
+  if (how == By::Array)
+  {
+    throw Error("MovingArray is zero at all nodes of the boundary, so nothing would move.");
+  }
   throw Error("No node of the boundary is inside the region that is to move. Make it larger, or "
               "move it to the boundary.");
 }
@@ -98,6 +130,12 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
     case By::Region:
       part.HasNode = insideRegion(model, options.Region);
       break;
+    case By::Array:
+      part.HasNode = markedBy(input, options.ArrayName);
+      break;
+    case By::Nothing:
+      part.HasNode.assign(model.Points().rows(), 0);
+      break;
     case By::Everything:
       part.HasNode.assign(model.Points().rows(), 1);
       break;
@@ -116,7 +154,7 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
       result.Held.push_back(node);
     }
   }
-  if (result.Moving.empty())
+  if (result.Moving.empty() && options.How != By::Nothing)
   {
     refuseNone(options.How);
   }

@@ -20,7 +20,9 @@ enum class By
   Everything,
   Selection,
   Patches,
-  Region
+  Region,
+  Array,
+  Nothing
 };
 
 struct Options
@@ -30,12 +32,13 @@ struct Options
   vtkExtractSelection* Extractor = nullptr;
   std::set<std::string> Patches;
   vtkImplicitFunction* Region = nullptr; ///< inside where it is zero or less
+  std::string ArrayName;                 ///< a point array: nodes where it is not zero
   std::set<std::string> HeldPatches;
 };
 
 struct Result
 {
-  std::vector<morph::Index> Moving;       ///< ascending, at least one
+  std::vector<morph::Index> Moving;       ///< ascending, at least one unless By::Nothing
   std::vector<morph::Index> Held;         ///< ascending, none of them moving
   std::vector<std::uint8_t> IsMovingFace; ///< #faces
 };

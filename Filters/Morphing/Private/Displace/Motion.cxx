@@ -129,6 +129,10 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
   {
     from.row(i) = model.Points().row(choice.Moving[i]);
   }
+  if (choice.Moving.empty())
+  {
+    return from;
+  }
   Points targets = wholeMotion(input, model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray" };
   requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);

@@ -69,6 +69,10 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   {
     result.Roles[node] = IsHeld;
   }
+  if (choice.Moving.empty())
+  {
+    return result;
+  }
   switch (options.How)
   {
     case Kind::Follow:

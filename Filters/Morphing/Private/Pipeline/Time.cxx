@@ -16,6 +16,25 @@ namespace morph::filters
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
+namespace
+{
+std::optional<double> restStep(double restTime, vtkInformation* mesh)
+{
+  if (const int count = mesh->Length(Pipeline::TIME_STEPS()))
+  {
+    const double* steps = mesh->Get(Pipeline::TIME_STEPS());
+    const double* after = std::upper_bound(steps, steps + count, restTime);
+    return after == steps ? steps[0] : after[-1];
+  }
+  if (mesh->Length(Pipeline::TIME_RANGE()) == 2)
+  {
+    const double* range = mesh->Get(Pipeline::TIME_RANGE());
+    return std::min(std::max(restTime, range[0]), range[1]);
+  }
+  return std::nullopt;
+}
+}
+
 void Time::CopySteps(vtkInformation* boundary, vtkInformation* output)
 {
   // The executive has copied port 0's; copying a key that is not there removes it.
@@ -28,21 +47,20 @@ void Time::CopyDataTime(vtkDataObject* boundary, vtkDataObject* output)
   output->GetInformation()->CopyEntry(boundary->GetInformation(), vtkDataObject::DATA_TIME_STEP());
 }
 
+std::optional<double> Time::AskRest(double restTime, vtkInformation* mesh)
+{
+  const std::optional<double> step = restStep(restTime, mesh);
+  if (step)
+  {
+    Ask(mesh, step);
+  }
+  return step;
+}
+
 void Time::Request(double restTime, std::optional<double> boundaryTime, vtkInformation* mesh,
   vtkInformation* boundary)
 {
-  this->RestStep.reset();
-  if (const int count = mesh->Length(Pipeline::TIME_STEPS()))
-  {
-    const double* steps = mesh->Get(Pipeline::TIME_STEPS());
-    const double* after = std::upper_bound(steps, steps + count, restTime);
-    this->RestStep = after == steps ? steps[0] : after[-1];
-  }
-  else if (mesh->Length(Pipeline::TIME_RANGE()) == 2)
-  {
-    const double* range = mesh->Get(Pipeline::TIME_RANGE());
-    this->RestStep = std::min(std::max(restTime, range[0]), range[1]);
-  }
+  this->RestStep = restStep(restTime, mesh);
   this->BoundaryTime = boundaryTime;
   this->OnePort = mesh == boundary;
   Ask(boundary, boundaryTime);

@@ -29,6 +29,10 @@ public:
   /// Sets the time that an input is asked for, or none.
   static void Ask(vtkInformation* input, std::optional<double> time);
 
+  /// For RequestUpdateExtent of a filter with a mesh and no boundary: asks for the last of the
+  /// mesh's time steps that is not after `restTime`, or the first. Returns that time, if any.
+  static std::optional<double> AskRest(double restTime, vtkInformation* mesh);
+
   /// For RequestUpdateExtent: sets the times that the two ports are asked for. The boundary is
   /// asked for `boundaryTime`, or for none. The mesh is asked for the last of its time steps that
   /// is not after `restTime`, or the first.

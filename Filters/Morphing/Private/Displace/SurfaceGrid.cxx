@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/SurfaceGrid.h"
+
+#include "Private/Data/Geometry.h"
+#include "Private/Data/Surface.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace morph::filters
+{
+namespace
+{
+int typeOf(vtkIdType corners)
+{
+  return corners == 3 ? VTK_TRIANGLE : corners == 4 ? VTK_QUAD : VTK_POLYGON;
+}
+}
+
+void SurfaceGrid::Write(
+  vtkUnstructuredGrid* grid, vtkPolyData* boundary, vtkUnstructuredGrid* output)
+{
+  output->Initialize();
+  output->SetPoints(grid->GetPoints());
+  output->GetPointData()->ShallowCopy(grid->GetPointData());
+  output->GetFieldData()->ShallowCopy(grid->GetFieldData());
+  vtkDataArray* ids = boundary->GetPointData()->GetArray(Surface::IdName);
+  vtkDataArray* surfaces = boundary->GetCellData()->GetArray(Geometry::IdName);
+  output->AllocateExact(boundary->GetNumberOfPolys(), 4 * boundary->GetNumberOfPolys());
+  vtkNew<vtkIdList> corners;
+  vtkCellArray* faces = boundary->GetPolys();
+  for (vtkIdType face = 0; face < faces->GetNumberOfCells(); ++face)
+  {
+    faces->GetCellAtId(face, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      corners->SetId(i, static_cast<vtkIdType>(ids->GetComponent(corners->GetId(i), 0)));
+    }
+    output->InsertNextCell(typeOf(corners->GetNumberOfIds()), corners);
+  }
+  if (surfaces)
+  {
+    auto named = vtkSmartPointer<vtkDataArray>::Take(surfaces->NewInstance());
+    named->DeepCopy(surfaces);
+    named->SetName(SurfaceName);
+    output->GetCellData()->AddArray(named);
+    output->GetCellData()->SetActiveScalars(SurfaceName);
+  }
+}
+}

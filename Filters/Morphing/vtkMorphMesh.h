@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMorphMesh
+ * @brief   morphs a volume mesh in one step: what moves, how it moves, and by which method
+ *
+ * It is vtkBoundaryDisplacement and a morph filter in one. Port 0 takes the mesh
+ * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection. Output 0 is the morphed mesh and
+ * output 1 its inverted cells, both with the arrays of vtkMorphAlgorithm.
+ *
+ * - Moving defines what moves: surfaces, a selection, the inside of a region, everything, or the
+ *   nodes that an array marks.
+ * - Displacement defines how: by a transform, a vector, along the normals, or by an array.
+ * - Surroundings defines what the rest of the boundary does. FixedSurfaces stay.
+ * - Method defines how the interior nodes follow.
+ *
+ * With MOVE_SURFACES (the default) and no surface chosen, the selection moves if there is one.
+ * Without either nothing is morphed, and nothing is wrong. Output 0 then has the faces of the
+ * boundary as cells, with the cell array `SurfaceId`, on the points of the mesh. MorphStatus is
+ * "None". SurfaceList has the names of the surfaces.
+ *
+ * Inverted cells are repaired by default (Validity). With Live on, as while a box is dragged, they
+ * are shown and counted, and not repaired.
+ *
+ * The boundary, its surfaces, and what the method prepares are kept from one motion to the next, as
+ * the filters inside keep them. A result does not depend on what was kept.
+ *
+ * RequestInformation reads the input's data where they are up to date, so that a window can list
+ * the surfaces before the first execution; see vtkBoundaryDisplacement.
+ *
+ * Time: a mesh that varies in time is taken at RestTime. The outputs have the time steps of
+ * NumberOfSteps.
+ *
+ * After an error there is one message, and output 0 is the undeformed mesh. MorphStatus is then
+ * "Failed", and InvertedCells and MinScaledJacobian are -1. The errors and warnings are those of
+ * vtkBoundaryDisplacement and vtkMorphAlgorithm. Several MPI processes are an error.
+ *
+ * @sa vtkBoundaryDisplacement vtkMorphAlgorithm vtkFEMWarpMorph
+ */
+#ifndef vtkMorphMesh_h
+#define vtkMorphMesh_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkUnstructuredGridAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+
+class vtkAbstractTransform;
+class vtkDataArraySelection;
+class vtkExtractSelection;
+class vtkImplicitFunction;
+class vtkMorphAlgorithm;
+class vtkSelection;
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphMesh : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkMorphMesh* New();
+  vtkTypeMacro(vtkMorphMesh, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkMTimeType GetMTime() override;
+
+  ///@{
+  /**
+   * The selection (port 1): the same as SetInputConnection() and SetInputData() on that port. Its
+   * ids are those of the mesh on port 0.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output);
+  void SetSelectionData(vtkSelection* selection);
+  ///@}
+
+  /**
+   * The filter that evaluates the selection. Null: a vtkExtractSelection. Default: null.
+   */
+  void SetSelectionExtractor(vtkExtractSelection* extractor);
+
+  enum MovingParts
+  {
+    MOVE_SURFACES = 0,
+    MOVE_SELECTION = 1,
+    MOVE_REGION = 2,
+    MOVE_EVERYTHING = 3,
+    MOVE_ARRAY = 4
+  };
+  ///@{
+  /**
+   * What moves: the surfaces of AddSurface() or, where there is none, the selection; the selection;
+   * what is inside Region; the whole boundary; nodes where MovingArray is not zero. Default
+   * MOVE_SURFACES.
+   */
+  vtkSetClampMacro(Moving, int, MOVE_SURFACES, MOVE_ARRAY);
+  vtkGetMacro(Moving, int);
+  void SetMovingToSurfaces() { this->SetMoving(MOVE_SURFACES); }
+  void SetMovingToSelection() { this->SetMoving(MOVE_SELECTION); }
+  void SetMovingToRegion() { this->SetMoving(MOVE_REGION); }
+  void SetMovingToEverything() { this->SetMoving(MOVE_EVERYTHING); }
+  void SetMovingToArray() { this->SetMoving(MOVE_ARRAY); }
+  ///@}
+
+  ///@{
+  /**
+   * The surfaces (or curves) that move, by name: "Surface 3", "Curve 7", with the ids that
+   * vtkClassifyBoundary writes. A status other than 0 adds one, and 0 removes it. Default: none.
+   */
+  void SetSurfaceStatus(const char* name, int status);
+  void AddSurface(const char* name) { this->SetSurfaceStatus(name, 1); }
+  void RemoveAllSurfaces();
+  ///@}
+
+  ///@{
+  /**
+   * The surfaces (or curves) that stay, by name. A node that moves is not held. Default: none.
+   */
+  void SetFixedSurfaceStatus(const char* name, int status);
+  void AddFixedSurface(const char* name) { this->SetFixedSurfaceStatus(name, 1); }
+  void RemoveAllFixedSurfaces();
+  ///@}
+
+  /**
+   * Names of all surfaces and curves, surfaces first, as a list to choose from, with nothing
+   * enabled. They are those of the last execution or, after an update of the information, of input
+   * data that are up to date.
+   */
+  vtkDataArraySelection* GetSurfaceList();
+
+  ///@{
+  /**
+   * The implicit function of MOVE_REGION: nodes at which it is zero or less move. Default: null.
+   */
+  void SetRegion(vtkImplicitFunction* region);
+  vtkImplicitFunction* GetRegion();
+  ///@}
+
+  ///@{
+  /**
+   * Name of the point array of MOVE_ARRAY: a node moves where one of its components is not zero.
+   * Empty or "None": none. Default: none.
+   */
+  vtkSetStringMacro(MovingArray);
+  vtkGetStringMacro(MovingArray);
+  ///@}
+
+  enum Displacements
+  {
+    DISPLACEMENT_TRANSFORM = 0,
+    DISPLACEMENT_VECTOR = 1,
+    DISPLACEMENT_NORMALS = 2,
+    DISPLACEMENT_ARRAY = 3
+  };
+  ///@{
+  /**
+   * How it moves: by Transform, by Vector, by Distance along its normals, or by DisplacementArray;
+   * each times ScaleFactor. See vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   */
+  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_ARRAY);
+  vtkGetMacro(Displacement, int);
+  void SetDisplacementToTransform() { this->SetDisplacement(DISPLACEMENT_TRANSFORM); }
+  void SetDisplacementToVector() { this->SetDisplacement(DISPLACEMENT_VECTOR); }
+  void SetDisplacementToNormals() { this->SetDisplacement(DISPLACEMENT_NORMALS); }
+  void SetDisplacementToArray() { this->SetDisplacement(DISPLACEMENT_ARRAY); }
+  ///@}
+
+  ///@{
+  /**
+   * The transform of what moves; null is the identity. Default: null.
+   */
+  void SetTransform(vtkAbstractTransform* transform);
+  vtkAbstractTransform* GetTransform();
+  ///@}
+
+  ///@{
+  /**
+   * The displacement, in the unit of the points: finite numbers. Default 0, 0, 0.
+   */
+  virtual void SetVector(double x, double y, double z);
+  virtual void SetVector(const double vector[3]);
+  vtkGetVector3Macro(Vector, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far nodes move along their normal, in the unit of the points. The normal points out of the
+   * mesh; negative is inwards. Default 0.
+   */
+  virtual void SetDistance(double value);
+  vtkGetMacro(Distance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a point array of the input with three components, in the unit of the points. Empty or
+   * "None": none. Default: none.
+   */
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  ///@}
+
+  ///@{
+  /**
+   * The factor of the motion; 0 leaves the mesh as it is. Default 1, any finite number.
+   */
+  virtual void SetScaleFactor(double value);
+  vtkGetMacro(ScaleFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the rest of the boundary does: vtkBoundaryDisplacement::SURROUNDINGS_STAY and so on.
+   * Default SURROUNDINGS_FOLLOW.
+   */
+  vtkSetClampMacro(Surroundings, int, 0, 2);
+  vtkGetMacro(Surroundings, int);
+  ///@}
+
+  ///@{
+  /**
+   * The distance at which SURROUNDINGS_FADE reaches zero, in units of the diagonal of the
+   * boundary's bounding box. Default 0.1, range [0, 10].
+   */
+  virtual void SetFalloffRadius(double value);
+  vtkGetMacro(FalloffRadius, double);
+  ///@}
+
+  enum Methods
+  {
+    METHOD_FEMWARP = 0,
+    METHOD_LBWARP = 1,
+    METHOD_WEIGHTED_RESIDUAL = 2,
+    METHOD_SIMPLEX_LINEAR = 3,
+    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4,
+    METHOD_SMOOTHING = 5,
+    METHOD_INVERSION_FREE = 6
+  };
+  ///@{
+  /**
+   * The method by which the interior nodes follow. Default METHOD_FEMWARP.
+   */
+  virtual void SetMethod(int method);
+  vtkGetMacro(Method, int);
+  ///@}
+
+  /**
+   * The filter of the method, for options of its own (vtkFEMWarpMorph::SetTolerance(), for
+   * instance). The properties that this class has too are set by it at each execution. SetMethod()
+   * to another method makes a new one.
+   */
+  vtkMorphAlgorithm* GetMethodFilter();
+
+  ///@{
+  /**
+   * What to do where the method leaves inverted cells: vtkMorphAlgorithm::VALIDITY_NONE and so on.
+   * Default VALIDITY_REPAIR.
+   */
+  vtkSetClampMacro(Validity, int, 0, 4);
+  vtkGetMacro(Validity, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the motion is being dragged: inverted cells are then shown and counted, whatever
+   * Validity says. A window sets it while a box is dragged, and resets it on release. Default off.
+   */
+  vtkSetMacro(Live, bool);
+  vtkGetMacro(Live, bool);
+  vtkBooleanMacro(Live, bool);
+  ///@}
+
+  ///@{
+  /**
+   * See vtkMorphAlgorithm. Defaults 0, Absolute.
+   */
+  vtkSetClampMacro(NumberOfSteps, int, 0, 1000000);
+  vtkGetMacro(NumberOfSteps, int);
+  vtkSetClampMacro(Stepping, int, 0, 1);
+  vtkGetMacro(Stepping, int);
+  ///@}
+
+  ///@{
+  /**
+   * The time at which a mesh that varies in time is undeformed: the last of its time steps that is
+   * not after it, or the first step. Default -1e300, so the first.
+   */
+  virtual void SetRestTime(double value);
+  vtkGetMacro(RestTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * How surfaces and curves are found: see vtkClassifyBoundary.
+   */
+  virtual void SetFeatureAngle(double value);
+  vtkGetMacro(FeatureAngle, double);
+  virtual void SetCornerAngle(double value);
+  vtkGetMacro(CornerAngle, double);
+  vtkSetStringMacro(SurfaceIdArray);
+  vtkGetStringMacro(SurfaceIdArray);
+  vtkSetMacro(UseGeometryArrays, bool);
+  vtkGetMacro(UseGeometryArrays, bool);
+  vtkBooleanMacro(UseGeometryArrays, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Type of the output's points, as in vtkMorphAlgorithm. Default DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
+   * [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Results of the last execution; see vtkMorphAlgorithm.
+   */
+  const char* GetMorphStatus() const;
+  double GetMinScaledJacobian() const;
+  double GetMeanScaledJacobian() const;
+  vtkIdType GetInvertedCells() const;
+  vtkIdType GetDegenerateCells() const;
+  vtkIdType GetWorstCellId() const;
+  vtkIdType GetBoundaryInvertedCells() const;
+  vtkIdType GetMirroredBodies() const;
+  vtkIdType GetCertifiedCells() const;
+  vtkIdType GetUncertifiedCells() const;
+  vtkIdType GetUndecidedCells() const;
+  double GetLargestValidStep() const;
+  double GetPrepareSeconds() const;
+  double GetEvaluateSeconds() const;
+  vtkIdType GetSubSteps() const;
+  int GetPrepareCount() const;
+  vtkIdType GetPrescribedPoints() const;
+  vtkIdType GetUnmatchedPoints() const;
+  int GetSolverIterations() const;
+  ///@}
+
+protected:
+  vtkMorphMesh();
+  ~vtkMorphMesh() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkMorphMesh(const vtkMorphMesh&) = delete;
+  void operator=(const vtkMorphMesh&) = delete;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  int Moving = MOVE_SURFACES;
+  char* MovingArray = nullptr;
+  int Displacement = DISPLACEMENT_TRANSFORM;
+  double Vector[3] = { 0, 0, 0 };
+  double Distance = 0;
+  char* DisplacementArray = nullptr;
+  double ScaleFactor = 1;
+  int Surroundings = 1;
+  double FalloffRadius = 0.1;
+  int Method = METHOD_FEMWARP;
+  int Validity = 3;
+  bool Live = false;
+  int NumberOfSteps = 0;
+  int Stepping = 0;
+  double RestTime = -1e300;
+  double FeatureAngle = 25;
+  double CornerAngle = 45;
+  char* SurfaceIdArray = nullptr;
+  bool UseGeometryArrays = true;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkMorphMesh against the filters that it is made of.
+#include "DisplacedBoundaries.h"
+
+#include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkLBWarpMorph.h"
+#include "vtkMorphMesh.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
+#include "vtkSmoothingMorph.h"
+#include "vtkWeightedResidualMorph.h"
+
+#include <vtkBox.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+#include <vtkTransform.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using grids::Row;
+
+namespace
+{
+const Row Up(0.1, -0.2, 0.5);
+
+bool onTop(const Row& x)
+{
+  return x[2] == 4;
+}
+
+/// A box of 4 x 4 x 4 hexahedra, [0, 4] in each direction.
+vtkSmartPointer<vtkUnstructuredGrid> box()
+{
+  return grids::make(meshes::hexes(4, 4, 4));
+}
+
+std::string topSurface(vtkDataObject* grid)
+{
+  auto filter = displaced::make(grid);
+  return displaced::surfaceName(filter, onTop);
+}
+
+/// Moves the top up.
+vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid)
+{
+  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+  filter->SetInputData(grid);
+  filter->AddSurface(topSurface(grid).c_str());
+  filter->SetDisplacementToVector();
+  filter->SetVector(Up[0], Up[1], Up[2]);
+  return filter;
+}
+
+/// The same by two filters.
+template <typename Method>
+vtkSmartPointer<vtkUnstructuredGrid> byTwoFilters(vtkUnstructuredGrid* grid, const Row& up = Up)
+{
+  auto displace = displaced::make(grid);
+  displace->SetMovingToPatches();
+  displace->AddPatch(topSurface(grid).c_str());
+  displace->SetMotionToVector();
+  displace->SetVector(up[0], up[1], up[2]);
+  vtkNew<Method> morph;
+  morph->SetInputData(grid);
+  morph->SetBoundaryConnection(displace->GetOutputPort());
+  morph->SetValidityToRepair();
+  morph->Update();
+  return morph->GetOutput();
+}
+
+/// Returns whether each node of the top moved by `up`, and no node of the bottom.
+bool topMovedBy(vtkUnstructuredGrid* before, vtkUnstructuredGrid* after, const Row& up)
+{
+  const morph::Points x = grids::points(before), y = grids::points(after);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if ((onTop(x.row(i)) && y.row(i) != Row(x.row(i) + up)) ||
+        (x(i, 2) == 0 && y.row(i) != x.row(i)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string statusOf(vtkDataObject* data)
+{
+  auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("MorphStatus"));
+  return array ? array->GetValue(0) : std::string();
+}
+}
+
+TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
+{
+  auto grid = box();
+  using Chain = vtkSmartPointer<vtkUnstructuredGrid> (*)(vtkUnstructuredGrid*, const Row&);
+  const Chain chains[] = { byTwoFilters<vtkFEMWarpMorph>, byTwoFilters<vtkLBWarpMorph>,
+    byTwoFilters<vtkWeightedResidualMorph>, byTwoFilters<vtkSimplexLinearMorph>,
+    byTwoFilters<vtkSimplexNaturalNeighborMorph>, byTwoFilters<vtkSmoothingMorph>,
+    byTwoFilters<vtkInversionFreeMorph> };
+  auto filter = make(grid);
+  grids::Listener listener(filter);
+  for (int method = 0; method < 7; ++method)
+  {
+    SCOPED_TRACE(method);
+    filter->SetMethod(method);
+    filter->Update();
+    ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    auto expected = chains[method](grid, Up);
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(expected));
+    EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 64);
+    EXPECT_STREQ(filter->GetOutput()->GetCellData()->GetScalars()->GetName(), "ScaledJacobian");
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+    EXPECT_EQ(filter->GetInvertedCells(), 0);
+    EXPECT_GT(filter->GetMinScaledJacobian(), 0.5);
+    EXPECT_EQ(filter->GetLargestValidStep(), 1);
+  }
+}
+
+TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
+{
+  auto grid = box();
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetVector(1, 2, 3);
+  grids::Listener listener(filter);
+  for (const int moving : { vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::MOVE_SELECTION })
+  {
+    filter->SetMoving(moving);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+    vtkUnstructuredGrid* output = filter->GetOutput();
+    EXPECT_EQ(grids::points(output), grids::points(grid));
+    ASSERT_EQ(output->GetNumberOfCells(), 6 * 16);
+    EXPECT_NE(output->GetPointData()->GetArray("Number"), nullptr);
+    vtkDataArray* surface = output->GetCellData()->GetScalars();
+    ASSERT_NE(surface, nullptr);
+    EXPECT_STREQ(surface->GetName(), "SurfaceId");
+    const std::string top = topSurface(grid);
+    for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+    {
+      double bounds[6];
+      output->GetCellBounds(cell, bounds);
+      EXPECT_EQ(
+        "Surface " + std::to_string(static_cast<int>(surface->GetComponent(cell, 0))) == top,
+        bounds[4] == 4);
+    }
+    EXPECT_EQ(filter->GetOutput(1)->GetNumberOfCells(), 0);
+    EXPECT_STREQ(filter->GetMorphStatus(), "None");
+    EXPECT_EQ(statusOf(output), "None");
+    EXPECT_EQ(filter->GetInvertedCells(), -1);
+  }
+  EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 6 + 12);
+}
+
+TEST(MorphMesh, SurfacesAreListedBeforeTheFirstExecution)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(box());
+  filter->UpdateInformation();
+  ASSERT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 18);
+  EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(0), "Surface 0");
+}
+
+TEST(MorphMesh, ASelectionMovesWhereNoSurfaceIsChosen)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  auto corner = displaced::indices(vtkSelectionNode::POINT,
+    displaced::nodesWhere(grid, [](const Row& x) { return x.norm() == 0; }));
+  filter->SetSelectionData(corner);
+  filter->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
+  const auto movedNodes = [&]
+  {
+    filter->Update();
+    return ((grids::points(filter->GetOutput()) - grids::points(grid)).rowwise().norm().array() > 0)
+      .count();
+  };
+  EXPECT_GE(movedNodes(), 25); // the chosen surface, and what is inside
+  filter->RemoveAllSurfaces();
+  filter->SetVector(-0.1, -0.1, -0.1);
+  filter->Update();
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x.row(i).norm() == 0)
+    {
+      EXPECT_EQ(y.row(i), Row(-0.1, -0.1, -0.1));
+    }
+    else if (x(i, 2) == 4)
+    {
+      EXPECT_EQ(y.row(i), x.row(i));
+    }
+  }
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+}
+
+TEST(MorphMesh, MovesARegionAnArrayAndEverything)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->RemoveAllSurfaces();
+  vtkNew<vtkBox> region;
+  region->SetBounds(-1, 5, -1, 5, 3.5, 4.5);
+  filter->SetRegion(region);
+  filter->SetMovingToRegion();
+  filter->Update();
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+  const morph::Points byRegion = grids::points(filter->GetOutput());
+  EXPECT_EQ(byRegion, grids::points(byTwoFilters<vtkFEMWarpMorph>(grid)));
+
+  vtkNew<vtkDoubleArray> marks;
+  marks->SetName("Top");
+  const morph::Points x = grids::points(grid);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    marks->InsertNextValue(onTop(x.row(i)) ? -2 : i % 2 ? 0. : std::nan(""));
+  }
+  grid->GetPointData()->AddArray(marks);
+  filter->SetMovingToArray();
+  filter->SetMovingArray("Top");
+  filter->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), byRegion);
+
+  filter->SetMovingToEverything();
+  filter->Update();
+  const morph::Points shift = grids::points(filter->GetOutput()) - x;
+  EXPECT_LE((shift.rowwise() - Up).cwiseAbs().maxCoeff(), 1e-12);
+
+  region->SetBounds(-1, 5, -1, 5, -0.5, 0.5); // a change of the region is one of the filter
+  filter->SetMovingToRegion();
+  filter->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()).row(0), Row(x.row(0) + Up));
+}
+
+TEST(MorphMesh, RepairsUnlessItIsLive)
+{
+  auto grid = box();
+  vtkNew<vtkDoubleArray> waves;
+  waves->SetName("Waves");
+  waves->SetNumberOfComponents(3);
+  const morph::Points x = grids::points(grid);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    waves->InsertNextTuple3(0, 0, 1.6 * std::sin(M_PI / 2 * x(i, 0)));
+  }
+  grid->GetPointData()->AddArray(waves);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToArray();
+  filter->SetDisplacementArray("Waves");
+  grids::Listener listener(filter);
+  filter->LiveOn();
+  filter->Update();
+  const vtkIdType inverted = filter->GetInvertedCells();
+  EXPECT_GT(inverted, 0);
+  EXPECT_STREQ(filter->GetMorphStatus(), "Inverted");
+  EXPECT_EQ(filter->GetOutput(1)->GetNumberOfCells(), inverted);
+  filter->LiveOff();
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Repaired");
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_EQ(filter->GetOutput(1)->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  filter->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
+  filter->Update();
+  EXPECT_EQ(filter->GetInvertedCells(), inverted);
+}
+
+TEST(MorphMesh, PreparesOnceForADrag)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  vtkNew<vtkTransform> transform;
+  filter->SetDisplacementToTransform();
+  filter->SetTransform(transform);
+  for (int i = 1; i <= 5; ++i)
+  {
+    transform->Identity();
+    transform->Translate(0, 0, 0.1 * i);
+    filter->Update();
+    EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Row(0, 0, 0.1 * i))) << i;
+    EXPECT_EQ(filter->GetPrepareCount(), 1);
+  }
+  // What was kept has no effect.
+  auto fresh = make(grid);
+  fresh->SetDisplacementToTransform();
+  fresh->SetTransform(transform);
+  fresh->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(fresh->GetOutput()));
+}
+
+TEST(MorphMesh, ExecutesOnlyWhereSomethingChanged)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->Update();
+  const vtkMTimeType first = filter->GetOutput()->GetMTime();
+  filter->Update();
+  filter->UpdateInformation();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetMTime(), first);
+
+  // Options of the method itself are found by a change of its filter.
+  vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(0.5);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetMTime(), first);
+}
+
+TEST(MorphMesh, AfterAnErrorTheUndeformedMeshStays)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->AddSurface("Surface 77");
+  grids::Listener listener(filter);
+  for (int run = 0; run < 2; ++run)
+  {
+    listener.Errors.clear();
+    filter->Modified();
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find("): Surfaces names 'Surface 77'"), std::string::npos)
+      << listener.Errors[0];
+    EXPECT_TRUE(listener.ExecutiveErrors.empty());
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 64);
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+    EXPECT_EQ(statusOf(filter->GetOutput()), "Failed");
+    EXPECT_EQ(filter->GetInvertedCells(), -1);
+    EXPECT_EQ(filter->GetMinScaledJacobian(), -1);
+  }
+  listener.Errors.clear();
+  filter->SetSurfaceStatus("Surface 77", 0);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+  filter->AddFixedSurface("Surface 78");
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("): FixedSurfaces names 'Surface 78'"), std::string::npos)
+    << listener.Errors[0];
+}
+
+TEST(MorphMesh, AMorphThatFailsIsAnErrorOfThisFilter)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetVector(0, 0, -5); // through the bottom
+  grids::Listener listener(filter);
+  filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REFUSE);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+  filter->SetVector(Up[0], Up[1], Up[2]);
+  filter->Update();
+  EXPECT_EQ(listener.Errors.size(), 1u);
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+}
+
+TEST(MorphMesh, HasStepsInTime)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetNumberOfSteps(4);
+  filter->UpdateInformation();
+  vtkInformation* info = filter->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 5);
+  filter->UpdateTimeStep(2);
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Row(0.5 * Up)));
+  filter->UpdateTimeStep(0);
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+  filter->UpdateTimeStep(4);
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  filter->SetNumberOfSteps(0);
+  filter->UpdateInformation();
+  EXPECT_FALSE(info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+}
+
+TEST(MorphMesh, AnAbortGivesTheUndeformedMeshAndNoMessage)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetMethod(vtkMorphMesh::METHOD_INVERSION_FREE);
+  grids::Listener listener(filter);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* object, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(object)->SetAbortExecute(1); });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+  filter->RemoveObserver(tag);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Up));
+}
+
+TEST(MorphMesh, KeepsThePrecisionOfItsInput)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4), VTK_FLOAT);
+  auto filter = make(grid);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_FLOAT);
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
+}
