@@ -9,6 +9,7 @@ Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_XML=<its XML fil
 import math
 import os
 import re
+import sqlite3
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -192,6 +193,15 @@ class Properties(unittest.TestCase):
                     self.assertEqual(listed, [row[0] for row in groups.pop(group.get("label"), [])])
                 self.assertEqual(groups, {})
         self.assertEqual(with_results, 10)
+
+    def test_every_filter_has_a_help_page(self):
+        path = os.environ["MESHMORPHING_HELP"]
+        if not path:
+            self.skipTest("this ParaView builds no help pages of plugins")
+        with sqlite3.connect(f"file:{path}?mode=ro", uri=True) as help_file:
+            pages = set(help_file.execute("select Name, Title from FileNameTable"))
+        for proxy in proxies():
+            self.assertIn((f"filters.{proxy.get('name')}.html", proxy.get("label")), pages)
 
 
 if __name__ == "__main__":
