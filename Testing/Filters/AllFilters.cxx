@@ -11,6 +11,7 @@
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphBoundary.h"
 #include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -48,6 +49,13 @@ vtkSmartPointer<vtkAlgorithm> makeMesh()
   return filter;
 }
 
+vtkSmartPointer<vtkAlgorithm> makeShapes()
+{
+  auto filter = vtkSmartPointer<vtkMorphShapes>::New();
+  filter->SetWeight(0, 1);
+  return filter;
+}
+
 vtkSmartPointer<vtkAlgorithm> makeAdjoint()
 {
   auto filter = vtkSmartPointer<vtkMorphAdjoint>::New();
@@ -82,6 +90,7 @@ const std::vector<AnyFilter>& allFilters()
     { "MorphAdjoint", makeAdjoint, true },
     { "MorphBoundary", make<vtkMorphBoundary>, true },
     { "MorphMesh", makeMesh, false },
+    { "MorphShapes", makeShapes, true },
     { "ScaledJacobian", make<vtkScaledJacobian>, false },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, true },
     { "SimplexNaturalNeighbor", make<vtkSimplexNaturalNeighborMorph>, true },

@@ -5,6 +5,7 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundary.h"
+#include "vtkMorphShapes.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -91,6 +92,23 @@ Getters gettersOf(vtkMorphBoundary* f)
     { "HeldVertices", [f] { return f->GetHeldVertices(); } },
     { "ProjectedPoints", [f] { return f->GetProjectedPoints(); } },
     { "UnprojectedPoints", [f] { return f->GetUnprojectedPoints(); } } };
+}
+
+Getters gettersOf(vtkMorphShapes* f)
+{
+  return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
+    { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
+    { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
+    { "InvertedCells", [f] { return f->GetInvertedCells(); } },
+    { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
+    { "WorstCellId", [f] { return f->GetWorstCellId(); } },
+    { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
+    { "PrepareSeconds", [f] { return f->GetPrepareSeconds(); } },
+    { "EvaluateSeconds", [f] { return f->GetEvaluateSeconds(); } },
+    { "PrepareCount", [f] { return f->GetPrepareCount(); } },
+    { "SolveCount", [f] { return f->GetSolveCount(); } },
+    { "PrescribedPoints", [f] { return f->GetPrescribedPoints(); } },
+    { "SolverIterations", [f] { return f->GetSolverIterations(); } } };
 }
 
 Getters gettersOf(vtkScaledJacobian* f)
@@ -314,6 +332,30 @@ TEST(Results, OfABoundaryAreGetterFieldAndLine)
   filter->Update();
   expectReset(rows, getters);
   expectOneValue(filter, rows, getters, false);
+}
+
+TEST(Results, OfShapesAreGetterFieldAndLine)
+{
+  const std::vector<Row> rows = rowsOf("vtkMorphShapes");
+  auto grid = grids::hexes(4);
+  vtkNew<vtkMorphShapes> filter;
+  const Getters getters = gettersOf(filter.Get());
+  expectSameNames(rows, getters);
+  expectReset(rows, getters);
+  filter->SetInputDataObject(grid);
+  filter->AddShapeData(grids::boundary(grid, grids::twist));
+  filter->SetWeight(0, .5);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  EXPECT_GT(filter->GetSolverIterations(), 0);
+  expectOneValue(filter, rows, getters, true);
+
+  const grids::Listener quiet(filter);
+  filter->RemoveAllShapes();
+  filter->Update();
+  expectReset(rows, getters);
+  expectOneValue(filter, rows, getters, false);
+  EXPECT_EQ(filter->GetSolveCount(), 1) << "kept";
 }
 
 TEST(Results, OfScaledJacobiansAreGetterFieldAndLine)

@@ -23,7 +23,7 @@ MEASURED = "Seconds", "PeakMegabytes"
 RANKING = "CompareMorphMethods", 2
 OPTIONS = {"NumberOfThreads": 1, "FeatureAngle": 40, "HoldUnnamedBoundary": 0, "Percentile": 5,
            "ScaleFactor": 0.5, "Certify": 1, "SurfaceMethod": 1, "OutputPointsPrecision": 1,
-           "DisplacementArray": "Shift"}
+           "DisplacementArray": "Shift", "Weights": [0.5], "ShapeNames": ["a shape"]}
 
 
 def proxies():
@@ -45,7 +45,7 @@ def build():
     moved.UpdatePipeline()
     for xml in proxies():
         names = [p.get("name") for p in xml.iter("InputProperty")]
-        inputs = {"Input": grid, "Boundary": moved}
+        inputs = {"Input": grid, "Boundary": moved, "Shapes": moved}
         create = globals()[xml.get("label").replace(" ", "")]
         proxy = create(registrationName=xml.get("name"),
                        **{name: inputs[name] for name in names if name in inputs})

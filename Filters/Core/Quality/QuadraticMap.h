@@ -64,6 +64,8 @@ public:
     const Derivatives& derivatives, const Magnitudes& magnitudes, const double (&at)[3]) const;
 
   const BernsteinHalving& halving() const { return this->halving_; }
+  /// Returns the number of the determinant's coefficients.
+  int terms() const { return this->volumeTerms_; }
   int numberOfNodes() const { return this->nodes_; }
   /// VTK's parametric coordinates of the nodes, the corners first.
   const double (&node(int i) const)[3] { return this->place_[i]; }

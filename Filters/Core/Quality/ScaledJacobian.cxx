@@ -2,6 +2,7 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
+#include "Quality/CornerNodes.h"
 #include "Quality/QuadraticJacobian.h"
 
 #include <Eigen/Geometry>
@@ -22,12 +23,6 @@ constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 // edge e of the twelve in HexAxisEdges, or -(e + 1) if it ends at the corner.
 constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 }, { -5, 2, 11 },
   { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
-// The three neighbors of each corner, in the same order.
-constexpr int WedgeCorners[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 }, { 3, 5, 4, 0 },
-  { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
-constexpr int PyramidCorners[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
-  { 3, 0, 2, 4 } };
-
 /// Returns the length of an edge, correct also if its square underflows.
 double lengthOf(const Vector& edge)
 {
@@ -107,7 +102,7 @@ double hex(const Vector* x, bool& collapsed)
 double pyramid(const Vector* x, bool& collapsed)
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const int(&c)[4] : PyramidCorners)
+  for (const int(&c)[4] : PyramidCornerNodes)
   {
     least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
   }
@@ -173,7 +168,7 @@ double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
       value = hex(x, collapsed);
       break;
     case Shape::Wedge:
-      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCorners, collapsed);
+      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCornerNodes, collapsed);
       break;
     case Shape::Pyramid:
       value = pyramid(x, collapsed);
@@ -342,7 +337,7 @@ bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])
   }
   else if (shape == Shape::Wedge)
   {
-    for (const int(&c)[4] : WedgeCorners)
+    for (const int(&c)[4] : WedgeCornerNodes)
     {
       double e[3][3];
       for (int k = 0; k < 3; ++k)

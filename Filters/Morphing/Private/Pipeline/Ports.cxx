@@ -68,6 +68,16 @@ std::optional<double> Ports::AskedTime(vtkInformation* output)
   return output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
 }
 
+void Ports::AskForAll(vtkInformation* input)
+{
+  Time::Ask(input, std::nullopt);
+  if (input->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    input->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+      input->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
+  }
+}
+
 int Ports::RequestUpdateExtent(
   double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector)
 {

@@ -33,6 +33,9 @@ public:
   static vtkInformation* Asked(vtkInformation* request, vtkInformationVector* outputVector);
   /// The time that an output port is asked for.
   static std::optional<double> AskedTime(vtkInformation* output);
+  /// For RequestUpdateExtent of a filter that takes an input at the input's own time: asks for all
+  /// of it. The executive would ask for the extent of port 0's.
+  static void AskForAll(vtkInformation* input);
   /// `restTime`, `boundaryTime`: see Time.
   int RequestUpdateExtent(
     double restTime, std::optional<double> boundaryTime, vtkInformationVector** inputVector);

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/ValidRange.h"
+
+#include "Mesh/CellShape.h"
+#include "Quality/CornerNodes.h"
+#include "Quality/PolynomialRoot.h"
+#include "Quality/QuadraticJacobian.h"
+#include "Quality/QuadraticMap.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+namespace morph
+{
+namespace
+{
+using Vector = Eigen::Vector3d;
+constexpr Index Grain = 1024;
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double Pi = 3.14159265358979323846;
+
+/// A vector whose components are polynomials of degree D in t.
+template <int D>
+using Path = std::array<Vector, D + 1>;
+/// The coefficients of a determinant.
+template <int D>
+using Determinant = std::array<double, 3 * D + 1>;
+
+template <int D>
+Path<D> edge(const Path<D>& a, const Path<D>& b)
+{
+  Path<D> c;
+  for (int i = 0; i <= D; ++i)
+  {
+    c[i] = b[i] - a[i];
+  }
+  return c;
+}
+
+template <int D>
+Determinant<D> determinant(const Path<D>& a, const Path<D>& b, const Path<D>& c, double sign)
+{
+  Determinant<D> result;
+  result.fill(0);
+  for (int j = 0; j <= D; ++j)
+  {
+    for (int k = 0; k <= D; ++k)
+    {
+      const Vector cross = b[j].cross(c[k]);
+      for (int i = 0; i <= D; ++i)
+      {
+        result[i + j + k] += sign * a[i].dot(cross);
+      }
+    }
+  }
+  return result;
+}
+
+/// The paths of nodes in t: s itself, or tan(s angle / 2) with the factor 1 + t^2.
+template <int D>
+Path<D> pathOf(const NodeMotion& motion, Index node)
+{
+  const Vector base = motion.base->row(node).transpose();
+  const Vector first = motion.first->row(node).transpose();
+  if constexpr (D == 1)
+  {
+    return { base, first };
+  }
+  else
+  {
+    return { base, 2 * first, base + 2 * Vector(motion.second->row(node).transpose()) };
+  }
+}
+
+/// One end of a range: how far the parameter goes in one direction.
+struct End
+{
+  double distance = Infinity; ///< in s, or half the angle of a rotation
+  Index cell = -1;
+
+  void add(double other, Index otherCell)
+  {
+    if (other < this->distance ||
+        (other == this->distance && other < Infinity && otherCell < this->cell))
+    {
+      this->distance = other;
+      this->cell = otherCell;
+    }
+  }
+};
+
+/// Both ends, and a cell that is inverted at 0 (the lowest).
+struct Ends
+{
+  End low, high;
+  Index inverted = -1;
+
+  void addInverted(Index cell)
+  {
+    if (cell >= 0 && (this->inverted < 0 || cell < this->inverted))
+    {
+      this->inverted = cell;
+    }
+  }
+};
+
+template <std::size_t N>
+std::array<double, N> mirrored(std::array<double, N> a)
+{
+  for (std::size_t k = 1; k < N; k += 2)
+  {
+    a[k] = -a[k];
+  }
+  return a;
+}
+
+/// The first root of a rotation's determinant as half the angle, from 0 up. Beyond the half angle
+/// of pi / 2, t comes back from minus infinity, as -1 / v.
+double firstHalfAngle(const std::array<double, 7>& a)
+{
+  const double t = firstPositiveRoot(a.data(), 6);
+  if (t < Infinity)
+  {
+    return std::atan(t);
+  }
+  std::array<double, 7> beyond = mirrored(a);
+  std::reverse(beyond.begin(), beyond.end());
+  const double v = firstPositiveRoot(beyond.data(), 6);
+  return v < Infinity ? Pi / 2 + std::atan(v) : Infinity;
+}
+
+template <int D>
+void addEnd(const Determinant<D>& a, Index cell, End& end)
+{
+  // Most cells do not shorten the range: a polynomial that is positive up to its end needs no root.
+  // The margin keeps the result independent of the order of the cells.
+  const double last = end.distance * (1 + 1e-9);
+  if constexpr (D == 1)
+  {
+    if (!isPositiveUntil(a.data(), 3, last))
+    {
+      end.add(firstPositiveRoot(a.data(), 3), cell);
+    }
+  }
+  else
+  {
+    if (!(last < 1.5 && isPositiveUntil(a.data(), 6, std::tan(last))))
+    {
+      end.add(firstHalfAngle(a), cell);
+    }
+  }
+}
+
+template <int D>
+void addDeterminant(const Determinant<D>& a, Index cell, Ends& ends)
+{
+  addEnd<D>(a, cell, ends.high);
+  addEnd<D>(mirrored(a), cell, ends.low);
+}
+
+template <int D>
+bool hasCollapsedEdge(const CellShape& shape, const Path<D>* x)
+{
+  for (int f = 0; f < shape.numberOfFaces; ++f)
+  {
+    const FaceShape& face = shape.faces[f];
+    for (int k = 0; k < face.size; ++k)
+    {
+      if (x[face.corner[k]][0] == x[face.corner[(k + 1) % face.size]][0])
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Calls `take` with the determinant at each place that measureQuality() looks at. `x`: corners in
+/// the order of the shape.
+template <int D, typename Take>
+void cornerDeterminants(Shape shape, const Path<D>* x, double sign, const Take& take)
+{
+  const auto corners = [&](const auto& list)
+  {
+    for (const int(&c)[4] : list)
+    {
+      take(determinant<D>(
+        edge<D>(x[c[0]], x[c[1]]), edge<D>(x[c[0]], x[c[2]]), edge<D>(x[c[0]], x[c[3]]), sign));
+    }
+  };
+  switch (shape)
+  {
+    case Shape::Tet:
+      return corners(TetCornerNodes);
+    case Shape::Wedge:
+      return corners(WedgeCornerNodes);
+    case Shape::Pyramid:
+      return corners(PyramidCornerNodes);
+    case Shape::Hex:
+      break;
+    default:
+      return;
+  }
+  corners(HexCornerNodes);
+  Path<D> center[3];
+  for (int d = 0; d < 3; ++d)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      center[d][i].setZero();
+      for (const int(&ends)[2] : HexAxisEdges[d])
+      {
+        center[d][i] += x[ends[1]][i] - x[ends[0]][i];
+      }
+    }
+  }
+  take(determinant<D>(center[0], center[1], center[2], sign));
+}
+
+/// The values of t at which the coefficients of a quadratic cell are evaluated, and the matrix from
+/// these values to the coefficients of the polynomial in t.
+template <int D>
+struct Interpolation
+{
+  static constexpr int Count = 3 * D + 1;
+  using Square = Eigen::Matrix<double, Count, Count>;
+  double t[Count];
+  Square toCoefficients;
+
+  Interpolation()
+  {
+    Square powers;
+    for (int i = 0; i < Count; ++i)
+    {
+      this->t[i] = D == 1 ? i - 1 : (i - 3) / 2.;
+      double power = 1;
+      for (int k = 0; k < Count; ++k, power *= this->t[i])
+      {
+        powers(i, k) = power;
+      }
+    }
+    this->toCoefficients = powers.inverse();
+  }
+};
+
+/// Adds the Bernstein coefficients of a quadratic cell as polynomials in t.
+template <int D>
+void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
+{
+  static const Interpolation<D> interpolation;
+  constexpr int Count = Interpolation<D>::Count;
+  const QuadraticMap& map = *QuadraticMap::find(mesh.types[cell]);
+  Path<D> path[MostNodesOfVolume];
+  for (int i = 0; i < map.numberOfNodes(); ++i)
+  {
+    path[i] = pathOf<D>(motion, mesh.cell(cell)[i]);
+  }
+  BernsteinHalving::Coefficients c[Count];
+  for (int k = 0; k < Count; ++k)
+  {
+    Vector x[MostNodesOfVolume];
+    for (int i = 0; i < map.numberOfNodes(); ++i)
+    {
+      x[i] = path[i][D];
+      for (int power = D - 1; power >= 0; --power)
+      {
+        x[i] = x[i] * interpolation.t[k] + path[i][power];
+      }
+    }
+    c[k].fill(0);
+    map.determinant(map.derivatives(x), 0, c[k]);
+  }
+  for (int term = 0; term < map.terms(); ++term)
+  {
+    Eigen::Matrix<double, Count, 1> values;
+    for (int k = 0; k < Count; ++k)
+    {
+      values[k] = sign * c[k][term];
+    }
+    Determinant<D> a;
+    Eigen::Map<Eigen::Matrix<double, Count, 1>>(a.data()) = interpolation.toCoefficients * values;
+    addDeterminant<D>(a, cell, ends);
+  }
+}
+
+template <int D>
+void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
+{
+  const CellShape& shape = *cellShape(mesh.types[cell]);
+  Path<D> x[8];
+  for (int k = 0; k < shape.numberOfCorners; ++k)
+  {
+    x[k] = pathOf<D>(motion, mesh.cell(cell)[shape.cornerNode[k]]);
+  }
+  if (hasCollapsedEdge<D>(shape, x))
+  {
+    return;
+  }
+  cornerDeterminants<D>(shape.shape, x, sign,
+    [&](const Determinant<D>& a)
+    {
+      if (a[0] > 0)
+      {
+        addDeterminant<D>(a, cell, ends);
+      }
+      else
+      {
+        ends.addInverted(cell);
+      }
+    });
+  if (isQuadraticVolume(shape))
+  {
+    addQuadratic<D>(mesh, motion, cell, sign, ends);
+  }
+}
+
+template <int D>
+Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::int8_t>& orientation,
+  Monitor& monitor)
+{
+  Ends result;
+  std::mutex mutex;
+  monitor.parallelFor(mesh.numberOfCells(), Grain,
+    [&](Index first, Index last)
+    {
+      Ends ends;
+      for (Index c = first; c < last; ++c)
+      {
+        if (const CellShape* shape = cellShape(mesh.types[c]); shape && shape->dimension == 3)
+        {
+          addCell<D>(mesh, motion, c, orientation.empty() ? 1 : orientation[c], ends);
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      result.low.add(ends.low.distance, ends.low.cell);
+      result.high.add(ends.high.distance, ends.high.cell);
+      result.addInverted(ends.inverted);
+    });
+  return result;
+}
+}
+
+ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
+  const std::vector<std::int8_t>& orientation, Monitor& monitor)
+{
+  monitor.check();
+  const bool isRotation = motion.second != nullptr;
+  const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, monitor)
+                               : endsOf<1>(mesh, motion, orientation, monitor);
+  const double unit = isRotation ? 2 / motion.angle : 1;
+  ValidRange range;
+  if (ends.inverted >= 0)
+  {
+    range.lowest = range.highest = std::numeric_limits<double>::quiet_NaN();
+    range.lowestCell = range.highestCell = ends.inverted;
+    range.isEmpty = true;
+    return range;
+  }
+  range.lowest = -ends.low.distance * unit;
+  range.highest = ends.high.distance * unit;
+  range.lowestCell = ends.low.cell;
+  range.highestCell = ends.high.cell;
+  return range;
+}
+}

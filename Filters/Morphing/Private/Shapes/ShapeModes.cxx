@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Shapes/ShapeModes.h"
+
+#include "Geometry/RotationFit.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Quality.h"
+#include "Private/Pipeline/Input.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Index;
+using morph::Points;
+using Clock = std::chrono::steady_clock;
+
+/// Calls `work`; an error of it gets the shape's name.
+template <typename Work>
+auto named(const std::string& name, const Work& work)
+{
+  try
+  {
+    return work();
+  }
+  catch (const morph::Error& error)
+  {
+    throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
+  }
+}
+
+/// The nodes that any of the shapes names, and those that all hold.
+std::vector<Index> prescribedNodes(const std::vector<BoundaryMatch::Result>& matches, Index nodes)
+{
+  std::vector<std::uint8_t> isNamed(nodes, 0);
+  std::vector<std::size_t> count(nodes, 0);
+  for (const BoundaryMatch::Result& match : matches)
+  {
+    for (std::size_t k = 0; k < match.Ids.size(); ++k)
+    {
+      ++count[match.Ids[k]];
+      isNamed[match.Ids[k]] |= match.Sources[k] >= 0;
+    }
+  }
+  std::vector<Index> ids;
+  for (Index node = 0; node < nodes; ++node)
+  {
+    if (isNamed[node] || count[node] == matches.size())
+    {
+      ids.push_back(node);
+    }
+  }
+  return ids;
+}
+
+/// The displacement of each of the `prescribed` nodes, zero for those that the match does not have.
+Points displacementOf(
+  const BoundaryMatch::Result& match, const std::vector<Index>& prescribed, const Points& rest)
+{
+  Points result = Points::Zero(static_cast<Index>(prescribed.size()), 3);
+  std::size_t row = 0;
+  for (std::size_t k = 0; k < match.Ids.size(); ++k)
+  {
+    while (row < prescribed.size() && prescribed[row] < match.Ids[k])
+    {
+      ++row;
+    }
+    if (row < prescribed.size() && prescribed[row] == match.Ids[k])
+    {
+      result.row(static_cast<Index>(row)) =
+        match.Targets.row(static_cast<Index>(k)) - rest.row(match.Ids[k]);
+    }
+  }
+  return result;
+}
+
+/// The rotation of the nodes that move, and their rows of `displacement`.
+std::pair<morph::AxisRotation, std::vector<Index>> rotationOf(const Points& displacement,
+  const std::vector<Index>& prescribed, const Points& rest, double tolerance)
+{
+  std::vector<Index> moving;
+  for (Index i = 0; i < displacement.rows(); ++i)
+  {
+    if (displacement.row(i).norm() > tolerance)
+    {
+      moving.push_back(i);
+    }
+  }
+  Points from(static_cast<Index>(moving.size()), 3), to = from;
+  for (Index i = 0; i < from.rows(); ++i)
+  {
+    from.row(i) = rest.row(prescribed[moving[i]]);
+    to.row(i) = from.row(i) + displacement.row(moving[i]);
+  }
+  try
+  {
+    return { morph::fitRotation(from, to, tolerance), std::move(moving) };
+  }
+  catch (const morph::Error& error)
+  {
+    throw morph::Error(std::string(error.what()) +
+                       " So it is not a rotation about an axis: take it as a displacement.");
+  }
+}
+}
+
+void ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+{
+  const bool sameCells = GridMesh::SameCells(grid, this->Mesh);
+  if (sameCells && GridMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  {
+    return;
+  }
+  morph::Mesh mesh = GridMesh::FromGrid(grid);
+  Input::RequireVolumeCells(mesh);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
+  if (!sameCells)
+  {
+    this->Outer = morph::boundaryFaces(mesh, monitor);
+  }
+  this->Method.reset();
+  this->Modes.clear();
+  this->Mirrored = Quality::MirroredBodies(bodies, orientation);
+  this->Orientation = std::move(orientation);
+  this->Size = GridMesh::Size(mesh);
+  this->Mesh = std::move(mesh);
+}
+
+std::vector<BoundaryMatch::Result> ShapeModes::Match(
+  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor) const
+{
+  std::vector<BoundaryMatch::Result> matches;
+  for (const Shape& shape : shapes)
+  {
+    monitor.check();
+    matches.push_back(named(shape.Name,
+      [&]
+      {
+        return BoundaryMatch::Match(
+          shape.Boundary, this->Mesh, this->Outer, this->Size, options.Matching);
+      }));
+    for (const std::string& warning : matches.back().Warnings)
+    {
+      monitor.warn("Shape '" + shape.Name + "': " + warning);
+    }
+  }
+  return matches;
+}
+
+ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch::Result& match,
+  const std::vector<Index>& prescribed, double tolerance, std::vector<Mode>& modes) const
+{
+  Points displacement = displacementOf(match, prescribed, this->Mesh.points);
+  Solved solved;
+  if (!shape.IsRotation)
+  {
+    solved.Modes = { modes.size() };
+    modes.push_back({ std::move(displacement), {} });
+    return solved;
+  }
+  const auto [rotation, moving] = named(
+    shape.Name, [&] { return rotationOf(displacement, prescribed, this->Mesh.points, tolerance); });
+  Points first = Points::Zero(displacement.rows(), 3), second = first;
+  for (Index i : moving)
+  {
+    first.row(i) = rotation.first(this->Mesh.points.row(prescribed[i]));
+    second.row(i) = rotation.second(this->Mesh.points.row(prescribed[i]));
+  }
+  solved.Modes = { modes.size(), modes.size() + 1 };
+  solved.Angle = rotation.angle;
+  modes.push_back({ std::move(first), {} });
+  modes.push_back({ std::move(second), {} });
+  return solved;
+}
+
+void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& options,
+  Effort& effort, morph::Monitor& monitor)
+{
+  if (this->Method && this->MethodOptions == options.Method &&
+      this->Method->partition().prescribed == prescribed)
+  {
+    return;
+  }
+  this->Method.reset();
+  this->Modes.clear();
+  auto method = options.CreateMorpher();
+  method->prepare(this->Mesh, morph::partitionNodes(this->Mesh, prescribed), monitor);
+  this->Method = std::move(method);
+  this->MethodOptions = options.Method;
+  ++effort.Preparations;
+}
+
+ShapeModes::Effort ShapeModes::Solve(
+  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
+{
+  const std::vector<BoundaryMatch::Result> matches = this->Match(shapes, options, monitor);
+  const std::vector<Index> prescribed = prescribedNodes(matches, this->Mesh.numberOfNodes());
+  std::vector<Mode> modes;
+  std::vector<Solved> solved;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    solved.push_back(this->Describe(
+      shapes[i], matches[i], prescribed, options.Matching.MatchTolerance * this->Size, modes));
+  }
+
+  Effort effort;
+  effort.Prescribed = static_cast<Index>(prescribed.size());
+  const auto start = Clock::now();
+  morph::ProgressRange preparing(monitor, 0, 0.5);
+  this->Prepare(prescribed, options, effort, preparing);
+  // The kept fields are replaced only once all are there: after an error or abort they stay.
+  std::vector<Points> boundaries;
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < modes.size(); ++i)
+  {
+    const auto found = std::find_if(this->Modes.begin(), this->Modes.end(),
+      [&](const Mode& mode) { return mode.Boundary == modes[i].Boundary; });
+    if (found != this->Modes.end())
+    {
+      modes[i].Field = found->Field;
+      continue;
+    }
+    open.push_back(i);
+    boundaries.push_back(modes[i].Boundary);
+  }
+  if (!open.empty())
+  {
+    std::vector<morph::EvaluateReport> reports;
+    morph::ProgressRange solving(monitor, 0.5, 1);
+    std::vector<Points> fields = this->Method->basis(boundaries, solving, &reports);
+    for (std::size_t k = 0; k < open.size(); ++k)
+    {
+      modes[open[k]].Field = std::make_shared<Points>(std::move(fields[k]));
+      effort.Iterations += reports[k].iterations;
+    }
+  }
+  effort.Solved = static_cast<int>(open.size());
+  if (effort.Preparations + effort.Solved > 0)
+  {
+    effort.Seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  this->Modes = std::move(modes);
+  this->Shapes = std::move(solved);
+  return effort;
+}
+
+std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>& weights) const
+{
+  std::vector<morph::WeightedMode> result;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const Solved& shape = this->Shapes[i];
+    if (shape.Angle == 0)
+    {
+      result.push_back({ this->Modes[shape.Modes[0]].Field.get(), weights[i] });
+      continue;
+    }
+    const double angle = weights[i] * shape.Angle, half = std::sin(angle / 2);
+    result.push_back({ this->Modes[shape.Modes[0]].Field.get(), std::sin(angle) });
+    result.push_back({ this->Modes[shape.Modes[1]].Field.get(), 2 * half * half });
+  }
+  return result;
+}
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Morpher/Blend.h"
+#include "Morpher/Morpher.h"
+#include "Private/Morph/BoundaryMatch.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+class vtkUnstructuredGrid;
+
+namespace morph::filters
+{
+/// The mesh, a linear method prepared for it, and the displacement fields of shapes. All are kept
+/// from one execution to the next, under their content; none of it has an effect on the result.
+class ShapeModes
+{
+public:
+  struct Shape
+  {
+    std::string Name;        ///< for messages
+    vtkPointSet* Boundary;   ///< displaced
+    bool IsRotation = false; ///< to be taken as a rotation about its axis
+  };
+  struct Options
+  {
+    BoundaryMatch::Options Matching;
+    /// A text that differs for any two settings of the method.
+    std::string Method;
+    std::function<std::unique_ptr<morph::LinearMorpher>()> CreateMorpher;
+  };
+  /// The work of one call of Solve().
+  struct Effort
+  {
+    int Preparations = 0;
+    int Solved = 0; ///< displacement fields
+    int Iterations = 0;
+    double Seconds = 0;
+    morph::Index Prescribed = 0; ///< nodes
+  };
+
+  /// Copies the grid, unless it is the same as the kept one.
+  void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
+  const morph::Mesh& GetMesh() const { return this->Mesh; }
+  /// #cells; see Topology.h.
+  const std::vector<std::int8_t>& GetOrientation() const { return this->Orientation; }
+  morph::Index GetMirroredBodies() const { return this->Mirrored; }
+
+  /// Solves for the displacement fields of shapes that are not kept, and forgets others. A node
+  /// that any shape names is prescribed; in shapes that do not name it, it stays. Throws
+  /// morph::Error as BoundaryMatch does, naming the shape, and for a shape that is to be a rotation
+  /// and is none.
+  Effort Solve(const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor);
+  /// The displacement fields of the shapes of the last Solve(), with their weights. `weights`:
+  /// #shapes; of a rotation, the factor of its angle.
+  std::vector<morph::WeightedMode> Weighted(const std::vector<double>& weights) const;
+
+private:
+  /// A displacement of the boundary and its field.
+  struct Mode
+  {
+    morph::Points Boundary;                     ///< #prescribed x 3
+    std::shared_ptr<const morph::Points> Field; ///< #nodes x 3; null until it is solved
+  };
+  struct Solved
+  {
+    std::vector<std::size_t> Modes; ///< one, or the two of a rotation
+    double Angle = 0;               ///< of a rotation in radians; 0 for a displacement
+  };
+
+  std::vector<BoundaryMatch::Result> Match(
+    const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor) const;
+  /// Adds the boundary displacements of one shape to `modes`, not solved.
+  Solved Describe(const Shape& shape, const BoundaryMatch::Result& match,
+    const std::vector<morph::Index>& prescribed, double tolerance, std::vector<Mode>& modes) const;
+  void Prepare(const std::vector<morph::Index>& prescribed, const Options& options, Effort& effort,
+    morph::Monitor& monitor);
+
+  morph::Mesh Mesh;
+  morph::BoundaryFaces Outer;                   ///< of Mesh's cells
+  double Size = 0;                              ///< of Mesh; see GridMesh::Size
+  std::vector<std::int8_t> Orientation;         ///< of Mesh
+  morph::Index Mirrored = 0;                    ///< bodies of Mesh
+  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared for Mesh under MethodOptions, or null
+  std::string MethodOptions;
+  std::vector<Mode> Modes;    ///< of Method
+  std::vector<Solved> Shapes; ///< of the last Solve()
+};
+}

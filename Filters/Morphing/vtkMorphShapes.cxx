@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMorphShapes.h"
+
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Private/Data/BadCells.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Quality.h"
+#include "Private/Data/Results.h"
+#include "Private/Data/Version.h"
+#include "Private/Morph/MorphOutput.h"
+#include "Private/Pipeline/CrewMonitor.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Property.h"
+#include "Private/Shapes/ShapeModes.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <vtkAlgorithmOutput.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace filters = morph::filters;
+
+vtkStandardNewMacro(vtkMorphShapes);
+
+morphSetNumberMacro(vtkMorphShapes, Tolerance, 1e-15, 0.999)
+  morphSetNumberMacro(vtkMorphShapes, MatchTolerance, 0.0, 1.0)
+
+    namespace
+{
+  std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
+  {
+    switch (method)
+    {
+      case vtkMorphShapes::METHOD_LBWARP:
+      {
+        auto lbwarp = std::make_unique<morph::LogBarrierWarp>();
+        lbwarp->setTolerance(tolerance);
+        lbwarp->setOutsideHull(morph::LogBarrierWarp::OutsideHull::Relax);
+        return lbwarp;
+      }
+      case vtkMorphShapes::METHOD_WEIGHTED_RESIDUAL:
+        return std::make_unique<morph::WeightedResidual>();
+      case vtkMorphShapes::METHOD_SIMPLEX_LINEAR:
+        return std::make_unique<morph::SimplexLinear>();
+      case vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR:
+        return std::make_unique<morph::SimplexNaturalNeighbor>();
+      default:
+        break;
+    }
+    auto femwarp = std::make_unique<morph::FemWarp>();
+    femwarp->setTolerance(tolerance);
+    return femwarp;
+  }
+
+  /// Sets element `i` of a list, which grows if need be; returns whether that changed it.
+  template <typename Value>
+  bool setElement(std::vector<Value> & list, int i, const Value& value)
+  {
+    if (i < 0)
+    {
+      return false;
+    }
+    const std::size_t place = i;
+    if (place < list.size() && list[place] == value)
+    {
+      return false;
+    }
+    list.resize(std::max(list.size(), place + 1));
+    list[place] = value;
+    return true;
+  }
+
+  template <typename Value>
+  Value element(const std::vector<Value>& list, int i)
+  {
+    return i >= 0 && static_cast<std::size_t>(i) < list.size() ? list[i] : Value();
+  }
+}
+
+class vtkMorphShapes::vtkInternals
+{
+public:
+  filters::Results Results{ filters::ResultTables::vtkMorphShapes() };
+  filters::ShapeModes Modes;
+  filters::Ports Ports;
+  morph::Points Moved; ///< kept for its memory: its content has no effect
+
+  explicit vtkInternals(vtkMorphShapes* filter)
+    : Ports(filter)
+    , Filter(filter)
+  {
+  }
+
+  void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries,
+    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+
+private:
+  vtkMorphShapes* Filter;
+
+  filters::ShapeModes::Options Options() const;
+  std::vector<filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
+  void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
+  void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+  void WriteShapes(const std::vector<double>& weights, vtkUnstructuredGrid* output) const;
+};
+
+vtkMorphShapes::vtkMorphShapes()
+  : Internals(new vtkInternals(this))
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+  this->Internals->Results.Reset();
+}
+
+vtkMorphShapes::~vtkMorphShapes()
+{
+  this->SetBoundaryIdArray(nullptr);
+  this->SetDisplacementArray(nullptr);
+}
+
+void vtkMorphShapes::AddShapeConnection(vtkAlgorithmOutput* output)
+{
+  this->AddInputConnection(1, output);
+}
+
+void vtkMorphShapes::AddShapeData(vtkDataObject* boundary)
+{
+  this->AddInputDataObject(1, boundary);
+}
+
+void vtkMorphShapes::RemoveAllShapes()
+{
+  this->SetNumberOfInputConnections(1, 0);
+}
+
+int vtkMorphShapes::GetNumberOfShapes()
+{
+  return this->GetNumberOfInputConnections(1);
+}
+
+void vtkMorphShapes::SetNumberOfWeights(int number)
+{
+  const std::size_t size = std::max(0, number);
+  if (size != this->Weights.size())
+  {
+    this->Weights.resize(size);
+    this->Modified();
+  }
+}
+
+void vtkMorphShapes::SetWeight(int shape, double weight)
+{
+  if (filters::Property::Accepts(this, "Weight", weight, this->GetWeight(shape)) &&
+      setElement(this->Weights, shape, weight))
+  {
+    this->Modified();
+  }
+}
+
+double vtkMorphShapes::GetWeight(int shape) const
+{
+  return element(this->Weights, shape);
+}
+
+void vtkMorphShapes::SetNumberOfShapeNames(int number)
+{
+  const std::size_t size = std::max(0, number);
+  if (size != this->ShapeNames.size())
+  {
+    this->ShapeNames.resize(size);
+    this->Modified();
+  }
+}
+
+void vtkMorphShapes::SetShapeName(int shape, const char* name)
+{
+  if (setElement(this->ShapeNames, shape, std::string(name ? name : "")))
+  {
+    this->Modified();
+  }
+}
+
+std::string vtkMorphShapes::GetShapeName(int shape) const
+{
+  const std::string name = element(this->ShapeNames, shape);
+  return name.empty() ? "Shape " + std::to_string(shape + 1) : name;
+}
+
+void vtkMorphShapes::SetNumberOfMotions(int number)
+{
+  const std::size_t size = std::max(0, number);
+  if (size != this->Motions.size())
+  {
+    this->Motions.resize(size);
+    this->Modified();
+  }
+}
+
+void vtkMorphShapes::SetMotion(int shape, int motion)
+{
+  const int known = motion == MOTION_AS_ROTATION ? MOTION_AS_ROTATION : MOTION_AS_DISPLACEMENT;
+  if (setElement(this->Motions, shape, known))
+  {
+    this->Modified();
+  }
+}
+
+int vtkMorphShapes::GetMotion(int shape) const
+{
+  return element(this->Motions, shape);
+}
+
+int vtkMorphShapes::FillInputPortInformation(int port, vtkInformation* info)
+{
+  const int done = filters::Ports::FillInformation(port, info);
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return done;
+}
+
+int vtkMorphShapes::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  // The undeformed mesh and the shapes are taken at their inputs' own time.
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    outputVector->GetInformationObject(port)->Remove(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    outputVector->GetInformationObject(port)->Remove(
+      vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  }
+  return 1;
+}
+
+int vtkMorphShapes::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      filters::Ports::AskForAll(inputVector[port]->GetInformationObject(i));
+    }
+  }
+  return 1;
+}
+
+int vtkMorphShapes::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
+  vtkInternals& kept = *this->Internals;
+  const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
+    [&] { kept.Results.Reset(); },
+    [&](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
+    { kept.Morph(grid, inputVector[1], output, badCells, monitor); },
+    [&](vtkDataObject* input, const char* status)
+    {
+      if (filters::Version::AbortRequested(this))
+      {
+        filters::Version::KeepAbortedOutput(this);
+      }
+      filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
+    } };
+  return kept.Ports.RequestData(task, inputVector, outputVector);
+}
+
+filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
+{
+  filters::ShapeModes::Options options;
+  options.Matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
+  options.Matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
+  options.Matching.MatchTolerance = this->Filter->MatchTolerance;
+  options.Matching.HoldUnnamedBoundary = this->Filter->HoldUnnamedBoundary;
+  std::ostringstream text;
+  text.precision(17);
+  text << this->Filter->Method << " " << this->Filter->Tolerance;
+  options.Method = text.str();
+  options.CreateMorpher = [filter = this->Filter]
+  { return makeMethod(filter->Method, filter->Tolerance); };
+  return options;
+}
+
+std::vector<filters::ShapeModes::Shape> vtkMorphShapes::vtkInternals::Shapes(
+  vtkInformationVector* boundaries) const
+{
+  const int number = boundaries->GetNumberOfInformationObjects();
+  if (number == 0)
+  {
+    throw morph::Error("There is no shape: connect displaced boundaries to port 1, one for each "
+                       "shape, Boundary Displacement's output for instance.");
+  }
+  std::vector<filters::ShapeModes::Shape> shapes;
+  for (int i = 0; i < number; ++i)
+  {
+    const std::string name = this->Filter->GetShapeName(i);
+    try
+    {
+      shapes.push_back(
+        { name, filters::Input::RequireBoundary(vtkDataObject::GetData(boundaries, i)),
+          this->Filter->GetMotion(i) == MOTION_AS_ROTATION });
+    }
+    catch (const morph::Error& error)
+    {
+      throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
+    }
+  }
+  return shapes;
+}
+
+void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph::Monitor& monitor)
+{
+  const filters::ShapeModes::Effort effort =
+    this->Modes.Solve(this->Shapes(boundaries), this->Options(), monitor);
+  this->Results.SetInteger(
+    "PrepareCount", this->Results.Integer("PrepareCount") + effort.Preparations);
+  this->Results.SetInteger("SolveCount", this->Results.Integer("SolveCount") + effort.Solved);
+  this->Results.SetInteger("SolverIterations", effort.Iterations);
+  this->Results.SetNumber("PrepareSeconds", effort.Seconds);
+  this->Results.SetInteger("PrescribedPoints", effort.Prescribed);
+}
+
+void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
+  vtkInformationVector* boundaries, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
+  morph::Monitor& monitor)
+{
+  this->Modes.SetGrid(grid, monitor);
+  this->Results.SetInteger("MirroredBodies", this->Modes.GetMirroredBodies());
+  morph::ProgressRange solving(monitor, 0, 0.8);
+  this->Solve(boundaries, solving);
+
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<double> weights;
+  for (int i = 0; i < boundaries->GetNumberOfInformationObjects(); ++i)
+  {
+    weights.push_back(this->Filter->GetWeight(i));
+  }
+  const morph::Points& rest = this->Modes.GetMesh().points;
+  morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
+  this->Results.SetNumber("EvaluateSeconds",
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
+  this->Measure(output, badCells, monitor);
+  this->WriteShapes(weights, output);
+}
+
+void vtkMorphShapes::vtkInternals::Measure(
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+{
+  const morph::Quality quality =
+    filters::Quality::Measure(this->Modes.GetMesh(), output, this->Modes.GetOrientation(), monitor);
+  filters::Quality::Write(quality, output);
+  filters::Quality::RemoveCertificate(output);
+  filters::BadCells::Extract(quality, output, badCells);
+  this->Results.Set(quality);
+  this->Results.SetText(
+    "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
+  this->Results.Write(output);
+}
+
+void vtkMorphShapes::vtkInternals::WriteShapes(
+  const std::vector<double>& weights, vtkUnstructuredGrid* output) const
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("ShapeNames");
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("ShapeWeights");
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    names->InsertNextValue(this->Filter->GetShapeName(static_cast<int>(i)));
+    values->InsertNextValue(weights[i]);
+  }
+  output->GetFieldData()->AddArray(names);
+  output->GetFieldData()->AddArray(values);
+}
+
+double vtkMorphShapes::GetNumber(const char* name) const
+{
+  return this->Internals->Results.Number(name);
+}
+
+vtkIdType vtkMorphShapes::GetInteger(const char* name) const
+{
+  return this->Internals->Results.Integer(name);
+}
+
+const char* vtkMorphShapes::GetMorphStatus() const
+{
+  return this->Internals->Results.Text("MorphStatus").c_str();
+}
+
+void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  const auto list = [&](const char* name, const auto& values)
+  {
+    os << indent << name << ":";
+    for (const auto& value : values)
+    {
+      os << " " << value;
+    }
+    os << "\n";
+  };
+  os << indent << "Shapes: " << this->GetNumberOfShapes() << "\n";
+  list("ShapeNames", this->ShapeNames);
+  list("Weights", this->Weights);
+  list("Motions", this->Motions);
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
+  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
+  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  this->Internals->Results.Print(os, indent);
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMorphShapes
+ * @brief   blends saved shapes of a mesh's boundary, each with a weight, and moves the mesh
+ *
+ * A shape is a displaced boundary. The mesh moves by the weighted sum of the shapes' motions: with
+ * all weights 0 it is undeformed, and with one weight of 1 its boundary is that shape. Weights
+ * below 0 and above 1 extrapolate.
+ *
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid). Port 1 takes the shapes, one connection
+ * each: the output of vtkBoundaryDisplacement or vtkMorphBoundary, or any other displaced boundary
+ * (vtkPointSet). Its points are matched to nodes as vtkMorphAlgorithm does. A node that any shape
+ * names is prescribed; where a shape does not name it, it stays in that shape. Output 0 is the
+ * morphed mesh with the arrays MorphDisplacement and ScaledJacobian, and output 1 its inverted and
+ * degenerate cells, both as vtkMorphAlgorithm has them. The field data of output 0 also has the
+ * arrays ShapeNames and ShapeWeights.
+ *
+ * The method is linear: each shape has one displacement field of the whole mesh, solved once and
+ * kept. Adding or removing a shape solves only that one; changing a weight solves nothing and costs
+ * one pass over the nodes. See SolveCount. A shape that changes the set of prescribed nodes
+ * prepares the method again and solves all. The result does not depend on what was kept.
+ *
+ * Rotations do not blend linearly: halfway to a displacement of 180 degrees a part has shrunk to
+ * its axis. A shape that rotates may be taken as a rotation about its axis (SetMotion()): its
+ * weight is then the factor of the angle, and it has two displacement fields, sin(s a) m1 + (1 -
+ * cos(s a)) m2. The shape's moving nodes have to be rotated as one, without a slide along the axis.
+ *
+ * A shape is taken at its input's own time. Errors are those of vtkMorphAlgorithm, with the shape's
+ * name; output 0 is then the undeformed mesh, MorphStatus is "Failed", and InvertedCells and
+ * MinScaledJacobian are -1. Memory: 24 bytes a node and displacement field, besides the method's.
+ *
+ * @sa vtkMorphAlgorithm vtkBoundaryDisplacement vtkMorphBoundary
+ */
+#ifndef vtkMorphShapes_h
+#define vtkMorphShapes_h
+
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
+
+#include <vtkUnstructuredGridAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
+#include <string> // for std::string
+#include <vector> // for std::vector
+
+namespace morph
+{
+class Monitor;
+}
+
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphShapes : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkMorphShapes* New();
+  vtkTypeMacro(vtkMorphShapes, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Adds a shape, a vtkPointSet: the same as AddInputConnection() and AddInputDataObject() on port
+   * 1. Remove one with RemoveInputConnection().
+   */
+  void AddShapeConnection(vtkAlgorithmOutput* output);
+  void AddShapeData(vtkDataObject* boundary);
+  void RemoveAllShapes();
+  ///@}
+
+  /**
+   * The number of shapes: connections of port 1.
+   */
+  int GetNumberOfShapes();
+
+  ///@{
+  /**
+   * The weight of each shape, in the order of port 1's connections: any finite number. A shape
+   * without a weight has 0; weights beyond the last shape have no effect. SetWeight() makes the
+   * list longer if need be, by zeros. Default: one weight, 0.
+   */
+  void SetNumberOfWeights(int number);
+  int GetNumberOfWeights() const { return static_cast<int>(this->Weights.size()); }
+  void SetWeight(int shape, double weight);
+  double GetWeight(int shape) const;
+  ///@}
+
+  ///@{
+  /**
+   * The name of each shape, for messages and the field data. Default, and where it is empty: "Shape
+   * 1" and so on.
+   */
+  void SetNumberOfShapeNames(int number);
+  void SetShapeName(int shape, const char* name);
+  std::string GetShapeName(int shape) const;
+  ///@}
+
+  enum MotionType
+  {
+    MOTION_AS_DISPLACEMENT = 0,
+    MOTION_AS_ROTATION = 1
+  };
+  ///@{
+  /**
+   * How a shape's weight scales its motion: the displacement, or the angle of the rotation about
+   * its axis. A shape without an entry has MOTION_AS_DISPLACEMENT, the default.
+   */
+  void SetNumberOfMotions(int number);
+  void SetMotion(int shape, int motion);
+  int GetMotion(int shape) const;
+  ///@}
+
+  enum MethodType
+  {
+    METHOD_FEMWARP = 0,
+    METHOD_LBWARP = 1,
+    METHOD_WEIGHTED_RESIDUAL = 2,
+    METHOD_SIMPLEX_LINEAR = 3,
+    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4
+  };
+  ///@{
+  /**
+   * The linear method that moves the interior nodes, with the default options of its own filter.
+   * LBWARP relaxes nodes outside the hull of their neighbors. Default METHOD_FEMWARP.
+   */
+  vtkSetClampMacro(Method, int, METHOD_FEMWARP, METHOD_SIMPLEX_NATURAL_NEIGHBOR);
+  vtkGetMacro(Method, int);
+  void SetMethodToFEMWARP() { this->SetMethod(METHOD_FEMWARP); }
+  void SetMethodToLBWARP() { this->SetMethod(METHOD_LBWARP); }
+  void SetMethodToWeightedResidual() { this->SetMethod(METHOD_WEIGHTED_RESIDUAL); }
+  void SetMethodToSimplexLinear() { this->SetMethod(METHOD_SIMPLEX_LINEAR); }
+  void SetMethodToSimplexNaturalNeighbor() { this->SetMethod(METHOD_SIMPLEX_NATURAL_NEIGHBOR); }
+  ///@}
+
+  ///@{
+  /**
+   * Residual at which the solvers of FEMWARP and LBWARP stop, relative to each shape's right-hand
+   * side and for each coordinate. Changing it prepares again. Default 1e-10, range [1e-15, 0.999].
+   */
+  virtual void SetTolerance(double value);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How the points of every shape are matched to nodes; see vtkMorphAlgorithm.
+   */
+  vtkSetStringMacro(BoundaryIdArray);
+  vtkGetStringMacro(BoundaryIdArray);
+  vtkSetStringMacro(DisplacementArray);
+  vtkGetStringMacro(DisplacementArray);
+  virtual void SetMatchTolerance(double value);
+  vtkGetMacro(MatchTolerance, double);
+  vtkSetMacro(HoldUnnamedBoundary, bool);
+  vtkGetMacro(HoldUnnamedBoundary, bool);
+  vtkBooleanMacro(HoldUnnamedBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
+   * [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION for that of the input's (double where they are neither). Default
+   * DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Results of the last execution, as vtkMorphAlgorithm has them; MorphStatus is "Valid",
+   * "Inverted", "Cancelled", "Failed" or "None".
+   */
+  double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
+  double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
+  vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
+  vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
+  vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
+  vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
+  vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }
+  const char* GetMorphStatus() const;
+  ///@}
+
+  ///@{
+  /**
+   * Wall-clock seconds of the last execution: for preparing the method and solving for new shapes
+   * (0 where all were kept), and for adding the shapes. Iterations of the solver for new shapes.
+   */
+  double GetPrepareSeconds() const { return this->GetNumber("PrepareSeconds"); }
+  double GetEvaluateSeconds() const { return this->GetNumber("EvaluateSeconds"); }
+  int GetSolverIterations() const { return static_cast<int>(this->GetInteger("SolverIterations")); }
+  ///@}
+
+  ///@{
+  /**
+   * How often this object has prepared its method, and for how many displacement fields it has
+   * solved: one a shape, two a shape taken as a rotation.
+   */
+  int GetPrepareCount() const { return static_cast<int>(this->GetInteger("PrepareCount")); }
+  int GetSolveCount() const { return static_cast<int>(this->GetInteger("SolveCount")); }
+  ///@}
+
+protected:
+  vtkMorphShapes();
+  ~vtkMorphShapes() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkMorphShapes(const vtkMorphShapes&) = delete;
+  void operator=(const vtkMorphShapes&) = delete;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  ///@{
+  /// A result of the last execution, by its name in Results.txt.
+  double GetNumber(const char* name) const;
+  vtkIdType GetInteger(const char* name) const;
+  ///@}
+
+  std::vector<double> Weights = { 0. };
+  std::vector<std::string> ShapeNames = { std::string() };
+  std::vector<int> Motions = { MOTION_AS_DISPLACEMENT };
+  int Method = METHOD_FEMWARP;
+  double Tolerance = 1e-10;
+  char* BoundaryIdArray = nullptr;
+  char* DisplacementArray = nullptr;
+  double MatchTolerance = 1e-6;
+  bool HoldUnnamedBoundary = true;
+  int NumberOfThreads = 0;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+};
+
+#endif

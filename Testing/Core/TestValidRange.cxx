@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Valid ranges against bisection with the measure of quality, on random motions.
+#include "Mesh/Topology.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Quality/PolynomialRoot.h"
+#include "Quality/ScaledJacobian.h"
+#include "Quality/ValidRange.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace morph;
+
+namespace
+{
+constexpr int Cases = 200;
+
+struct Case
+{
+  Mesh mesh;
+  Points first, second;
+  NodeMotion motion;
+  std::vector<std::int8_t> orientation;
+
+  Points at(double s) const
+  {
+    return this->motion.second
+             ? Points(this->mesh.points + std::sin(s * this->motion.angle) * this->first +
+                      (1 - std::cos(s * this->motion.angle)) * this->second)
+             : Points(this->mesh.points + s * this->first);
+  }
+  bool isValid(double s) const
+  {
+    Monitor monitor;
+    return invertedCells(this->mesh, this->at(s), this->orientation, monitor).empty();
+  }
+  /// The end of the valid interval in the direction of `sign`, found by steps up to 5 and
+  /// bisection.
+  double bisected(double sign) const
+  {
+    constexpr double Step = 0.005, Far = 5;
+    for (double s = Step; s < Far; s += Step)
+    {
+      if (this->isValid(sign * s))
+      {
+        continue;
+      }
+      double low = s - Step, high = s;
+      while (high - low > 1e-10)
+      {
+        const double middle = (low + high) / 2;
+        (this->isValid(sign * middle) ? low : high) = middle;
+      }
+      return sign * low;
+    }
+    return sign * HUGE_VAL;
+  }
+};
+
+/// A random motion of a mesh of a few cells, some of them mirrored.
+void makeCase(Case& result, const std::string& kind, bool isRotation, int number)
+{
+  std::mt19937 random(meshes::seed() + 1000 * number);
+  std::uniform_real_distribution<double> one(-1, 1);
+  Mesh& mesh = result.mesh;
+  mesh = kind == "hexes"             ? meshes::hexes(2, 1, 1)
+         : kind == "tets"            ? meshes::tets(1, 1, 1)
+         : kind == "wedges"          ? meshes::wedges(1, 1, 1)
+         : kind == "quadratic hexes" ? meshes::quadraticHexes(1, 1, 1, number % 2)
+         : kind == "quadratic tets"  ? meshes::quadraticTets(1, 1, 1)
+                                     : meshes::hexesAndPyramids(2, 1, 1);
+  const auto noise = [&](double amount)
+  {
+    return Points(
+      Points(mesh.points.rows(), 3).unaryExpr([&](double) { return amount * one(random); }));
+  };
+  mesh.points += noise(kind.find("quadratic") == 0 ? .03 : .1);
+  if (number % 3 == 0)
+  {
+    mesh.points.col(1) *= -1;
+  }
+  result.orientation = cellSigns(mesh, connectedComponents(mesh));
+  result.first = noise(isRotation ? .5 : 1);
+  result.second = noise(.5);
+  result.motion.base = &mesh.points;
+  result.motion.first = &result.first;
+  result.motion.second = isRotation ? &result.second : nullptr;
+  result.motion.angle = isRotation ? 1 + one(random) / 2 : 0;
+}
+
+class ValidRanges : public testing::TestWithParam<std::tuple<std::string, bool>>
+{
+};
+}
+
+TEST_P(ValidRanges, AreThoseOfBisection)
+{
+  const auto& [kind, isRotation] = GetParam();
+  const bool isQuadratic = kind.find("quadratic") == 0;
+  int bothFinite = 0, tight = 0, made = 0;
+  for (int number = 0; made < Cases && number < 4 * Cases; ++number)
+  {
+    SCOPED_TRACE("case " + std::to_string(number) + ", seed " + std::to_string(meshes::seed()));
+    Case problem;
+    makeCase(problem, kind, isRotation, number);
+    if (!problem.isValid(0))
+    {
+      continue;
+    }
+    ++made;
+    Monitor monitor;
+    const ValidRange range = validRange(problem.mesh, problem.motion, problem.orientation, monitor);
+    ASSERT_FALSE(range.isEmpty);
+    const double low = problem.bisected(-1), high = problem.bisected(1);
+    bothFinite += std::isfinite(range.lowest) && std::isfinite(range.highest);
+    for (const auto& [found, expected] :
+      { std::make_pair(-range.lowest, -low), std::make_pair(range.highest, high) })
+    {
+      if (std::isinf(expected))
+      {
+        EXPECT_TRUE(isQuadratic || found > 4.99);
+        continue;
+      }
+      EXPECT_LE(found, expected + 2e-9 * (1 + expected));
+      // A step of the search may pass over a short interval of inversion.
+      if (!isQuadratic && found < expected - 1e-8)
+      {
+        EXPECT_FALSE(problem.isValid((expected == high ? 1 : -1) * (found + 1e-7))) << found;
+      }
+      tight += found > .5 * expected;
+    }
+    EXPECT_EQ(range.lowestCell >= 0, std::isfinite(range.lowest));
+    EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
+    for (int threads : { 2, 3 })
+    {
+      meshes::ThreadedMonitor threaded(threads);
+      const ValidRange again =
+        validRange(problem.mesh, problem.motion, problem.orientation, threaded);
+      EXPECT_EQ(again.lowest, range.lowest);
+      EXPECT_EQ(again.highest, range.highest);
+    }
+  }
+  EXPECT_EQ(made, Cases);
+  EXPECT_GE(bothFinite, Cases / 2);
+  RecordProperty("tight", tight);
+  EXPECT_GE(tight, Cases) << "of the ends within a factor of 2, two a case";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ValidRanges,
+  testing::Combine(
+    testing::Values("hexes", "tets", "wedges", "pyramids", "quadratic hexes", "quadratic tets"),
+    testing::Bool()),
+  [](const auto& info)
+  {
+    std::string name = std::get<0>(info.param) + (std::get<1>(info.param) ? "Turned" : "Shifted");
+    name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+    return name;
+  });
+
+TEST(ValidRange, OfACubeThatIsFlattened)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(3, 3, 3);
+  problem.first = Points::Zero(problem.mesh.points.rows(), 3);
+  problem.first.col(2) = -.25 * problem.mesh.points.col(2);
+  problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
+  Monitor monitor;
+  ValidRange range = validRange(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_NEAR(range.highest, 4, 1e-11);
+  EXPECT_LE(range.highest, 4);
+  EXPECT_EQ(range.highestCell, 0);
+  EXPECT_EQ(range.lowest, -HUGE_VAL);
+  EXPECT_EQ(range.lowestCell, -1);
+
+  // Rigid turns are valid at any angle.
+  Points second = problem.mesh.points;
+  problem.first.col(0) = -problem.mesh.points.col(1);
+  problem.first.col(1) = problem.mesh.points.col(0);
+  problem.first.col(2).setZero();
+  second *= -1;
+  second.col(2).setZero();
+  const NodeMotion turn = { &problem.mesh.points, &problem.first, &second, 1 };
+  range = validRange(problem.mesh, turn, {}, monitor);
+  EXPECT_EQ(range.highest, HUGE_VAL);
+  EXPECT_EQ(range.lowest, -HUGE_VAL);
+
+  // Inverted at 0.
+  problem.mesh.points.row(0) << 5, 5, 5;
+  range = validRange(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_TRUE(range.isEmpty);
+  EXPECT_TRUE(std::isnan(range.lowest) && std::isnan(range.highest));
+  EXPECT_EQ(range.lowestCell, 0);
+}
+
+TEST(PolynomialRoot, FindsTheFirst)
+{
+  const double cubic[] = { 6, -11, 6, -1 }; // (1 - t)(2 - t)(3 - t)
+  EXPECT_NEAR(firstPositiveRoot(cubic, 3), 1, 1e-11);
+  EXPECT_LE(firstPositiveRoot(cubic, 3), 1);
+  const double touching[] = { 4, -4, 1 }; // (2 - t)^2
+  EXPECT_NEAR(firstPositiveRoot(touching, 2), 2, 1e-5);
+  const double none[] = { 1, -1, 1 };
+  EXPECT_EQ(firstPositiveRoot(none, 2), HUGE_VAL);
+  const double small[] = { 1e-9, -1, 0, 0 };
+  EXPECT_NEAR(firstPositiveRoot(small, 3), 1e-9, 1e-20);
+  const double negative[] = { -1, 5 };
+  EXPECT_EQ(firstPositiveRoot(negative, 1), 0);
+  EXPECT_TRUE(isPositiveUntil(cubic, 3, .5));
+  EXPECT_FALSE(isPositiveUntil(cubic, 3, 1));
+  EXPECT_FALSE(isPositiveUntil(cubic, 3, HUGE_VAL));
+  EXPECT_TRUE(isPositiveUntil(small, 3, 1e-10));
+}

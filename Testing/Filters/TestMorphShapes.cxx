@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
+
+#include "vtkFEMWarpMorph.h"
+#include "vtkMorphShapes.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using grids::Row;
+using morph::Points;
+
+Row bulged(const Row& x)
+{
+  return x + Row(0, 0, .05 * x[2] * std::sin(x[0]) * std::sin(x[1]));
+}
+
+/// The top, at z = 4, turned about an axis along y; the rest of the boundary stays.
+grids::Map turnedTop(double angle)
+{
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return [=](const Row& x) -> Row
+  {
+    const Row center(2, 0, 4.5);
+    return x[2] == 4 ? Row((x - center) * R.transpose() + center) : x;
+  };
+}
+
+vtkSmartPointer<vtkMorphShapes> shapesOf(
+  vtkUnstructuredGrid* grid, const std::vector<grids::Map>& maps)
+{
+  auto filter = vtkSmartPointer<vtkMorphShapes>::New();
+  filter->SetInputDataObject(grid);
+  for (const grids::Map& map : maps)
+  {
+    filter->AddShapeData(grids::boundary(grid, map));
+  }
+  return filter;
+}
+
+/// Where vtkFEMWarpMorph takes the mesh for a boundary displaced by `map`.
+Points morphedBy(vtkUnstructuredGrid* grid, const grids::Map& map)
+{
+  vtkNew<vtkFEMWarpMorph> morph;
+  morph->SetInputData(grid);
+  morph->SetBoundaryData(grids::boundary(grid, map));
+  morph->SetValidityToNone();
+  morph->Update();
+  return grids::points(morph->GetOutput());
+}
+
+double difference(const Points& a, const Points& b)
+{
+  return (a - b).cwiseAbs().maxCoeff();
+}
+}
+
+TEST(MorphShapes, AddTheirWeightedMotions)
+{
+  auto grid = grids::hexes(4);
+  const Points rest = grids::points(grid);
+  auto filter = shapesOf(grid, { grids::twist, bulged });
+  filter->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), rest) << "no weights";
+  filter->SetWeight(0, .5);
+  filter->SetWeight(1, -2);
+  filter->Update();
+  const Points expected = morphedBy(
+    grid, [](const Row& x) -> Row { return x + .5 * (grids::twist(x) - x) - 2 * (bulged(x) - x); });
+  EXPECT_LT(difference(grids::points(filter->GetOutput()), expected), 1e-8);
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_GT(filter->GetMinScaledJacobian(), 0);
+  filter->SetWeight(0, 1);
+  filter->SetWeight(1, 0);
+  filter->Update();
+  EXPECT_LT(difference(grids::points(filter->GetOutput()), morphedBy(grid, grids::twist)), 1e-8);
+}
+
+TEST(MorphShapes, SolveOnlyNewShapes)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { grids::twist });
+  filter->SetWeight(0, 1);
+  filter->Update();
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_EQ(filter->GetSolveCount(), 1);
+  EXPECT_GT(filter->GetPrepareSeconds(), 0);
+  filter->AddShapeData(grids::boundary(grid, bulged));
+  filter->SetWeight(1, 1);
+  filter->Update();
+  EXPECT_EQ(filter->GetSolveCount(), 2);
+  const Points both = grids::points(filter->GetOutput());
+  filter->SetWeight(1, .25);
+  filter->Update();
+  EXPECT_EQ(filter->GetSolveCount(), 2);
+  EXPECT_EQ(filter->GetPrepareSeconds(), 0);
+  filter->SetWeight(1, 1);
+  filter->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), both);
+
+  // The same content in other objects, in another order.
+  auto other = grids::copy(grid);
+  filter->SetInputDataObject(other);
+  filter->RemoveAllShapes();
+  filter->AddShapeData(grids::boundary(other, bulged));
+  filter->AddShapeData(grids::boundary(other, grids::twist));
+  filter->Update();
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_EQ(filter->GetSolveCount(), 2);
+  EXPECT_LT(difference(grids::points(filter->GetOutput()), both), 1e-14);
+
+  filter->RemoveInputConnection(1, 0);
+  filter->Update();
+  EXPECT_EQ(filter->GetSolveCount(), 2);
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  auto fresh = shapesOf(grid, { grids::twist });
+  fresh->SetWeight(0, 1);
+  fresh->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(fresh->GetOutput()));
+}
+
+TEST(MorphShapes, EveryMethodFollowsItsShapes)
+{
+  auto grid = grids::hexes(4);
+  for (int method = vtkMorphShapes::METHOD_FEMWARP;
+       method <= vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR; ++method)
+  {
+    auto filter = shapesOf(grid, { grids::affine, bulged });
+    const grids::Listener listener(filter);
+    filter->SetMethod(method);
+    filter->SetWeight(0, .5);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << method << listener.Errors[0];
+    const Points expected = grids::mapped(
+      grids::points(grid), [](const Row& x) -> Row { return x + .5 * (grids::affine(x) - x); });
+    const double tolerance =
+      method == vtkMorphShapes::METHOD_WEIGHTED_RESIDUAL ? .5 : 1e-8; // it fits only nearly
+    EXPECT_LT(difference(grids::points(filter->GetOutput()), expected), tolerance) << method;
+  }
+}
+
+TEST(MorphShapes, RotationsTurnByPartsOfTheirAngle)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { turnedTop(1.2) });
+  filter->SetMotion(0, vtkMorphShapes::MOTION_AS_ROTATION);
+  for (double weight : { 1., .5, -.25, 1.5 })
+  {
+    filter->SetWeight(0, weight);
+    filter->Update();
+    const Points expected = morphedBy(grid, turnedTop(1.2 * weight));
+    EXPECT_LT(difference(grids::points(filter->GetOutput()), expected), 1e-8) << weight;
+  }
+  EXPECT_EQ(filter->GetSolveCount(), 2);
+  filter->SetMotion(0, vtkMorphShapes::MOTION_AS_DISPLACEMENT);
+  filter->SetWeight(0, .5);
+  filter->Update();
+  EXPECT_GT(difference(grids::points(filter->GetOutput()), morphedBy(grid, turnedTop(.6))), .1);
+}
+
+TEST(MorphShapes, AreNamed)
+{
+  auto grid = grids::hexes(3);
+  auto filter = shapesOf(grid, { grids::twist, bulged });
+  filter->SetShapeName(1, "bulge");
+  filter->SetWeight(1, .5);
+  filter->Update();
+  vtkFieldData* fields = filter->GetOutput()->GetFieldData();
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("ShapeNames"));
+  auto* weights = vtkDoubleArray::SafeDownCast(fields->GetArray("ShapeWeights"));
+  ASSERT_TRUE(names && weights);
+  ASSERT_EQ(names->GetNumberOfValues(), 2);
+  EXPECT_EQ(names->GetValue(0), "Shape 1");
+  EXPECT_EQ(names->GetValue(1), "bulge");
+  EXPECT_EQ(weights->GetValue(0), 0);
+  EXPECT_EQ(weights->GetValue(1), .5);
+
+  // Errors name the shape.
+  grids::Listener listener(filter);
+  filter->SetMotion(1, vtkMorphShapes::MOTION_AS_ROTATION);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("Shape 'bulge': The motion is not rigid"), std::string::npos)
+    << listener.Errors[0];
+  EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+
+  listener.Errors.clear();
+  filter->RemoveAllShapes();
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("There is no shape"), std::string::npos);
+}
+
+TEST(MorphShapes, WeightsAreFiniteNumbers)
+{
+  vtkNew<vtkMorphShapes> filter;
+  grids::Listener listener(filter);
+  filter->SetWeight(2, 3);
+  EXPECT_EQ(filter->GetNumberOfWeights(), 3);
+  for (double wrong : { double(NAN), double(INFINITY) })
+  {
+    listener.Errors.clear();
+    filter->SetWeight(2, wrong);
+    EXPECT_EQ(listener.Errors.size(), 1u);
+    EXPECT_EQ(filter->GetWeight(2), 3);
+  }
+  filter->SetNumberOfWeights(-1);
+  EXPECT_EQ(filter->GetNumberOfWeights(), 0);
+  EXPECT_EQ(filter->GetWeight(2), 0);
+  EXPECT_EQ(filter->GetWeight(-1), 0);
+  filter->SetWeight(-1, 3);
+  EXPECT_EQ(filter->GetNumberOfWeights(), 0);
+}
+
+TEST(MorphShapes, AShapeThatNamesFewerNodesKeepsTheOthers)
+{
+  auto grid = grids::hexes(4);
+  auto part = grids::cloud(Points(Points::Zero(1, 3)).rowwise() + Row(4, 4, 5));
+  morph::Index corner = -1;
+  const Points rest = grids::points(grid);
+  for (morph::Index i = 0; i < rest.rows(); ++i)
+  {
+    corner = rest.row(i) == Row(4, 4, 4) ? i : corner;
+  }
+  ASSERT_GE(corner, 0);
+  grids::addIds(part, "MorphPointId", { corner });
+  auto filter = shapesOf(grid, { grids::twist });
+  filter->AddShapeData(part);
+  filter->SetWeight(1, 1);
+  filter->Update();
+  const Points moved = grids::points(filter->GetOutput());
+  EXPECT_EQ(Row(moved.row(corner)), Row(4, 4, 5));
+  const Points expected =
+    morphedBy(grid, [](const Row& x) -> Row { return x == Row(4, 4, 4) ? Row(4, 4, 5) : x; });
+  EXPECT_LT(difference(moved, expected), 1e-8);
+}
+
+TEST(MorphShapes, BadCellsAreOnTheSecondOutput)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { turnedTop(1.2) });
+  filter->SetWeight(0, 3);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Inverted");
+  EXPECT_GT(filter->GetInvertedCells(), 0);
+  auto* bad = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_EQ(bad->GetNumberOfCells(), filter->GetInvertedCells() + filter->GetDegenerateCells());
+}
