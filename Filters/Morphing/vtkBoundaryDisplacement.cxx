@@ -123,7 +123,7 @@ vtkDataObject* upToDateInput(vtkAlgorithm* filter, vtkInformationVector** inputV
 
 struct vtkBoundaryDisplacement::vtkInternals
 {
-  std::set<std::string> Patches, HeldPatches;
+  std::set<std::string> Patches, HeldPatches, SlidingPatches;
   vtkNew<vtkDataArraySelection> PatchList;
   vtkSmartPointer<vtkImplicitFunction> Region;
   vtkSmartPointer<vtkAbstractTransform> Transform;
@@ -206,6 +206,23 @@ void vtkBoundaryDisplacement::RemoveAllHeldPatches()
   if (!this->Internals->HeldPatches.empty())
   {
     this->Internals->HeldPatches.clear();
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::SetSlidingPatchStatus(const char* name, int status)
+{
+  if (name && setStatus(this->Internals->SlidingPatches, name, status != 0))
+  {
+    this->Modified();
+  }
+}
+
+void vtkBoundaryDisplacement::RemoveAllSlidingPatches()
+{
+  if (!this->Internals->SlidingPatches.empty())
+  {
+    this->Internals->SlidingPatches.clear();
     this->Modified();
   }
 }
@@ -435,6 +452,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
   rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
+  rest.Sliding =
+    filters::Patches::Surfaces(this->Model.Geometry(), this->SlidingPatches, "SlidingPatches");
   rest.Radius = filter->FalloffRadius * size(this->Model);
   monitor.SetRange(0.5, 0.9);
   const filters::Surroundings::Result result =
@@ -479,6 +498,7 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   list("Patches", this->Internals->Patches);
   list("HeldPatches", this->Internals->HeldPatches);
+  list("SlidingPatches", this->Internals->SlidingPatches);
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "Motion: " << this->Motion << "\n";
   os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";

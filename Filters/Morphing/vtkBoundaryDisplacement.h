@@ -131,6 +131,16 @@ public:
   void RemoveAllHeldPatches();
   ///@}
 
+  ///@{
+  /**
+   * The surfaces that slide, by name: their nodes move along the undeformed shape of the surface (a
+   * plane, a cylinder, or its facets), moving nodes too. For planes of symmetry. Default: none.
+   */
+  void SetSlidingPatchStatus(const char* name, int status);
+  void AddSlidingPatch(const char* name) { this->SetSlidingPatchStatus(name, 1); }
+  void RemoveAllSlidingPatches();
+  ///@}
+
   /**
    * Names of all patches, surfaces first, as a list to choose from, with nothing enabled. They are
    * those of the last execution or, after an update of the information, of input data that are up
@@ -231,6 +241,7 @@ public:
     SURROUNDINGS_STAY = 0,
     SURROUNDINGS_FOLLOW = 1,
     SURROUNDINGS_FADE = 2,
+    SURROUNDINGS_FOLLOW_ALL = 3,
     // The old names, until version 0.2.
     STAY = SURROUNDINGS_STAY,
     FOLLOW = SURROUNDINGS_FOLLOW,
@@ -238,16 +249,20 @@ public:
   };
   ///@{
   /**
-   * What the nodes do that neither move nor are held. They stay; or follow, curves first and then
-   * surfaces, as with vtkMorphBoundary, vertices being held; or fade: they follow the motion the
-   * less, the farther they are from the nearest moving node, up to FalloffRadius. Default
-   * SURROUNDINGS_FOLLOW.
+   * What the nodes do that neither move nor are held. They stay. Or the surfaces follow that touch
+   * what moves along an edge, curves first, as with vtkMorphBoundary, vertices being held, and the
+   * others stay: a surface that only shares a vertex does not touch. Where the motion allows it to
+   * 1 % of the largest displacement, a following surface keeps its own shape (plane, cylinder, or
+   * its facets); else a warning says how far it leaves it. Or nodes fade: they follow the motion
+   * the less, the farther they are from the nearest moving node, up to FalloffRadius. Or all
+   * surfaces follow, whether they touch or not. Default SURROUNDINGS_FOLLOW.
    */
-  vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FADE);
+  vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FOLLOW_ALL);
   vtkGetMacro(Surroundings, int);
   void SetSurroundingsToStay() { this->SetSurroundings(SURROUNDINGS_STAY); }
   void SetSurroundingsToFollow() { this->SetSurroundings(SURROUNDINGS_FOLLOW); }
   void SetSurroundingsToFade() { this->SetSurroundings(SURROUNDINGS_FADE); }
+  void SetSurroundingsToFollowAll() { this->SetSurroundings(SURROUNDINGS_FOLLOW_ALL); }
   ///@}
 
   ///@{

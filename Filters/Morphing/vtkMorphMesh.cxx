@@ -85,6 +85,21 @@ bool setStatus(Names& names, const char* name, int status)
   return name && (status != 0 ? names.insert(name).second : names.erase(name) > 0);
 }
 
+/// Passes names to the filter inside, unless it has them.
+void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
+  void (vtkBoundaryDisplacement::*clear)(), void (vtkBoundaryDisplacement::*add)(const char*))
+{
+  if (names != passed)
+  {
+    (to->*clear)();
+    for (const std::string& name : names)
+    {
+      (to->*add)(name.c_str());
+    }
+    passed = names;
+  }
+}
+
 /// The data on port 0 if an update would not change them, else null.
 vtkUnstructuredGrid* upToDateGrid(vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {
@@ -100,9 +115,9 @@ vtkUnstructuredGrid* upToDateGrid(vtkAlgorithm* filter, vtkInformationVector** i
 /// An error or warning of vtkBoundaryDisplacement with the names of this class's properties.
 std::string inOwnWords(std::string text)
 {
-  const std::pair<const char*, const char*> names[] = {
-    { "HeldPatches names", "FixedSurfaces names" }, { "Patches names", "Surfaces names" }
-  };
+  const std::pair<const char*, const char*> names[] = { { "SlidingPatches names",
+                                                          "SlidingSurfaces names" },
+    { "HeldPatches names", "FixedSurfaces names" }, { "Patches names", "Surfaces names" } };
   for (const auto& [theirs, ours] : names)
   {
     const auto at = text.find(theirs);
@@ -118,7 +133,7 @@ std::string inOwnWords(std::string text)
 class vtkMorphMesh::vtkInternals
 {
 public:
-  Names Surfaces, FixedSurfaces;
+  Names Surfaces, FixedSurfaces, SlidingSurfaces;
   vtkSmartPointer<vtkImplicitFunction> Region;
   vtkSmartPointer<vtkAbstractTransform> Transform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
@@ -148,7 +163,7 @@ private:
   vtkNew<vtkUnstructuredGrid> Rest;
   const vtkUnstructuredGrid* Input = nullptr; ///< that Rest was made from; compared, never used
   vtkMTimeType InputTime = 0;
-  Names PassedSurfaces, PassedFixedSurfaces;
+  Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces;
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);
@@ -186,24 +201,12 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
   to->SetMoving(nothing ? vtkBoundaryDisplacement::MOVE_NOTHING : moving[from->Moving]);
   to->SetSelectionData(anySelection ? selection : nullptr);
   to->SetSelectionExtractor(this->Extractor);
-  if (this->PassedSurfaces != this->Surfaces)
-  {
-    to->RemoveAllPatches();
-    for (const std::string& name : this->Surfaces)
-    {
-      to->AddPatch(name.c_str());
-    }
-    this->PassedSurfaces = this->Surfaces;
-  }
-  if (this->PassedFixedSurfaces != this->FixedSurfaces)
-  {
-    to->RemoveAllHeldPatches();
-    for (const std::string& name : this->FixedSurfaces)
-    {
-      to->AddHeldPatch(name.c_str());
-    }
-    this->PassedFixedSurfaces = this->FixedSurfaces;
-  }
+  using Filter = vtkBoundaryDisplacement;
+  pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
+  pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
+    &Filter::AddHeldPatch);
+  pass(this->SlidingSurfaces, this->PassedSlidingSurfaces, to, &Filter::RemoveAllSlidingPatches,
+    &Filter::AddSlidingPatch);
   to->SetRegion(this->Region);
   to->SetMovingArray(from->MovingArray);
   to->SetMotion(from->Displacement);
@@ -413,6 +416,23 @@ void vtkMorphMesh::RemoveAllFixedSurfaces()
   if (!this->Internals->FixedSurfaces.empty())
   {
     this->Internals->FixedSurfaces.clear();
+    this->Modified();
+  }
+}
+
+void vtkMorphMesh::SetSlidingSurfaceStatus(const char* name, int status)
+{
+  if (setStatus(this->Internals->SlidingSurfaces, name, status))
+  {
+    this->Modified();
+  }
+}
+
+void vtkMorphMesh::RemoveAllSlidingSurfaces()
+{
+  if (!this->Internals->SlidingSurfaces.empty())
+  {
+    this->Internals->SlidingSurfaces.clear();
     this->Modified();
   }
 }
@@ -658,6 +678,7 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   os << indent << "Moving: " << this->Moving << "\n";
   list("Surfaces", this->Internals->Surfaces);
   list("FixedSurfaces", this->Internals->FixedSurfaces);
+  list("SlidingSurfaces", this->Internals->SlidingSurfaces);
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   os << indent << "Displacement: " << this->Displacement << "\n";

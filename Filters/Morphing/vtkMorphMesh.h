@@ -116,6 +116,16 @@ public:
   void RemoveAllFixedSurfaces();
   ///@}
 
+  ///@{
+  /**
+   * The surfaces that slide, by name: their nodes move along the surface's undeformed shape, moving
+   * nodes too. For planes of symmetry. Default: none.
+   */
+  void SetSlidingSurfaceStatus(const char* name, int status);
+  void AddSlidingSurface(const char* name) { this->SetSlidingSurfaceStatus(name, 1); }
+  void RemoveAllSlidingSurfaces();
+  ///@}
+
   /**
    * Names of all surfaces and curves, surfaces first, as a list to choose from, with nothing
    * enabled. They are those of the last execution or, after an update of the information, of input
@@ -208,7 +218,7 @@ public:
    * What the rest of the boundary does: vtkBoundaryDisplacement::SURROUNDINGS_STAY and so on.
    * Default SURROUNDINGS_FOLLOW.
    */
-  vtkSetClampMacro(Surroundings, int, 0, 2);
+  vtkSetClampMacro(Surroundings, int, 0, 3);
   vtkGetMacro(Surroundings, int);
   ///@}
 

@@ -338,6 +338,7 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
       filter->SetMovingToPatches();
       filter->AddPatch("Surface 1");
       filter->AddPatch("Curve 3");
+      filter->SetSurroundingsToFollowAll();
       filter->SetSurfaceMethod(method);
       vtkNew<vtkTransform> transform;
       transform->RotateWXYZ(20, 1, 2, 3);

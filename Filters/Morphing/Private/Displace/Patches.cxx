@@ -49,6 +49,20 @@ std::string list(const std::vector<std::string>& names)
 
 namespace Patches
 {
+namespace
+{
+void requireNone(
+  const std::set<std::string>& missing, const morph::Classification& geometry, const char* property)
+{
+  if (!missing.empty())
+  {
+    throw morph::Error(std::string(property) + " names '" + *missing.begin() +
+                       "', which the boundary does not have; it has " + list(Names(geometry)) +
+                       ". Names change with the feature angle.");
+  }
+}
+}
+
 std::vector<std::string> Names(const morph::Classification& geometry)
 {
   std::vector<std::string> names;
@@ -94,13 +108,26 @@ Part Find(
       addNodes(curve.nodes);
     }
   }
-  if (!missing.empty())
-  {
-    throw morph::Error(std::string(property) + " names '" + *missing.begin() +
-                       "', which the boundary does not have; it has " + list(Names(geometry)) +
-                       ". Names change with the feature angle.");
-  }
+  requireNone(missing, geometry, property);
   return part;
+}
+
+std::vector<Index> Surfaces(
+  const morph::Classification& geometry, const std::set<std::string>& names, const char* property)
+{
+  std::vector<Index> numbers;
+  std::set<std::string> missing = names;
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    const std::string name = surfaceName(geometry.surfaces[s].id);
+    if (names.count(name) > 0)
+    {
+      numbers.push_back(static_cast<Index>(s));
+      missing.erase(name);
+    }
+  }
+  requireNone(missing, geometry, property);
+  return numbers;
 }
 }
 }

@@ -22,6 +22,10 @@ struct Part
   std::vector<std::uint8_t> HasFace; ///< #faces
 };
 
+/// The numbers of the surfaces of these names, ascending. Throws as Find() does, for a curve too.
+std::vector<morph::Index> Surfaces(
+  const morph::Classification& geometry, const std::set<std::string>& names, const char* property);
+
 /// All nodes, those on the edges included, and all faces of the patches of these names; a curve has
 /// no faces. For a name that does not exist, throws a morph::Error that names `property` and lists
 /// the names that do.

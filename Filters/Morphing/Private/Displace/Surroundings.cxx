@@ -6,6 +6,9 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <sstream>
 
 namespace morph::filters
 {
@@ -22,6 +25,61 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
     some.row(static_cast<Index>(i)) = all.row(ids[i]);
   }
   return some;
+}
+
+/// The part of the largest displacement by which a surface may leave its shape, and is still said
+/// to keep it.
+constexpr double OffShape = 0.01;
+
+double largestDisplacement(const BoundaryModel& model, const Surroundings::Result& result)
+{
+  double largest = 0;
+  for (const Index node : model.Faces().nodes)
+  {
+    if (result.Roles[node] == Surroundings::Moves)
+    {
+      largest = std::max(largest, (result.Moved.row(node) - model.Points().row(node)).norm());
+    }
+  }
+  return largest;
+}
+
+/// Tells for each surface whether it touches what moves, along an edge or at a moving node that has
+/// no moving neighbor: a surface that shares no more than a vertex with a moving edge does not.
+std::vector<std::uint8_t> touched(const BoundaryModel& model, const Surroundings::Result& result)
+{
+  const morph::BoundaryFaces& faces = model.Faces();
+  const auto forMovingPairs = [&](const auto& action)
+  {
+    for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+    {
+      const Index first = faces.offsets[f], last = faces.offsets[f + 1];
+      for (Index k = first; k < last; ++k)
+      {
+        const Index a = faces.connectivity[k];
+        const Index b = faces.connectivity[k + 1 < last ? k + 1 : first];
+        action(
+          f, a, result.Roles[a] == Surroundings::Moves, b, result.Roles[b] == Surroundings::Moves);
+      }
+    }
+  };
+  std::vector<std::uint8_t> hasMovingNeighbor(model.Points().rows(), 0);
+  forMovingPairs(
+    [&](std::size_t, Index a, bool aMoves, Index b, bool bMoves)
+    {
+      hasMovingNeighbor[a] = hasMovingNeighbor[a] || bMoves;
+      hasMovingNeighbor[b] = hasMovingNeighbor[b] || aMoves;
+    });
+  std::vector<std::uint8_t> isTouched(model.Geometry().surfaces.size(), 0);
+  forMovingPairs(
+    [&](std::size_t f, Index a, bool aMoves, Index, bool bMoves)
+    {
+      if (aMoves && (bMoves || !hasMovingNeighbor[a]))
+      {
+        isTouched[model.Geometry().surfaceOfFace[f]] = 1;
+      }
+    });
+  return isTouched;
 }
 
 /// Moves mid-side and face nodes that neither move nor are held with their corners. Otherwise the
@@ -73,25 +131,119 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   {
     return result;
   }
+  this->Slide(model, options.Sliding, { Moves }, result);
+  const Points placed = rowsOf(result.Moved, choice.Moving);
   switch (options.How)
   {
     case Kind::Follow:
-      this->Follow(model, choice, targets, options.Follow, result, monitor);
+    case Kind::FollowAll:
+      this->Follow(model, choice, placed, options, result, monitor);
       return result;
     case Kind::Fade:
-      this->Fade(model, choice, targets, options.Radius, result, monitor);
+      this->Fade(model, choice, placed, options.Radius, result, monitor);
       break;
     case Kind::Stay:
       break;
   }
   moveBetween(model, result);
+  this->Slide(model, options.Sliding, { Follows }, result);
   return result;
 }
 
-void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choice,
-  const Points& targets, const morph::SurfaceMorphOptions& options, Result& result,
-  morph::Monitor& monitor)
+const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surface)
 {
+  const std::vector<morph::GeometrySurface>& surfaces = model.Geometry().surfaces;
+  if (this->ShapesVersion != model.MotionVersion())
+  {
+    this->Shapes.clear();
+    this->Shapes.resize(surfaces.size());
+    this->ShapesVersion = model.MotionVersion();
+  }
+  if (!this->Shapes[surface])
+  {
+    this->Shapes[surface] =
+      std::make_unique<SurfaceShape>(model.Points(), model.Faces(), surfaces[surface]);
+  }
+  return *this->Shapes[surface];
+}
+
+std::vector<Index> Surroundings::AbleToSlide(const BoundaryModel& model,
+  const std::vector<Index>& surfaces, const Result& result, morph::Monitor& monitor)
+{
+  const double largest = largestDisplacement(model, result);
+  std::vector<Index> able;
+  std::ostringstream off;
+  off.precision(3);
+  for (const Index s : surfaces)
+  {
+    const SurfaceShape& shape = this->ShapeOf(model, s);
+    double given = 0, all = 0;
+    for (const Index node : model.Geometry().surfaces[s].nodes)
+    {
+      if (result.Roles[node] == Moves || result.Roles[node] == Follows)
+      {
+        const double distance = shape.Distance(result.Moved.row(node));
+        all = std::max(all, distance);
+        given = std::max(given, result.Roles[node] == Moves ? distance : 0);
+      }
+    }
+    if (given <= OffShape * largest)
+    {
+      able.push_back(s);
+    }
+    else
+    {
+      off << (off.tellp() > 0 ? ", " : "") << "Surface " << model.Geometry().surfaces[s].id
+          << " by " << all << " (" << 100 * all / largest << " % of the largest displacement)";
+    }
+  }
+  if (off.tellp() > 0)
+  {
+    monitor.warn("What moves pulls surfaces off their own shape, which follow it: " + off.str() +
+                 ". Hold them, or let the rest of the boundary stay, if that is not meant.");
+  }
+  return able;
+}
+
+void Surroundings::Slide(const BoundaryModel& model, const std::vector<Index>& surfaces,
+  const std::vector<Role>& roles, Result& result)
+{
+  std::map<Index, std::vector<Index>> surfacesOf;
+  for (const Index s : surfaces)
+  {
+    for (const Index node : model.Geometry().surfaces[s].nodes)
+    {
+      if (std::count(roles.begin(), roles.end(), result.Roles[node]) > 0 &&
+          result.Moved.row(node) != model.Points().row(node))
+      {
+        surfacesOf[node].push_back(s);
+      }
+    }
+  }
+  for (const auto& [node, on] : surfacesOf)
+  {
+    // A node of several surfaces: alternating projections end where they meet.
+    Eigen::RowVector3d x = result.Moved.row(node);
+    for (int round = 0; round < (on.size() > 1 ? 100 : 1); ++round)
+    {
+      const Eigen::RowVector3d before = x;
+      for (const Index s : on)
+      {
+        x = this->ShapeOf(model, s).Closest(x);
+      }
+      if (x == before)
+      {
+        break;
+      }
+    }
+    result.Moved.row(node) = x;
+  }
+}
+
+void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choice,
+  const Points& targets, const Options& all, Result& result, morph::Monitor& monitor)
+{
+  const morph::SurfaceMorphOptions& options = all.Follow;
   Key& key = this->WeightsKey;
   if (key.MotionVersion != model.MotionVersion() || key.Neighbors != options.neighbors)
   {
@@ -100,10 +252,30 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
   key.MotionVersion = model.MotionVersion();
   key.Neighbors = options.neighbors;
 
+  const bool touchedOnly = all.How == Kind::Follow;
+  const std::vector<std::uint8_t> isTouched = touched(model, result);
+  std::vector<Index> fixed = choice.Held, following;
+  for (std::size_t s = 0; touchedOnly && s < isTouched.size(); ++s)
+  {
+    const morph::GeometrySurface& surface = model.Geometry().surfaces[s];
+    const bool hasMovingFace = std::any_of(surface.faces.begin(), surface.faces.end(),
+      [&](Index face) { return choice.IsMovingFace[face] != 0; });
+    if (!isTouched[s])
+    {
+      std::copy_if(surface.nodes.begin(), surface.nodes.end(), std::back_inserter(fixed),
+        [&](Index node) { return result.Roles[node] == Stays; });
+    }
+    else if (!hasMovingFace && !std::count(all.Sliding.begin(), all.Sliding.end(), Index(s)))
+    {
+      following.push_back(static_cast<Index>(s));
+    }
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
   std::vector<Index> given = choice.Moving;
-  given.insert(given.end(), choice.Held.begin(), choice.Held.end());
+  given.insert(given.end(), fixed.begin(), fixed.end());
   Points places(static_cast<Index>(given.size()), 3);
-  places << targets, rowsOf(model.Points(), choice.Held);
+  places << targets, rowsOf(model.Points(), fixed);
   morph::BoundaryMotion motion = morph::beginMotion(
     model.Points(), model.BodyOfNode(), model.Faces(), model.Geometry(), given, places);
   morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
@@ -125,6 +297,13 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
       result.Roles[node] = Follows;
     }
   }
+  std::vector<Index> sliding = all.Sliding;
+  if (largestDisplacement(model, result) > 0)
+  {
+    const std::vector<Index> able = this->AbleToSlide(model, following, result, monitor);
+    sliding.insert(sliding.end(), able.begin(), able.end());
+  }
+  this->Slide(model, sliding, { Follows }, result);
   if (!report.reflected.empty())
   {
     std::vector<Index> ids;

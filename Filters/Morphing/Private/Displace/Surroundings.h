@@ -5,6 +5,10 @@
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
+#include "Private/Displace/SurfaceShape.h"
+
+#include <memory>
+#include <vector>
 
 namespace morph::filters
 {
@@ -17,14 +21,16 @@ public:
   {
     Stay,
     Follow,
-    Fade
+    Fade,
+    FollowAll
   };
 
   struct Options
   {
     Kind How = Kind::Follow;
     morph::SurfaceMorphOptions Follow;
-    double Radius = 0; ///< of Fade, in the unit of the points
+    double Radius = 0;                 ///< of Fade, in the unit of the points
+    std::vector<morph::Index> Sliding; ///< surfaces of the geometry that slide, of any kind
   };
 
   /// What a node does; the values of the output's array Role.
@@ -45,8 +51,14 @@ public:
   /// Computes the positions of all nodes. `targets`: those of choice.Moving. Moving nodes go there,
   /// and held nodes stay, exactly. The other nodes of the boundary
   /// - with Stay: all stay;
-  /// - with Follow: all follow as vtkMorphBoundary's do, curves first, and vertices are held;
+  /// - with Follow: surfaces that touch what moves follow as vtkMorphBoundary's do, curves first,
+  ///   vertices being held. A surface touches if a moving edge, or a moving node without a moving
+  ///   neighbor, is on it. The others stay. Where the motion lets a surface keep its shape, to 1 %
+  ///   of the largest displacement, its nodes slide along it; else a warning says how far they
+  ///   leave it;
+  /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see morph::Falloff.
+  /// Nodes of sliding surfaces, moving ones too, go to the nearest point of the surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. A result
   /// does not depend on what is kept.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
@@ -66,11 +78,20 @@ private:
   };
 
   void Follow(const BoundaryModel& model, const Choice::Result& choice,
-    const morph::Points& targets, const morph::SurfaceMorphOptions& options, Result& result,
-    morph::Monitor& monitor);
+    const morph::Points& targets, const Options& options, Result& result, morph::Monitor& monitor);
   void Fade(const BoundaryModel& model, const Choice::Result& choice, const morph::Points& targets,
     double radius, Result& result, morph::Monitor& monitor);
 
+  const SurfaceShape& ShapeOf(const BoundaryModel& model, morph::Index surface);
+  /// Surfaces along which the others' motion lets them slide; warns of those that leave theirs.
+  std::vector<morph::Index> AbleToSlide(const BoundaryModel& model,
+    const std::vector<morph::Index>& surfaces, const Result& result, morph::Monitor& monitor);
+  /// Puts nodes of these roles onto the shapes of the surfaces that they are on.
+  void Slide(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
+    const std::vector<Role>& roles, Result& result);
+
+  vtkIdType ShapesVersion = -1;
+  std::vector<std::unique_ptr<SurfaceShape>> Shapes; ///< #surfaces, null where not needed yet
   Key WeightsKey, FalloffKey;
   morph::SurfaceWeights Weights;
   morph::Falloff Falloff;

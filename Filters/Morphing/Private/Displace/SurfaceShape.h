@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Boundary/Classification.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkStaticCellLocator;
+
+namespace morph::filters
+{
+/// The shape of an undeformed surface, along which its nodes can slide: a plane, a cylinder or, for
+/// any other surface, its facets. A plane fits its nodes to 1e-9 of their extent, a cylinder to
+/// 1e-6 of its radius.
+class SurfaceShape
+{
+public:
+  using Row = Eigen::RowVector3d;
+  enum class Kind
+  {
+    Plane,
+    Cylinder,
+    Facets
+  };
+
+  /// `points`: #nodes x 3. Cost: a few passes over the surface's nodes; for facets, a locator.
+  SurfaceShape(
+    const morph::Points& points, const morph::BoundaryFaces& faces, const morph::GeometrySurface&);
+
+  Kind GetKind() const { return this->How; }
+  /// The nearest point of the shape. Planes and cylinders have no end.
+  Row Closest(const Row& x) const;
+  double Distance(const Row& x) const { return (this->Closest(x) - x).norm(); }
+
+private:
+  bool FitPlane(const morph::Points& nodes);
+  bool FitCylinder(const morph::Points& nodes, const morph::Points& areas);
+  void TakeFacets(const morph::Points& points, const morph::BoundaryFaces& faces,
+    const morph::GeometrySurface& surface);
+
+  Kind How = Kind::Facets;
+  Row Center = Row::Zero();    ///< a point of the plane, or of the axis
+  Row Direction = Row::Zero(); ///< the plane's normal, or the axis
+  double Radius = 0;
+  vtkSmartPointer<vtkStaticCellLocator> Locator;
+};
+}

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What surfaces do that touch what moves: they keep their shape where they can. The others stay.
+#include "DisplacedBoundaries.h"
+
+#include "vtkMorphMesh.h"
+
+#include <vtkNew.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkTransform.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using grids::Row;
+
+namespace
+{
+double radius(const Row& x)
+{
+  return std::hypot(x[0], x[1]);
+}
+
+bool isAt(double value, double wanted)
+{
+  return std::abs(value - wanted) < 1e-9;
+}
+
+/// A block with a hole of radius 1 about the z axis, outer radius 2 and length 1: a sector of
+/// `angle` degrees, turned and shifted so that no plane is an axis plane if `turned`.
+vtkSmartPointer<vtkUnstructuredGrid> sector(double angle, int cellsAround)
+{
+  morph::Mesh mesh = meshes::hexes(3, cellsAround, 3);
+  meshes::transform(mesh,
+    [&](const Row& x)
+    {
+      const double r = 1 + x[0] / 3, phi = angle * M_PI / 180 * x[1] / cellsAround;
+      return Row(r * std::cos(phi), r * std::sin(phi), x[2] / 3);
+    });
+  return grids::make(mesh);
+}
+
+std::string surface(vtkDataObject* grid, const std::function<bool(const Row&)>& is)
+{
+  auto filter = displaced::make(grid);
+  return displaced::surfaceName(filter, is);
+}
+
+bool onHole(const Row& x)
+{
+  return isAt(radius(x), 1);
+}
+
+bool onOuterWall(const Row& x)
+{
+  return isAt(radius(x), 2);
+}
+
+double angleOf(const Row& x)
+{
+  return std::atan2(x[1], x[0]) * 180 / M_PI;
+}
+}
+
+TEST(BoundarySliding, PlanesOfSymmetryStayPlanarWhileAHoleGrows)
+{
+  for (const bool turned : { false, true })
+  {
+    auto grid = sector(90, 5);
+    vtkNew<vtkTransform> place;
+    if (turned)
+    {
+      place->Translate(3, -2, 7);
+      place->RotateWXYZ(40, 1, 2, 3);
+    }
+    const std::string hole = surface(grid, onHole);
+    const std::string first = surface(grid, [](const Row& x) { return isAt(x[1], 0); });
+    const std::string second = surface(grid, [](const Row& x) { return isAt(x[0], 0); });
+    const morph::Points unturned = grids::points(grid);
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      grid->GetPoints()->SetPoint(i, place->TransformPoint(grid->GetPoint(i)));
+    }
+    vtkNew<vtkMorphMesh> filter;
+    filter->SetInputData(grid);
+    filter->AddSurface(hole.c_str());
+    filter->SetDisplacementToNormals();
+    filter->SetDistance(-0.3); // against the normal that points out of the mesh
+    filter->AddSlidingSurface(first.c_str());
+    filter->AddSlidingSurface(second.c_str());
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+    vtkLinearTransform* back = place->GetLinearInverse();
+    double moved = 0;
+    for (morph::Index i = 0; i < unturned.rows(); ++i)
+    {
+      const Row x = unturned.row(i);
+      Row y;
+      back->TransformPoint(filter->GetOutput()->GetPoint(i), y.data());
+      // The size is about 3, and its place 8 from the origin.
+      EXPECT_TRUE(!isAt(x[1], 0) || std::abs(y[1]) < (turned ? 1e-14 * 20 : 1e-15)) << y[1];
+      EXPECT_TRUE(!isAt(x[0], 0) || std::abs(y[0]) < 1e-14 * 20) << y[0];
+      EXPECT_TRUE(!isAt(x[2], 0) || std::abs(y[2]) < 1e-12 * 3) << y[2];
+      EXPECT_TRUE(!isAt(x[2], 1) || std::abs(y[2] - 1) < 1e-12 * 3) << y[2];
+      EXPECT_TRUE(!isAt(radius(x), 2) || (y - x).norm() < 1e-14) << y;
+      if (onHole(x))
+      {
+        EXPECT_NEAR(radius(y), 1.3, 0.01); // normals of facets
+        moved = std::max(moved, (y - x).norm());
+      }
+    }
+    EXPECT_GT(moved, 0.29);
+
+    // Without them the rim leaves the planes, since the hole's normals at its end do.
+    filter->RemoveAllSlidingSurfaces();
+    filter->Update();
+    double off = 0;
+    for (morph::Index i = 0; i < unturned.rows(); ++i)
+    {
+      Row y;
+      back->TransformPoint(filter->GetOutput()->GetPoint(i), y.data());
+      off = std::max(off, isAt(unturned(i, 1), 0) ? std::abs(y[1]) : 0);
+    }
+    EXPECT_GT(off, 0.02);
+    ASSERT_FALSE(listener.Warnings.empty());
+    EXPECT_NE(listener.Warnings[0].find("off their own shape"), std::string::npos);
+  }
+}
+
+TEST(BoundarySliding, TheOuterWallStaysWhereAHoleGrows)
+{
+  // Two halves of a pipe, whose ends meet: no vertex, and closed curves.
+  auto grid = sector(180, 8);
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, onHole).c_str());
+  filter->SetMotionToTransform();
+  vtkNew<vtkTransform> grow;
+  grow->Scale(1.2, 1.2, 1);
+  filter->SetTransform(grow);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  vtkPolyData* output = filter->GetOutput();
+  const morph::Points x = displaced::restPositions(output), y = grids::points(output);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (onOuterWall(x.row(i)))
+    {
+      EXPECT_EQ(y.row(i), x.row(i));
+      EXPECT_EQ(displaced::role(output, i), 0);
+    }
+    EXPECT_NEAR(y(i, 2), x(i, 2), 1e-15);
+    if (!onHole(x.row(i)) && !onOuterWall(x.row(i)) && (isAt(x(i, 2), 0) || isAt(x(i, 1), 0)))
+    {
+      EXPECT_EQ(displaced::role(output, i), 3) << x.row(i);
+      EXPECT_GT(radius(y.row(i)), radius(x.row(i)));
+    }
+  }
+}
+
+TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
+{
+  auto grid = sector(90, 5);
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, [](const Row& x) { return isAt(x[2], 1); }).c_str());
+  vtkNew<vtkTransform> turn;
+  turn->Translate(0, 0, 0.5);
+  turn->RotateZ(10);
+  filter->SetTransform(turn);
+  filter->AddSlidingPatch(surface(grid, onHole).c_str());
+  filter->AddSlidingPatch(surface(grid, onOuterWall).c_str());
+  grids::Listener listener(filter);
+  filter->Update();
+  const morph::Points x = displaced::restPositions(filter->GetOutput());
+  const morph::Points y = grids::points(filter->GetOutput());
+  vtkIdType along = 0;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (onHole(x.row(i)) || onOuterWall(x.row(i)))
+    {
+      EXPECT_NEAR(radius(y.row(i)), radius(x.row(i)), 1e-12);
+      along += x(i, 2) < 1 && y(i, 2) > x(i, 2) && angleOf(y.row(i)) > angleOf(x.row(i)) + 1;
+    }
+  }
+  EXPECT_GT(along, 8);
+  // The two planes of the sector cannot follow in themselves.
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find(" % of the largest displacement"), std::string::npos);
+}
+
+TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetMotionToVector();
+  filter->SetVector(0.3, 0, 0.4);
+  grids::Listener listener(filter);
+  filter->Update();
+  // Two sides keep their planes, and two are pulled 0.3 out of theirs by 0.5.
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find(" by 0.3 (60 % of the largest displacement), Surface "),
+    std::string::npos)
+    << listener.Warnings[0];
+  filter->SetVector(0.003, 0, 0.4); // within 1 %: they slide, but for the edge that moves
+  filter->Update();
+  EXPECT_EQ(listener.Warnings.size(), 1u);
+  filter->SetVector(0.3, 0, 0.4);
+  filter->SetSurroundingsToFollowAll();
+  filter->Update();
+  EXPECT_EQ(listener.Warnings.size(), 1u);
+}
+
+TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetMotionToVector();
+  filter->SetVector(0, 0, 0.4);
+  filter->Update();
+  const auto followers = [&](const std::function<bool(const Row&)>& is)
+  {
+    int count = 0;
+    const morph::Points x = displaced::restPositions(filter->GetOutput());
+    for (morph::Index i = 0; i < x.rows(); ++i)
+    {
+      count += is(x.row(i)) && displaced::role(filter->GetOutput(), i) == 3;
+    }
+    return count;
+  };
+  const auto isInBottom = [](const Row& x) { return x[2] == 0; };
+  const auto isInSide = [](const Row& x) { return x[0] == 0 && x[2] > 0; };
+  EXPECT_EQ(followers(isInBottom), 0);
+  EXPECT_EQ(followers(isInSide), 15);
+  // One corner that moves alone: its three faces follow.
+  filter->SetMovingToSelection();
+  filter->SetSelectionData(displaced::indices(vtkSelectionNode::POINT,
+    displaced::nodesWhere(grid, [](const Row& x) { return x.norm() == 0; })));
+  filter->SetVector(-0.4, -0.4, -0.4);
+  grids::Listener silence(filter);
+  filter->Update();
+  EXPECT_GT(followers(isInBottom), 10);
+}
+
+TEST(BoundarySliding, NamesWhatDoesNotExist)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grids::make(meshes::hexes(2, 2, 2)));
+  filter->SetMovingToEverything();
+  filter->AddSlidingSurface("Curve 1");
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("SlidingSurfaces names 'Curve 1'"), std::string::npos);
+}
