@@ -29,7 +29,7 @@ def build():
     bore = simple.XMLUnstructuredGridReader(registrationName="bore",
                                             FileName=[str(DATA / "bore_hex_small.vtu")])
     moved = BoundaryDisplacement(registrationName="moved", Input=bore, Moving="Inside Region",
-                                 Region="Box")
+                                 Region="Box", Surroundings="Follow everywhere")
     moved.Region.Position, moved.Region.Length = [-4, -4, 6], [8, 8, 7]
     moved.Transform.Translate = [1.2, 0.5, 1.5]
     moved.Transform.Rotate = [10, 20, 30]

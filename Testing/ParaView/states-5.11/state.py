@@ -51,6 +51,7 @@ moved = BoundaryDisplacement(registrationName='moved', Input=bore,
 moved.Moving = 'Inside Region'
 moved.Region = 'Box'
 moved.Transform = 'Transform'
+moved.Surroundings = 'Follow everywhere'  # what Follow was when this state was written
 
 # init the 'Box' selected for 'Region'
 moved.Region.Position = [-4.0, -4.0, 6.0]
