@@ -17,6 +17,7 @@
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Shapes/ShapeModes.h"
+#include "Private/Shapes/WeightRanges.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -102,7 +103,8 @@ public:
   filters::Results Results{ filters::ResultTables::vtkMorphShapes() };
   filters::ShapeModes Modes;
   filters::Ports Ports;
-  morph::Points Moved; ///< kept for its memory: its content has no effect
+  filters::WeightRanges Ranges; ///< of the last execution
+  morph::Points Moved;          ///< kept for its memory: its content has no effect
 
   explicit vtkInternals(vtkMorphShapes* filter)
     : Ports(filter)
@@ -120,6 +122,8 @@ private:
   std::vector<filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
   void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
   void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+  void FindRanges(const std::vector<double>& weights, morph::Monitor& monitor);
+  std::vector<std::string> Names(std::size_t number) const;
   void WriteShapes(const std::vector<double>& weights, vtkUnstructuredGrid* output) const;
 };
 
@@ -273,7 +277,11 @@ int vtkMorphShapes::RequestData(
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
-    [&] { kept.Results.Reset(); },
+    [&]
+    {
+      kept.Results.Reset();
+      kept.Ranges = {};
+    },
     [&](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
     { kept.Morph(grid, inputVector[1], output, badCells, monitor); },
     [&](vtkDataObject* input, const char* status)
@@ -362,6 +370,10 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Results.SetNumber("EvaluateSeconds",
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
+  if (this->Filter->FindValidRanges)
+  {
+    this->FindRanges(weights, monitor);
+  }
   this->Measure(output, badCells, monitor);
   this->WriteShapes(weights, output);
 }
@@ -380,20 +392,68 @@ void vtkMorphShapes::vtkInternals::Measure(
   this->Results.Write(output);
 }
 
+void vtkMorphShapes::vtkInternals::FindRanges(
+  const std::vector<double>& weights, morph::Monitor& monitor)
+{
+  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, this->Moved, monitor);
+  this->Results.SetText("ValidRanges", this->Ranges.Text(this->Names(weights.size())));
+  this->Results.SetNumber("LargestFactor", this->Ranges.LargestFactor);
+}
+
+std::vector<std::string> vtkMorphShapes::vtkInternals::Names(std::size_t number) const
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < number; ++i)
+  {
+    names.push_back(this->Filter->GetShapeName(static_cast<int>(i)));
+  }
+  return names;
+}
+
 void vtkMorphShapes::vtkInternals::WriteShapes(
   const std::vector<double>& weights, vtkUnstructuredGrid* output) const
 {
   vtkNew<vtkStringArray> names;
   names->SetName("ShapeNames");
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("ShapeWeights");
-  for (std::size_t i = 0; i < weights.size(); ++i)
+  for (const std::string& name : this->Names(weights.size()))
   {
-    names->InsertNextValue(this->Filter->GetShapeName(static_cast<int>(i)));
-    values->InsertNextValue(weights[i]);
+    names->InsertNextValue(name);
   }
   output->GetFieldData()->AddArray(names);
-  output->GetFieldData()->AddArray(values);
+  const auto add = [&](const char* name, const auto& valueOf)
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(name);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      values->InsertNextValue(valueOf(i));
+    }
+    output->GetFieldData()->AddArray(values);
+  };
+  add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
+  if (this->Filter->FindValidRanges)
+  {
+    add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
+    add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });
+  }
+}
+
+double vtkMorphShapes::GetLowestWeight(int shape) const
+{
+  const auto& ranges = this->Internals->Ranges.Shapes;
+  return shape >= 0 && static_cast<std::size_t>(shape) < ranges.size() ? ranges[shape].lowest : NAN;
+}
+
+double vtkMorphShapes::GetHighestWeight(int shape) const
+{
+  const auto& ranges = this->Internals->Ranges.Shapes;
+  return shape >= 0 && static_cast<std::size_t>(shape) < ranges.size() ? ranges[shape].highest
+                                                                       : NAN;
+}
+
+const char* vtkMorphShapes::GetValidRanges() const
+{
+  return this->Internals->Results.Text("ValidRanges").c_str();
 }
 
 double vtkMorphShapes::GetNumber(const char* name) const
@@ -434,6 +494,7 @@ void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
+  os << indent << "FindValidRanges: " << this->FindValidRanges << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   this->Internals->Results.Print(os, indent);

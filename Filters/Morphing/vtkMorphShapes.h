@@ -139,6 +139,21 @@ public:
 
   ///@{
   /**
+   * Whether to find the valid range of each weight: the open interval around 0 in which no cell is
+   * inverted, the other weights at their present values. Its ends are roots of the determinants
+   * that ScaledJacobian measures: polynomials of degree 3 in a weight, and of degree 6 in the
+   * tangent of half the angle for a rotation. The ends are on the safe side by rounding, for
+   * quadratic cells by more (morph::validRange()). The field data have ShapeLowestWeight and
+   * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Cost: one pass over
+   * the cells a shape. Default on.
+   */
+  vtkSetMacro(FindValidRanges, bool);
+  vtkGetMacro(FindValidRanges, bool);
+  vtkBooleanMacro(FindValidRanges, bool);
+  ///@}
+
+  ///@{
+  /**
    * How the points of every shape are matched to nodes; see vtkMorphAlgorithm.
    */
   vtkSetStringMacro(BoundaryIdArray);
@@ -184,6 +199,19 @@ public:
   vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
   vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }
   const char* GetMorphStatus() const;
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution, with FindValidRanges on: the ends of a shape's valid range, NaN for a
+   * shape that there was not; all ranges as text; and the largest factor of all weights together
+   * with which no cell is inverted. The factor is NaN where a shape that is taken as a rotation has
+   * a weight other than 0: the motion is then no polynomial. It is on the mesh in double precision.
+   */
+  double GetLowestWeight(int shape) const;
+  double GetHighestWeight(int shape) const;
+  const char* GetValidRanges() const;
+  double GetLargestFactor() const { return this->GetNumber("LargestFactor"); }
   ///@}
 
   ///@{
@@ -239,6 +267,7 @@ private:
   char* DisplacementArray = nullptr;
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;
+  bool FindValidRanges = true;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
 };

@@ -259,3 +259,61 @@ TEST(MorphShapes, BadCellsAreOnTheSecondOutput)
   auto* bad = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1));
   EXPECT_EQ(bad->GetNumberOfCells(), filter->GetInvertedCells() + filter->GetDegenerateCells());
 }
+
+namespace
+{
+bool isValid(vtkMorphShapes* filter)
+{
+  filter->Update();
+  return filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
+}
+}
+
+TEST(MorphShapes, ValidRangesEndWhereCellsAreInverted)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { grids::twist, turnedTop(1.2),
+                                 [](const Row& x) -> Row { return x - Row(0, 0, .25 * x[2]); } });
+  filter->SetMotion(1, vtkMorphShapes::MOTION_AS_ROTATION);
+  filter->SetWeight(0, .5);
+  filter->SetWeight(2, .25);
+  filter->Update();
+  EXPECT_NE(std::string(filter->GetValidRanges()).find("Shape 2 "), std::string::npos);
+  EXPECT_GT(filter->GetHighestWeight(2), 2);
+  for (int shape = 0; shape < 3; ++shape)
+  {
+    const double before = filter->GetWeight(shape);
+    const double ends[] = { filter->GetLowestWeight(shape), filter->GetHighestWeight(shape) };
+    EXPECT_LT(ends[0], 0);
+    EXPECT_GT(ends[1], 0);
+    for (double end : ends)
+    {
+      filter->SetWeight(shape, std::isfinite(end) ? end * (1 - 1e-6) : std::copysign(100, end));
+      EXPECT_TRUE(isValid(filter)) << shape << " at " << end;
+      if (std::isfinite(end))
+      {
+        filter->SetWeight(shape, end * (1 + 1e-6));
+        EXPECT_FALSE(isValid(filter)) << shape << " at " << end;
+      }
+    }
+    filter->SetWeight(shape, before);
+    filter->Update();
+  }
+  EXPECT_TRUE(std::isnan(filter->GetLowestWeight(3)));
+
+  const double factor = filter->GetLargestFactor();
+  ASSERT_TRUE(std::isfinite(factor));
+  for (double near : { 1 - 1e-6, 1 + 1e-6 })
+  {
+    filter->SetWeight(0, .5 * factor * near);
+    filter->SetWeight(2, .25 * factor * near);
+    EXPECT_EQ(isValid(filter), near < 1);
+  }
+  filter->SetWeight(1, .1);
+  filter->Update();
+  EXPECT_TRUE(std::isnan(filter->GetLargestFactor()));
+  filter->FindValidRangesOff();
+  filter->Update();
+  EXPECT_TRUE(std::isnan(filter->GetHighestWeight(0)));
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->GetArray("ShapeLowestWeight"));
+}

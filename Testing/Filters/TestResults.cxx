@@ -103,6 +103,8 @@ Getters gettersOf(vtkMorphShapes* f)
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
+    { "ValidRanges", [f] { return f->GetValidRanges(); } },
+    { "LargestFactor", [f] { return f->GetLargestFactor(); } },
     { "PrepareSeconds", [f] { return f->GetPrepareSeconds(); } },
     { "EvaluateSeconds", [f] { return f->GetEvaluateSeconds(); } },
     { "PrepareCount", [f] { return f->GetPrepareCount(); } },

@@ -268,4 +268,16 @@ std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>&
   }
   return result;
 }
+
+morph::NodeMotion ShapeModes::MotionOf(std::size_t shape, const morph::Points& base) const
+{
+  const Solved& solved = this->Shapes[shape];
+  morph::NodeMotion motion = { &base, this->Modes[solved.Modes[0]].Field.get() };
+  if (solved.Angle > 0)
+  {
+    motion.second = this->Modes[solved.Modes[1]].Field.get();
+    motion.angle = solved.Angle;
+  }
+  return motion;
+}
 }

@@ -6,6 +6,7 @@
 #include "Morpher/Blend.h"
 #include "Morpher/Morpher.h"
 #include "Private/Morph/BoundaryMatch.h"
+#include "Quality/ValidRange.h"
 
 #include <cstdint>
 #include <functional>
@@ -61,6 +62,9 @@ public:
   /// The displacement fields of the shapes of the last Solve(), with their weights. `weights`:
   /// #shapes; of a rotation, the factor of its angle.
   std::vector<morph::WeightedMode> Weighted(const std::vector<double>& weights) const;
+  bool IsRotation(std::size_t shape) const { return this->Shapes[shape].Angle > 0; }
+  /// The motion by the weight of one shape. `base`: #nodes x 3, the mesh at a weight of 0.
+  morph::NodeMotion MotionOf(std::size_t shape, const morph::Points& base) const;
 
 private:
   /// A displacement of the boundary and its field.
