@@ -17,6 +17,8 @@ namespace
 {
 const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output>\n"
                           "       morph-mesh --extract-boundary <grid> <boundary>\n"
+                          "       morph-mesh [options] <grid> --shapes <boundary>... --table "
+                          "<table> --output <folder>\n"
                           "\n"
                           "Moves the nodes of a volume mesh so that it fits its displaced "
                           "boundary, writes it, and prints its quality.\n"
@@ -73,8 +75,35 @@ std::pair<std::string, std::string> nameAndValue(const std::string& text)
   return { text.substr(0, equals), text.substr(equals + 1) };
 }
 
+/// Throws UsageError unless all that a table of designs needs is given, and nothing else.
+void takeDesigns(const std::vector<std::string>& files, Arguments& result)
+{
+  if (result.shapes.empty() || result.table.empty() || result.output.empty())
+  {
+    throw UsageError("Designs need --shapes, --table and --output, all three.");
+  }
+  if (files.size() != 1 || result.task == Arguments::Task::ExtractBoundary)
+  {
+    throw UsageError("With --shapes one more file is needed, the grid; " +
+                     std::to_string(files.size()) + " are given.");
+  }
+  if (result.scaleFactor != 1 || result.postSmooth || result.validity != "Report")
+  {
+    throw UsageError(
+      "--scale-factor, --post-smooth and --validity have no effect on --shapes: remove them.");
+  }
+  result.grid = files.front();
+  result.task = Arguments::Task::WriteDesigns;
+}
+
 void takeFiles(const std::vector<std::string>& files, Arguments& result)
 {
+  if (!result.shapes.empty() || !result.table.empty() || !result.output.empty() ||
+      !result.rotations.empty())
+  {
+    takeDesigns(files, result);
+    return;
+  }
   const bool morphs = result.task == Arguments::Task::Morph;
   const std::size_t expected = morphs ? 3 : 2;
   if (files.size() != expected)
@@ -109,6 +138,20 @@ std::vector<Option> optionsOf(Arguments& result)
       text(result.method) },
     { "--set", "<name>=<value>", "an option of the method; may be repeated:\n" + optionNames(),
       [&](const std::string& value) { result.options.push_back(nameAndValue(value)); } },
+    { "--shapes", "<boundary>...",
+      "shapes, one displaced boundary each, whose motions are added with weights; up to the next "
+      "option",
+      [&](const std::string& value) { result.shapes.push_back(value); } },
+    { "--table", "<file>",
+      "the weights, comma-separated values: a column for each shape, named as its file without "
+      "extension,\nand a line for each design",
+      text(result.table) },
+    { "--output", "<folder>",
+      "of design_0000.vtu and so on, and quality.csv; a run that was stopped continues there",
+      text(result.output) },
+    { "--as-rotation", "<shape>",
+      "the weight of this shape is the factor of its angle; may be repeated",
+      [&](const std::string& value) { result.rotations.push_back(value); } },
     { "--boundary-id-array", "<name>", "point array of the boundary that holds node ids",
       text(result.boundaryIdArray) },
     { "--displacement-array", "<name>", "point vectors of the boundary by which its nodes move",
@@ -181,12 +224,13 @@ Arguments parseArguments(int argc, char* argv[])
   const std::vector<Option> options = optionsOf(result);
   std::vector<std::string> files;
   bool onlyFiles = false;
+  bool isAfterShapes = false; // the option with more than one value
   for (int i = 1; i < argc; ++i)
   {
     const std::string argument = argv[i];
     if (onlyFiles || argument[0] != '-')
     {
-      files.push_back(argument);
+      (isAfterShapes ? result.shapes : files).push_back(argument);
     }
     else if (argument == "--")
     {
@@ -194,6 +238,7 @@ Arguments parseArguments(int argc, char* argv[])
     }
     else
     {
+      isAfterShapes = argument == "--shapes";
       takeOption(options, argument,
         [&](const std::string& name) -> std::string
         {

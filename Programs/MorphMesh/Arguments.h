@@ -15,11 +15,15 @@ struct Arguments
   {
     Morph,
     ExtractBoundary,
+    WriteDesigns,
     ShowHelp,
     ShowVersion
   };
   Task task = Task::Morph;
   std::string grid, boundary, output; ///< files; ExtractBoundary takes no boundary
+  std::vector<std::string> shapes;    ///< files, of WriteDesigns, whose output is a folder
+  std::vector<std::string> rotations; ///< names of shapes
+  std::string table;                  ///< file of WriteDesigns
   std::string method = "FEMWARP";
   std::vector<std::pair<std::string, std::string>> options; ///< of the method, by name
   std::string validity = "Report";

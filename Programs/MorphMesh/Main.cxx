@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // morph-mesh: the morphing filters on the command line.
 #include "Arguments.h"
+#include "Designs.h"
 #include "Files.h"
 #include "Messages.h"
 #include "Methods.h"
@@ -109,6 +110,8 @@ int run(int argc, char* argv[])
       return 0;
     case Arguments::Task::ExtractBoundary:
       return extractBoundary(arguments);
+    case Arguments::Task::WriteDesigns:
+      return writeDesigns(arguments);
     case Arguments::Task::Morph:
       break;
   }

@@ -6,6 +6,7 @@
 #include <vtkFEMWarpMorph.h>
 #include <vtkInversionFreeMorph.h>
 #include <vtkLBWarpMorph.h>
+#include <vtkMorphShapes.h>
 #include <vtkSimplexLinearMorph.h>
 #include <vtkSimplexNaturalNeighborMorph.h>
 #include <vtkSmoothingMorph.h>
@@ -194,6 +195,31 @@ void setOption(vtkMorphAlgorithm* method, const std::string& name, const std::st
                      (own->options.empty() ? "." : "; it has " + names(own->options) + "."));
   }
   option->set(method, valueOf(*option, value));
+}
+
+void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
+  const std::vector<std::pair<std::string, std::string>>& options)
+{
+  const std::vector<std::string> linear = { "FEMWARP", "LBWARP", "WeightedResidual",
+    "SimplexLinear", "SimplexNaturalNeighbor" }; // as vtkMorphShapes::MethodType
+  const auto found = std::find_if(linear.begin(), linear.end(),
+    [&](const std::string& method) { return plain(method) == plain(name); });
+  if (found == linear.end())
+  {
+    throw UsageError(
+      "--shapes needs a linear method, one of " + join(linear, ", ") + ", not '" + name + "'.");
+  }
+  filter->SetMethod(static_cast<int>(found - linear.begin()));
+  const Option tolerance = { "Tolerance", {}, 1e-15, 0.999, {} };
+  for (const auto& [option, value] : options)
+  {
+    if (plain(option) != plain(tolerance.name))
+    {
+      throw UsageError(
+        "With --shapes the one option of a method is Tolerance, not '" + option + "'.");
+    }
+    filter->SetTolerance(valueOf(tolerance, value));
+  }
 }
 
 void setValidity(vtkMorphAlgorithm* method, const std::string& name)

@@ -4,8 +4,11 @@
 #include <vtkSmartPointer.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 class vtkMorphAlgorithm;
+class vtkMorphShapes;
 
 /// The morphing methods and their options by name; neither case nor "-", "_" and " " matter.
 namespace morph_mesh
@@ -16,6 +19,11 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(const std::string& name);
 /// Sets an option. Throws UsageError for an option that the method does not have, and for a value
 /// that the option does not accept.
 void setOption(vtkMorphAlgorithm* method, const std::string& name, const std::string& value);
+
+/// Sets the method of a blend of shapes, and its options. Throws UsageError for a method that is
+/// not linear, and for other options than Tolerance.
+void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
+  const std::vector<std::pair<std::string, std::string>>& options);
 
 /// Sets the treatment of inverted cells: None, Report, SubStep, Repair, Refuse. Throws UsageError
 /// for another name.
