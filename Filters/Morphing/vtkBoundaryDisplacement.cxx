@@ -35,34 +35,6 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkBoundaryDisplacement);
 
-morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
-  morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
-    morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
-      morphSetNumberMacro(vtkBoundaryDisplacement, Distance)
-        morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
-
-          void vtkBoundaryDisplacement::SetVector(double x, double y, double z)
-{
-  const double values[3] = { x, y, z };
-  for (int i = 0; i < 3; ++i)
-  {
-    if (!filters::Property::Accepts(this, "Vector", values[i], this->Vector[i]))
-    {
-      return;
-    }
-  }
-  if (!std::equal(values, values + 3, this->Vector))
-  {
-    std::copy(values, values + 3, this->Vector);
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::SetVector(const double vector[3])
-{
-  this->SetVector(vector[0], vector[1], vector[2]);
-}
-
 namespace
 {
 /// The inputs of a choice. Modification times distinguish an object from an earlier one at its
@@ -445,6 +417,12 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
   motion.Distance = filter->Distance;
   motion.ArrayName = filters::Input::ArrayName(filter->DisplacementArray);
+  std::copy(filter->Translation, filter->Translation + 3, motion.Translation.begin());
+  std::copy(filter->Rotation, filter->Rotation + 3, motion.Rotation.begin());
+  std::copy(filter->Scale, filter->Scale + 3, motion.Scale.begin());
+  motion.AutoCenter = filter->AutoCenter;
+  std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
+  motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
   const morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
 
@@ -506,6 +484,14 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "Distance: " << this->Distance << "\n";
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  const auto triple = [&](const char* name, const double* v)
+  { os << indent << name << ": " << v[0] << " " << v[1] << " " << v[2] << "\n"; };
+  triple("Translation", this->Translation);
+  triple("Rotation", this->Rotation);
+  triple("Scale", this->Scale);
+  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
+  triple("Center", this->Center);
+  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
@@ -524,3 +510,15 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ChooseCount: " << this->ChooseCount << "\n";
   os << indent << "PrepareCount: " << this->GetPrepareCount() << "\n";
 }
+
+morphSetNumberMacro(vtkBoundaryDisplacement, Distance)
+  morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
+    morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange)
+      morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
+        morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
+          morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
+            morphSetVectorMacro(vtkBoundaryDisplacement, Vector)
+              morphSetVectorMacro(vtkBoundaryDisplacement, Translation)
+                morphSetVectorMacro(vtkBoundaryDisplacement, Rotation)
+                  morphSetVectorMacro(vtkBoundaryDisplacement, Scale)
+                    morphSetVectorMacro(vtkBoundaryDisplacement, Center)

@@ -171,6 +171,8 @@ public:
     MOTION_VECTOR = 1,
     MOTION_ALONG_NORMALS = 2,
     MOTION_ARRAY = 3,
+    MOTION_PLACEMENT = 4,
+    MOTION_RADIUS = 5,
     // The old names, until version 0.2.
     TRANSFORM = MOTION_TRANSFORM,
     VECTOR = MOTION_VECTOR,
@@ -179,15 +181,18 @@ public:
   };
   ///@{
   /**
-   * How it moves: by Transform, by Vector, by Distance along its normals, or by DisplacementArray.
+   * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray, by
+   * Translation, Rotation and Scale, or by RadiusChange.
    * Default MOTION_TRANSFORM.
    */
-  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_ARRAY);
+  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_RADIUS);
   vtkGetMacro(Motion, int);
   void SetMotionToTransform() { this->SetMotion(MOTION_TRANSFORM); }
   void SetMotionToVector() { this->SetMotion(MOTION_VECTOR); }
   void SetMotionToAlongNormals() { this->SetMotion(MOTION_ALONG_NORMALS); }
   void SetMotionToArray() { this->SetMotion(MOTION_ARRAY); }
+  void SetMotionToPlacement() { this->SetMotion(MOTION_PLACEMENT); }
+  void SetMotionToRadius() { this->SetMotion(MOTION_RADIUS); }
   ///@}
 
   ///@{
@@ -226,6 +231,45 @@ public:
    */
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);
+  ///@}
+
+  ///@{
+  /**
+   * The numbers of MOTION_PLACEMENT: a scale and a rotation about the centre, then a
+   * translation. Translation: in the unit of the points. Rotation: degrees about the axes, z first,
+   * then x, then y. Defaults 0 0 0, 0 0 0, 1 1 1.
+   */
+  virtual void SetTranslation(double x, double y, double z);
+  virtual void SetTranslation(const double vector[3]);
+  vtkGetVector3Macro(Translation, double);
+  virtual void SetRotation(double x, double y, double z);
+  virtual void SetRotation(const double vector[3]);
+  vtkGetVector3Macro(Rotation, double);
+  virtual void SetScale(double x, double y, double z);
+  virtual void SetScale(const double vector[3]);
+  vtkGetVector3Macro(Scale, double);
+  ///@}
+
+  ///@{
+  /**
+   * The centre about which it is scaled and turned. AutoCenter, the default: the centre of the
+   * bounding box of what moves. Off: Center, by default the origin.
+   */
+  vtkSetMacro(AutoCenter, bool);
+  vtkGetMacro(AutoCenter, bool);
+  vtkBooleanMacro(AutoCenter, bool);
+  virtual void SetCenter(double x, double y, double z);
+  virtual void SetCenter(const double vector[3]);
+  vtkGetVector3Macro(Center, double);
+  ///@}
+
+  ///@{
+  /**
+   * How much the radius of the cylinders grows that move (MOTION_RADIUS), in the unit of the
+   * points. A surface that is no cylinder, or that would lose its radius, is an error. Default 0.
+   */
+  virtual void SetRadiusChange(double value);
+  vtkGetMacro(RadiusChange, double);
   ///@}
 
   ///@{
@@ -395,6 +439,12 @@ private:
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;
   char* DisplacementArray = nullptr;
+  double Translation[3] = { 0, 0, 0 };
+  double Rotation[3] = { 0, 0, 0 };
+  double Scale[3] = { 1, 1, 1 };
+  bool AutoCenter = true;
+  double Center[3] = { 0, 0, 0 };
+  double RadiusChange = 0;
   double ScaleFactor = 1;
   int Surroundings = SURROUNDINGS_FOLLOW;
   double FalloffRadius = 0.1;

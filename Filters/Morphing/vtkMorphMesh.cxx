@@ -214,6 +214,12 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
   to->SetVector(from->Vector);
   to->SetDistance(from->Distance);
   to->SetDisplacementArray(from->DisplacementArray);
+  to->SetTranslation(from->Translation);
+  to->SetRotation(from->Rotation);
+  to->SetScale(from->Scale);
+  to->SetAutoCenter(from->AutoCenter);
+  to->SetCenter(from->Center);
+  to->SetRadiusChange(from->RadiusChange);
   to->SetScaleFactor(from->ScaleFactor);
   to->SetSurroundings(from->Surroundings);
   to->SetFalloffRadius(from->FalloffRadius);
@@ -470,28 +476,6 @@ vtkAbstractTransform* vtkMorphMesh::GetTransform()
   return this->Internals->Transform;
 }
 
-void vtkMorphMesh::SetVector(double x, double y, double z)
-{
-  const double values[3] = { x, y, z };
-  for (int i = 0; i < 3; ++i)
-  {
-    if (!filters::Property::Accepts(this, "Vector", values[i], this->Vector[i]))
-    {
-      return;
-    }
-  }
-  if (!std::equal(values, values + 3, this->Vector))
-  {
-    std::copy(values, values + 3, this->Vector);
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::SetVector(const double vector[3])
-{
-  this->SetVector(vector[0], vector[1], vector[2]);
-}
-
 void vtkMorphMesh::SetMethod(int method)
 {
   const int known = std::min(std::max(method, int(METHOD_FEMWARP)), int(METHOD_INVERSION_FREE));
@@ -638,31 +622,26 @@ const char* vtkMorphMesh::GetMorphStatus() const
   {                                                                 \
     return static_cast<type>(this->Internals->Results.kind(#name)); \
   }
-morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
-  MeanScaledJacobian, double, Number) morphResultMacro(InvertedCells, vtkIdType, Integer)
-  morphResultMacro(DegenerateCells, vtkIdType, Integer) morphResultMacro(
-    WorstCellId, vtkIdType, Integer) morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
-    morphResultMacro(MirroredBodies, vtkIdType, Integer)
-      morphResultMacro(CertifiedCells, vtkIdType, Integer)
-        morphResultMacro(UncertifiedCells, vtkIdType, Integer)
-          morphResultMacro(UndecidedCells, vtkIdType, Integer)
-            morphResultMacro(LargestValidStep, double, Number)
-              morphResultMacro(PrepareSeconds, double, Number)
-                morphResultMacro(EvaluateSeconds, double, Number)
-                  morphResultMacro(SubSteps, vtkIdType, Integer)
-                    morphResultMacro(PrepareCount, int, Integer)
-                      morphResultMacro(PrescribedPoints, vtkIdType, Integer)
-                        morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
-                          morphResultMacro(SolverIterations, int, Integer)
+morphResultMacro(MinScaledJacobian, double, Number)
+  morphResultMacro(MeanScaledJacobian, double, Number)
+    morphResultMacro(InvertedCells, vtkIdType, Integer)
+      morphResultMacro(DegenerateCells, vtkIdType, Integer)
+        morphResultMacro(WorstCellId, vtkIdType, Integer)
+          morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
+            morphResultMacro(MirroredBodies, vtkIdType, Integer)
+              morphResultMacro(CertifiedCells, vtkIdType, Integer)
+                morphResultMacro(UncertifiedCells, vtkIdType, Integer)
+                  morphResultMacro(UndecidedCells, vtkIdType, Integer)
+                    morphResultMacro(LargestValidStep, double, Number)
+                      morphResultMacro(PrepareSeconds, double, Number)
+                        morphResultMacro(EvaluateSeconds, double, Number)
+                          morphResultMacro(SubSteps, vtkIdType, Integer)
+                            morphResultMacro(PrepareCount, int, Integer)
+                              morphResultMacro(PrescribedPoints, vtkIdType, Integer)
+                                morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
+                                  morphResultMacro(SolverIterations, int, Integer)
 
-                            morphSetNumberMacro(vtkMorphMesh, Distance)
-                              morphSetNumberMacro(vtkMorphMesh, ScaleFactor)
-                                morphSetNumberMacro(vtkMorphMesh, RestTime)
-                                  morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0)
-                                    morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0)
-                                      morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0)
-
-                                        void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
+                                    void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto text = [](const char* name) { return name ? name : "(none)"; };
@@ -687,6 +666,14 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
      << "\n";
   os << indent << "Distance: " << this->Distance << "\n";
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
+  const auto triple = [&](const char* name, const double* v)
+  { os << indent << name << ": " << v[0] << " " << v[1] << " " << v[2] << "\n"; };
+  triple("Translation", this->Translation);
+  triple("Rotation", this->Rotation);
+  triple("Scale", this->Scale);
+  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
+  triple("Center", this->Center);
+  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
@@ -704,3 +691,12 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   this->Internals->Results.Print(os, indent);
 }
+
+morphSetNumberMacro(vtkMorphMesh, RestTime) morphSetNumberMacro(vtkMorphMesh, Distance)
+  morphSetNumberMacro(vtkMorphMesh, ScaleFactor) morphSetNumberMacro(vtkMorphMesh, RadiusChange)
+    morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0)
+      morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0)
+        morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0)
+          morphSetVectorMacro(vtkMorphMesh, Vector) morphSetVectorMacro(vtkMorphMesh, Translation)
+            morphSetVectorMacro(vtkMorphMesh, Rotation) morphSetVectorMacro(vtkMorphMesh, Scale)
+              morphSetVectorMacro(vtkMorphMesh, Center)

@@ -155,19 +155,24 @@ public:
     DISPLACEMENT_TRANSFORM = 0,
     DISPLACEMENT_VECTOR = 1,
     DISPLACEMENT_NORMALS = 2,
-    DISPLACEMENT_ARRAY = 3
+    DISPLACEMENT_ARRAY = 3,
+    DISPLACEMENT_PLACEMENT = 4,
+    DISPLACEMENT_RADIUS = 5
   };
   ///@{
   /**
-   * How it moves: by Transform, by Vector, by Distance along its normals, or by DisplacementArray;
-   * each times ScaleFactor. See vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray,
+   * by Translation, Rotation and Scale, or by RadiusChange; each times ScaleFactor. See
+   * vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
    */
-  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_ARRAY);
+  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_RADIUS);
   vtkGetMacro(Displacement, int);
   void SetDisplacementToTransform() { this->SetDisplacement(DISPLACEMENT_TRANSFORM); }
   void SetDisplacementToVector() { this->SetDisplacement(DISPLACEMENT_VECTOR); }
   void SetDisplacementToNormals() { this->SetDisplacement(DISPLACEMENT_NORMALS); }
   void SetDisplacementToArray() { this->SetDisplacement(DISPLACEMENT_ARRAY); }
+  void SetDisplacementToPlacement() { this->SetDisplacement(DISPLACEMENT_PLACEMENT); }
+  void SetDisplacementToRadius() { this->SetDisplacement(DISPLACEMENT_RADIUS); }
   ///@}
 
   ///@{
@@ -203,6 +208,45 @@ public:
    */
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);
+  ///@}
+
+  ///@{
+  /**
+   * The numbers of DISPLACEMENT_PLACEMENT: a scale and a rotation about the centre, then a
+   * translation. Translation: in the unit of the points. Rotation: degrees about the axes, z first,
+   * then x, then y. Defaults 0 0 0, 0 0 0, 1 1 1.
+   */
+  virtual void SetTranslation(double x, double y, double z);
+  virtual void SetTranslation(const double vector[3]);
+  vtkGetVector3Macro(Translation, double);
+  virtual void SetRotation(double x, double y, double z);
+  virtual void SetRotation(const double vector[3]);
+  vtkGetVector3Macro(Rotation, double);
+  virtual void SetScale(double x, double y, double z);
+  virtual void SetScale(const double vector[3]);
+  vtkGetVector3Macro(Scale, double);
+  ///@}
+
+  ///@{
+  /**
+   * The centre about which it is scaled and turned. AutoCenter, the default: the centre of the
+   * bounding box of what moves. Off: Center, by default the origin.
+   */
+  vtkSetMacro(AutoCenter, bool);
+  vtkGetMacro(AutoCenter, bool);
+  vtkBooleanMacro(AutoCenter, bool);
+  virtual void SetCenter(double x, double y, double z);
+  virtual void SetCenter(const double vector[3]);
+  vtkGetVector3Macro(Center, double);
+  ///@}
+
+  ///@{
+  /**
+   * How much the radius of the cylinders grows that move (DISPLACEMENT_RADIUS), in the unit of the
+   * points. A surface that is no cylinder, or that would lose its radius, is an error. Default 0.
+   */
+  virtual void SetRadiusChange(double value);
+  vtkGetMacro(RadiusChange, double);
   ///@}
 
   ///@{
@@ -376,6 +420,12 @@ private:
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;
   char* DisplacementArray = nullptr;
+  double Translation[3] = { 0, 0, 0 };
+  double Rotation[3] = { 0, 0, 0 };
+  double Scale[3] = { 1, 1, 1 };
+  bool AutoCenter = true;
+  double Center[3] = { 0, 0, 0 };
+  double RadiusChange = 0;
   double ScaleFactor = 1;
   int Surroundings = 1;
   double FalloffRadius = 0.1;

@@ -251,6 +251,65 @@ TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
   EXPECT_GT(followers(isInBottom), 10);
 }
 
+TEST(BoundarySliding, TheRadiusOfAHoleIsOneNumber)
+{
+  auto grid = sector(90, 5);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->AddSurface(surface(grid, onHole).c_str());
+  filter->SetDisplacementToRadius();
+  filter->SetRadiusChange(0.3);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    EXPECT_TRUE(!onHole(x.row(i)) || std::abs(radius(y.row(i)) - 1.3) < 1e-12);
+    EXPECT_TRUE(!onHole(x.row(i)) || std::abs(angleOf(y.row(i)) - angleOf(x.row(i))) < 1e-9);
+    EXPECT_TRUE(!onOuterWall(x.row(i)) || y.row(i) == x.row(i));
+  }
+  filter->SetRadiusChange(-1.5);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("no radius"), std::string::npos) << listener.Errors[0];
+  filter->SetMovingToEverything();
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 2u);
+  EXPECT_NE(listener.Errors[1].find("is none"), std::string::npos) << listener.Errors[1];
+}
+
+TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetSurroundingsToStay();
+  filter->SetMotionToPlacement();
+  filter->SetRotation(0, 0, 90);
+  filter->SetScale(0.5, 1, 1);
+  filter->SetTranslation(0, 0, 1);
+  const auto check = [&](const Row& center)
+  {
+    filter->Update();
+    const morph::Points x = displaced::restPositions(filter->GetOutput());
+    const morph::Points y = grids::points(filter->GetOutput());
+    for (morph::Index i = 0; i < x.rows(); ++i)
+    {
+      const Row d = x.row(i) - center;
+      const Row wanted = x(i, 2) == 4 ? Row(center + Row(-d[1], 0.5 * d[0], d[2] + 1)) : x.row(i);
+      EXPECT_LE((y.row(i) - wanted).norm(), 1e-14) << x.row(i);
+    }
+  };
+  check(Row(2, 2, 4));
+  filter->AutoCenterOff();
+  check(Row(0, 0, 0));
+  filter->SetCenter(1, 2, 3);
+  check(Row(1, 2, 3));
+}
+
 TEST(BoundarySliding, NamesWhatDoesNotExist)
 {
   vtkNew<vtkMorphMesh> filter;

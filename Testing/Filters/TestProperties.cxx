@@ -134,6 +134,8 @@ TEST(Properties, OfMorphMesh)
   EXPECT_REFUSED(vtkMorphMesh, CornerAngle, 0, 180, 30);
   EXPECT_REFUSED(vtkMorphMesh, FalloffRadius, 0, 10, 0.5);
   EXPECT_REFUSED(vtkMorphMesh, Distance, -Any, Any, 2);
+  EXPECT_REFUSED(vtkMorphMesh, RadiusChange, -Any, Any, 2);
+  EXPECT_REFUSED(vtkBoundaryDisplacement, RadiusChange, -Any, Any, 2);
   EXPECT_REFUSED(vtkMorphMesh, ScaleFactor, -Any, Any, 2);
   EXPECT_REFUSED(vtkMorphMesh, RestTime, -Any, Any, 2);
 }

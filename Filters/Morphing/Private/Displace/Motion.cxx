@@ -3,12 +3,16 @@
 
 #include "Boundary/FaceAreas.h"
 #include "Private/Data/DataCheck.h"
+#include "Private/Displace/SurfaceShape.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkTransform.h>
 
 #include <algorithm>
 
@@ -76,6 +80,77 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
   return rows;
 }
 
+/// Scales and turns about the centre, and translates.
+Points placed(const Points& from, const Motion::Options& options)
+{
+  Eigen::RowVector3d center(options.Center[0], options.Center[1], options.Center[2]);
+  if (options.AutoCenter)
+  {
+    center = 0.5 * (from.colwise().minCoeff() + from.colwise().maxCoeff());
+  }
+  vtkNew<vtkTransform> transform;
+  transform->Translate(options.Translation.data());
+  transform->Translate(center.data());
+  transform->RotateZ(options.Rotation[2]);
+  transform->RotateX(options.Rotation[0]);
+  transform->RotateY(options.Rotation[1]);
+  // A factor of zero is allowed, where VTK raises an error.
+  vtkNew<vtkMatrix4x4> scale;
+  for (int i = 0; i < 3; ++i)
+  {
+    scale->SetElement(i, i, options.Scale[i]);
+  }
+  transform->Concatenate(scale);
+  transform->Translate(-center[0], -center[1], -center[2]);
+  return transformed(from, transform);
+}
+
+/// Moves nodes away from the axis of their cylinder.
+Points withRadius(
+  const BoundaryModel& model, const Choice::Result& choice, const Points& from, double change)
+{
+  std::vector<Index> row(model.Points().rows(), -1);
+  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+  {
+    row[choice.Moving[i]] = static_cast<Index>(i);
+  }
+  Points to = from;
+  std::vector<std::uint8_t> isDone(choice.Moving.size(), 0);
+  for (const morph::GeometrySurface& surface : model.Geometry().surfaces)
+  {
+    if (std::none_of(surface.faces.begin(), surface.faces.end(),
+          [&](Index face) { return choice.IsMovingFace[face] != 0; }))
+    {
+      continue;
+    }
+    const SurfaceShape shape(model.Points(), model.Faces(), surface);
+    const std::string name = "Surface " + std::to_string(surface.id);
+    if (shape.GetKind() != SurfaceShape::Kind::Cylinder)
+    {
+      throw Error("RadiusChange needs cylinders, and " + name +
+                  ", which moves, is none. Choose cylinders, or another displacement.");
+    }
+    if (shape.GetRadius() + change <= 0)
+    {
+      throw Error("RadiusChange would leave " + name + " no radius: it has " +
+                  std::to_string(shape.GetRadius()) + ".");
+    }
+    for (const Index node : surface.nodes)
+    {
+      if (row[node] >= 0 && !isDone[row[node]])
+      {
+        to.row(row[node]) += change * shape.Outwards(from.row(row[node]));
+        isDone[row[node]] = 1;
+      }
+    }
+  }
+  if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
+  {
+    throw Error("RadiusChange needs cylinders, and no face moves. Choose surfaces that are some.");
+  }
+  return to;
+}
+
 Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Motion::Options& options, const Points& from)
 {
@@ -89,6 +164,10 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
                                          model.Faces(), choice.IsMovingFace, choice.Moving);
     case Motion::Kind::Array:
       return from + arrayRows(input, options.ArrayName, choice.Moving);
+    case Motion::Kind::Placement:
+      return placed(from, options);
+    case Motion::Kind::Radius:
+      return withRadius(model, choice, from, options.RadiusChange);
     case Motion::Kind::Transform:
       break;
   }
@@ -134,7 +213,8 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
     return from;
   }
   Points targets = wholeMotion(input, model, choice, options, from);
-  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray" };
+  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
+    "RadiusChange" };
   requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
   if (options.ScaleFactor == 0)
   {

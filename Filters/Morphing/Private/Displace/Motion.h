@@ -18,7 +18,9 @@ enum class Kind
   Transform,
   Vector,
   AlongNormals,
-  Array
+  Array,
+  Placement,
+  Radius
 };
 
 struct Options
@@ -28,6 +30,12 @@ struct Options
   std::array<double, 3> Vector = { 0, 0, 0 };
   double Distance = 0;   ///< along the normals
   std::string ArrayName; ///< a point array of the input, three components
+  std::array<double, 3> Translation = { 0, 0, 0 };
+  std::array<double, 3> Rotation = { 0, 0, 0 }; ///< degrees, about z, then x, then y
+  std::array<double, 3> Scale = { 1, 1, 1 };
+  bool AutoCenter = true; ///< the centre of the bounding box of what moves, not Center
+  std::array<double, 3> Center = { 0, 0, 0 };
+  double RadiusChange = 0;
   double ScaleFactor = 1;
 };
 

@@ -179,4 +179,11 @@ Row SurfaceShape::Closest(const Row& x) const
   this->Locator->FindClosestPoint(x.data(), closest.data(), cell, part, squared);
   return cell < 0 ? x : closest;
 }
+
+Row SurfaceShape::Outwards(const Row& x) const
+{
+  const Row from = x - this->Center;
+  const Row out = from - from.dot(this->Direction) * this->Direction;
+  return out.norm() > 0 ? Row(out.normalized()) : Row(Row::Zero());
+}
 }

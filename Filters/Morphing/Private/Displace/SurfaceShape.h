@@ -30,6 +30,9 @@ public:
     const morph::Points& points, const morph::BoundaryFaces& faces, const morph::GeometrySurface&);
 
   Kind GetKind() const { return this->How; }
+  double GetRadius() const { return this->Radius; } ///< of a cylinder
+  /// The unit vector away from a cylinder's axis, zero on it.
+  Row Outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.
   Row Closest(const Row& x) const;
   double Distance(const Row& x) const { return (this->Closest(x) - x).norm(); }
