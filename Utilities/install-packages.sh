@@ -24,7 +24,8 @@ packages=(
   libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
   libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
   libavutil-dev libswscale-dev libboost-dev python3-mpi4py
-  libgtest-dev gmsh python3-gmsh python3-matplotlib xvfb xauth imagemagick)
+  libgtest-dev gmsh python3-gmsh python3-matplotlib python3-scipy xvfb xauth
+  imagemagick)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
 qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
 case "$release" in

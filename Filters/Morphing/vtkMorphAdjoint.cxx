@@ -8,10 +8,12 @@
 #include "Private/Pipeline/Ports.h"
 #include "Support/Error.h"
 #include "vtkMorphAlgorithm.h"
+#include "vtkMorphShapes.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
@@ -19,6 +21,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -37,9 +40,9 @@ public:
 
 namespace
 {
-/// The first vtkMorphAlgorithm upstream, from `algorithm` on and level by level; null where there
-/// is none.
-vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
+/// The first vtkMorphAlgorithm or vtkMorphShapes upstream, from `algorithm` on and level by level;
+/// null where there is none.
+vtkAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
 {
   std::vector<vtkAlgorithm*> found;
   const auto add = [&](vtkAlgorithm* next)
@@ -52,9 +55,9 @@ vtkMorphAlgorithm* nearestMorph(vtkAlgorithm* algorithm)
   add(algorithm);
   for (std::size_t i = 0; i < found.size(); ++i)
   {
-    if (auto* morph = vtkMorphAlgorithm::SafeDownCast(found[i]))
+    if (vtkMorphAlgorithm::SafeDownCast(found[i]) || vtkMorphShapes::SafeDownCast(found[i]))
     {
-      return morph;
+      return found[i];
     }
     for (int port = 0; port < found[i]->GetNumberOfInputPorts(); ++port)
     {
@@ -131,10 +134,25 @@ vtkMorphAlgorithm* vtkMorphAdjoint::GetMorph()
   return this->Morph;
 }
 
+void vtkMorphAdjoint::SetMorphShapes(vtkMorphShapes* shapes)
+{
+  if (this->MorphShapes != shapes)
+  {
+    this->MorphShapes = shapes;
+    this->Modified();
+  }
+}
+
+vtkMorphShapes* vtkMorphAdjoint::GetMorphShapes()
+{
+  return this->MorphShapes;
+}
+
 vtkMTimeType vtkMorphAdjoint::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->Morph ? std::max(own, this->Morph->GetMTime()) : own;
+  const vtkMTimeType ofMorph = this->Morph ? std::max(own, this->Morph->GetMTime()) : own;
+  return this->MorphShapes ? std::max(ofMorph, this->MorphShapes->GetMTime()) : ofMorph;
 }
 
 int vtkMorphAdjoint::FillInputPortInformation(int port, vtkInformation* info)
@@ -185,18 +203,59 @@ int vtkMorphAdjoint::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkMorphAlgorithm* morph = this->FindMorph();
+  vtkMorphShapes* shapes = this->FindShapes();
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   const filters::Ports::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
     [] {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
-    { this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, monitor); } };
+    {
+      vtkDataObject* holder = carrier ? carrier : rest;
+      if (shapes)
+      {
+        this->ExecuteShapes(shapes, rest, holder, output, monitor);
+      }
+      else
+      {
+        this->Execute(morph, rest, boundary, holder, output, monitor);
+      }
+    } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
 
 vtkMorphAlgorithm* vtkMorphAdjoint::FindMorph()
 {
-  return this->Morph ? this->Morph.Get() : nearestMorph(this->GetInputAlgorithm(2, 0));
+  return this->Morph ? this->Morph.Get()
+                     : vtkMorphAlgorithm::SafeDownCast(nearestMorph(this->GetInputAlgorithm(2, 0)));
+}
+
+vtkMorphShapes* vtkMorphAdjoint::FindShapes()
+{
+  if (this->MorphShapes || this->Morph)
+  {
+    return this->MorphShapes;
+  }
+  return vtkMorphShapes::SafeDownCast(nearestMorph(this->GetInputAlgorithm(2, 0)));
+}
+
+void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid* rest,
+  vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor)
+{
+  // The mesh was checked before.
+  vtkPointSet* holder =
+    carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
+  vtkNew<vtkDoubleArray> derivatives;
+  shapes->Differentiate(
+    requireGradient(holder, filters::Input::ArrayName(this->GradientArray)), derivatives, monitor);
+  derivatives->SetName("ShapeGradient");
+  vtkNew<vtkStringArray> names;
+  names->SetName("ShapeNames");
+  for (vtkIdType i = 0; i < derivatives->GetNumberOfValues(); ++i)
+  {
+    names->InsertNextValue(shapes->GetShapeName(static_cast<int>(i)));
+  }
+  output->GetFieldData()->AddArray(names);
+  output->GetFieldData()->AddArray(derivatives);
 }
 
 void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
@@ -233,6 +292,7 @@ void vtkMorphAdjoint::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Morph: " << (this->Morph ? this->Morph->GetClassName() : "(none)") << "\n";
+  os << indent << "MorphShapes: " << (this->MorphShapes ? "set" : "(none)") << "\n";
   os << indent << "GradientArray: " << (this->GradientArray ? this->GradientArray : "(none)")
      << "\n";
 }

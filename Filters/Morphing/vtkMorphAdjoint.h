@@ -21,6 +21,11 @@
  * nearest vtkMorphAlgorithm in the pipeline upstream of port 2. What that filter has prepared is
  * reused. Morph need not be connected to anything.
  *
+ * After vtkMorphShapes the derivatives are those with respect to the weights of its shapes: the
+ * filter that is nearest upstream of port 2, or MorphShapes, decides. Port 1 is then not needed,
+ * and the output has no points, but the field data `ShapeNames` and `ShapeGradient`, a number a
+ * shape.
+ *
  * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of
  * the method alone, and a warning is raised.
  *
@@ -51,6 +56,7 @@ class Monitor;
 }
 
 class vtkMorphAlgorithm;
+class vtkMorphShapes;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
@@ -91,6 +97,16 @@ public:
 
   ///@{
   /**
+   * The blend of shapes whose weights the derivatives are for, as of its last execution. Default:
+   * none, so the nearest vtkMorphShapes upstream of port 2, if it is nearer than a morphing filter
+   * and Morph is not set.
+   */
+  void SetMorphShapes(vtkMorphShapes* shapes);
+  vtkMorphShapes* GetMorphShapes();
+  ///@}
+
+  ///@{
+  /**
    * Name of the point array with the derivatives, three components: the unit of the objective over
    * that of the points. Default: none, which is an error.
    */
@@ -121,6 +137,9 @@ private:
   void operator=(const vtkMorphAdjoint&) = delete;
 
   vtkMorphAlgorithm* FindMorph();
+  vtkMorphShapes* FindShapes();
+  void ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid* rest, vtkDataObject* carrier,
+    vtkPointSet* output, morph::Monitor& monitor);
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
     vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor);
 
@@ -128,6 +147,7 @@ private:
   std::unique_ptr<vtkInternals> Internals;
 
   vtkSmartPointer<vtkMorphAlgorithm> Morph;
+  vtkSmartPointer<vtkMorphShapes> MorphShapes;
   char* GradientArray = nullptr;
 };
 

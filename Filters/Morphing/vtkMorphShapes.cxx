@@ -7,15 +7,18 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
 #include "Private/Data/BadCells.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/CrewMonitor.h"
+#include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Shapes/Designs.h"
 #include "Private/Shapes/ShapeModes.h"
 #include "Private/Shapes/WeightRanges.h"
 #include "Support/Error.h"
@@ -25,6 +28,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
@@ -32,11 +37,15 @@
 #include <vtkPointSet.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace filters = morph::filters;
 
@@ -104,7 +113,11 @@ public:
   filters::ShapeModes Modes;
   filters::Ports Ports;
   filters::WeightRanges Ranges; ///< of the last execution
-  morph::Points Moved;          ///< kept for its memory: its content has no effect
+  std::vector<double> Weights;  ///< of the last execution; empty where it had no result
+  filters::Designs Designs;
+  vtkIdType Rows = 0;  ///< of the table, as of the last update of the information
+  vtkIdType Row = 0;   ///< that the outputs are asked for
+  morph::Points Moved; ///< kept for its memory: its content has no effect
 
   explicit vtkInternals(vtkMorphShapes* filter)
     : Ports(filter)
@@ -112,7 +125,7 @@ public:
   {
   }
 
-  void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries,
+  void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries, vtkDataObject* table,
     vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
 
 private:
@@ -122,6 +135,9 @@ private:
   std::vector<filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
   void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
   void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+  /// The present weights: the filter's, or those of the table's row.
+  std::vector<double> PresentWeights(
+    std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor);
   void FindRanges(const std::vector<double>& weights, morph::Monitor& monitor);
   std::vector<std::string> Names(std::size_t number) const;
   void WriteShapes(const std::vector<double>& weights, vtkUnstructuredGrid* output) const;
@@ -130,7 +146,7 @@ private:
 vtkMorphShapes::vtkMorphShapes()
   : Internals(new vtkInternals(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->Internals->Results.Reset();
 }
@@ -154,6 +170,16 @@ void vtkMorphShapes::AddShapeData(vtkDataObject* boundary)
 void vtkMorphShapes::RemoveAllShapes()
 {
   this->SetNumberOfInputConnections(1, 0);
+}
+
+void vtkMorphShapes::SetTableConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkMorphShapes::SetTableData(vtkDataObject* table)
+{
+  this->SetInputDataObject(2, table);
 }
 
 int vtkMorphShapes::GetNumberOfShapes()
@@ -246,20 +272,42 @@ int vtkMorphShapes::FillInputPortInformation(int port, vtkInformation* info)
 int vtkMorphShapes::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  // The undeformed mesh and the shapes are taken at their inputs' own time.
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInternals& kept = *this->Internals;
+  kept.Rows = 0;
+  if (vtkAlgorithmOutput* source =
+        this->GetNumberOfInputConnections(2) > 0 ? this->GetInputConnection(2, 0) : nullptr)
+  {
+    source->GetProducer()->Update(source->GetIndex());
+    auto* table =
+      vtkTable::SafeDownCast(source->GetProducer()->GetOutputDataObject(source->GetIndex()));
+    kept.Rows = table ? table->GetNumberOfRows() : 0;
+  }
+  std::vector<double> times(kept.Rows);
+  std::iota(times.begin(), times.end(), 0.);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    outputVector->GetInformationObject(port)->Remove(
-      vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-    outputVector->GetInformationObject(port)->Remove(
-      vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+    // The undeformed mesh and the shapes are taken at their inputs' own time.
+    vtkInformation* output = outputVector->GetInformationObject(port);
+    output->Remove(Pipeline::TIME_STEPS());
+    output->Remove(Pipeline::TIME_RANGE());
+    if (!times.empty())
+    {
+      const double range[2] = { times.front(), times.back() };
+      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+      output->Set(Pipeline::TIME_RANGE(), range, 2);
+    }
   }
   return 1;
 }
 
 int vtkMorphShapes::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  const double time =
+    filters::Ports::AskedTime(filters::Ports::Asked(request, outputVector)).value_or(0);
+  const auto last = static_cast<double>(std::max<vtkIdType>(this->Internals->Rows - 1, 0));
+  this->Internals->Row = static_cast<vtkIdType>(std::clamp(std::floor(time), 0., last));
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
@@ -281,9 +329,13 @@ int vtkMorphShapes::RequestData(
     {
       kept.Results.Reset();
       kept.Ranges = {};
+      kept.Weights.clear();
     },
     [&](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
-    { kept.Morph(grid, inputVector[1], output, badCells, monitor); },
+    {
+      vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
+      kept.Morph(grid, inputVector[1], table, output, badCells, monitor);
+    },
     [&](vtkDataObject* input, const char* status)
     {
       if (filters::Version::AbortRequested(this))
@@ -292,7 +344,16 @@ int vtkMorphShapes::RequestData(
       }
       filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
     } };
-  return kept.Ports.RequestData(task, inputVector, outputVector);
+  const int done = kept.Ports.RequestData(task, inputVector, outputVector);
+  for (vtkUnstructuredGrid* data : { output, badCells })
+  {
+    data->GetInformation()->Remove(vtkDataObject::DATA_TIME_STEP());
+    if (kept.Rows > 0)
+    {
+      data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), static_cast<double>(kept.Row));
+    }
+  }
+  return done;
 }
 
 filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
@@ -350,21 +411,48 @@ void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph
   this->Results.SetInteger("PrescribedPoints", effort.Prescribed);
 }
 
+std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
+  std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor)
+{
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < shapes; ++i)
+  {
+    weights.push_back(this->Filter->GetWeight(static_cast<int>(i)));
+  }
+  if (!table)
+  {
+    this->Designs = {};
+    return weights;
+  }
+  filters::Designs designs = filters::Designs::Read(table, this->Names(shapes), weights);
+  designs.KeepAnswer(std::move(this->Designs));
+  this->Designs = std::move(designs);
+  if (this->Filter->CheckDesigns)
+  {
+    std::vector<morph::Index> rows;
+    for (const std::size_t row : this->Designs.Inverted(this->Modes, monitor))
+    {
+      rows.push_back(static_cast<morph::Index>(row));
+    }
+    this->Results.SetText("InvertingDesigns", rows.empty() ? "none" : morph::listIds(rows, 100));
+  }
+  const auto last = static_cast<vtkIdType>(this->Designs.Number()) - 1;
+  return this->Designs[std::min(this->Row, last)];
+}
+
 void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  vtkInformationVector* boundaries, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
-  morph::Monitor& monitor)
+  vtkInformationVector* boundaries, vtkDataObject* table, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
 {
   this->Modes.SetGrid(grid, monitor);
   this->Results.SetInteger("MirroredBodies", this->Modes.GetMirroredBodies());
-  morph::ProgressRange solving(monitor, 0, 0.8);
+  morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
+  morph::ProgressRange checking(monitor, 0.6, 0.8);
+  const std::vector<double> weights =
+    this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
 
   const auto start = std::chrono::steady_clock::now();
-  std::vector<double> weights;
-  for (int i = 0; i < boundaries->GetNumberOfInformationObjects(); ++i)
-  {
-    weights.push_back(this->Filter->GetWeight(i));
-  }
   const morph::Points& rest = this->Modes.GetMesh().points;
   morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
   this->Results.SetNumber("EvaluateSeconds",
@@ -376,6 +464,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   }
   this->Measure(output, badCells, monitor);
   this->WriteShapes(weights, output);
+  this->Weights = weights;
 }
 
 void vtkMorphShapes::vtkInternals::Measure(
@@ -456,6 +545,37 @@ const char* vtkMorphShapes::GetValidRanges() const
   return this->Internals->Results.Text("ValidRanges").c_str();
 }
 
+const char* vtkMorphShapes::GetInvertingDesigns() const
+{
+  return this->Internals->Results.Text("InvertingDesigns").c_str();
+}
+
+bool vtkMorphShapes::ComputeDerivatives(vtkDataArray* gradient, vtkDoubleArray* derivatives)
+{
+  filters::CrewMonitor monitor(this, this->NumberOfThreads);
+  const filters::Execution::Outcome outcome = filters::Execution::Run(
+    this, "compute derivatives", [&] { this->Differentiate(gradient, derivatives, monitor); },
+    [&] { derivatives->Initialize(); });
+  return outcome == filters::Execution::Outcome::Done;
+}
+
+void vtkMorphShapes::Differentiate(
+  vtkDataArray* gradient, vtkDoubleArray* derivatives, morph::Monitor& monitor)
+{
+  const vtkInternals& kept = *this->Internals;
+  if (kept.Weights.empty())
+  {
+    throw morph::Error("Morph Shapes has no result: update it before its derivatives.");
+  }
+  const morph::Points nodes =
+    filters::Gradient::Require(gradient, kept.Modes.GetMesh().numberOfNodes());
+  derivatives->Initialize();
+  for (const double value : kept.Modes.Derivatives(kept.Weights, nodes, monitor))
+  {
+    derivatives->InsertNextValue(value);
+  }
+}
+
 double vtkMorphShapes::GetNumber(const char* name) const
 {
   return this->Internals->Results.Number(name);
@@ -495,6 +615,7 @@ void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "FindValidRanges: " << this->FindValidRanges << "\n";
+  os << indent << "CheckDesigns: " << this->CheckDesigns << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   this->Internals->Results.Print(os, indent);

@@ -25,6 +25,10 @@
  * weight is then the factor of the angle, and it has two displacement fields, sin(s a) m1 + (1 -
  * cos(s a)) m2. The shape's moving nodes have to be rotated as one, without a slide along the axis.
  *
+ * Port 2, optional, takes a table of designs (vtkTable): a column of weights for each shape, of the
+ * shape's name, and a row for each design. The outputs then have the time steps 0, 1, ..., one a
+ * row, and at each the weights are those of its row. A shape without a column has its own weight.
+ *
  * A shape is taken at its input's own time. Errors are those of vtkMorphAlgorithm, with the shape's
  * name; output 0 is then the undeformed mesh, MorphStatus is "Failed", and InvertedCells and
  * MinScaledJacobian are -1. Memory: 24 bytes a node and displacement field, besides the method's.
@@ -46,6 +50,9 @@ namespace morph
 {
 class Monitor;
 }
+
+class vtkDataArray;
+class vtkDoubleArray;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphShapes : public vtkUnstructuredGridAlgorithm
 {
@@ -154,6 +161,27 @@ public:
 
   ///@{
   /**
+   * The table of designs, a vtkTable: the same as SetInputConnection() and SetInputData() on port
+   * 2. The number of rows is needed for the time steps, so an update of the information updates the
+   * pipeline before this port.
+   */
+  void SetTableConnection(vtkAlgorithmOutput* output);
+  void SetTableData(vtkDataObject* table);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to find all rows of the table that leave inverted or degenerate cells; see
+   * GetInvertingDesigns(). The answer is kept while table and shapes are the same. Cost: an
+   * evaluation and a measure of quality for each row. Default on.
+   */
+  vtkSetMacro(CheckDesigns, bool);
+  vtkGetMacro(CheckDesigns, bool);
+  vtkBooleanMacro(CheckDesigns, bool);
+  ///@}
+
+  ///@{
+  /**
    * How the points of every shape are matched to nodes; see vtkMorphAlgorithm.
    */
   vtkSetStringMacro(BoundaryIdArray);
@@ -214,6 +242,21 @@ public:
   double GetLargestFactor() const { return this->GetNumber("LargestFactor"); }
   ///@}
 
+  /**
+   * As of the last execution, with a table of designs and CheckDesigns on: the numbers of the rows,
+   * from 0, that leave inverted or degenerate cells in double precision, at most 100 of them.
+   */
+  const char* GetInvertingDesigns() const;
+
+  /**
+   * The derivatives of an objective with respect to the weights of the last execution. `gradient`:
+   * its derivatives with respect to the position of each node, #nodes tuples of 3. `derivatives`:
+   * becomes a tuple of 1 for each shape. Cost: one pass over the displacement fields. Returns false
+   * after an error, which is reported: no execution before, or a gradient of the wrong size or not
+   * finite. See vtkMorphAdjoint.
+   */
+  bool ComputeDerivatives(vtkDataArray* gradient, vtkDoubleArray* derivatives);
+
   ///@{
   /**
    * Wall-clock seconds of the last execution: for preparing the method and solving for new shapes
@@ -249,6 +292,11 @@ private:
   vtkMorphShapes(const vtkMorphShapes&) = delete;
   void operator=(const vtkMorphShapes&) = delete;
 
+  friend class vtkMorphAdjoint;
+
+  /// ComputeDerivatives() that throws.
+  void Differentiate(vtkDataArray* gradient, vtkDoubleArray* derivatives, morph::Monitor& monitor);
+
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
@@ -268,6 +316,7 @@ private:
   double MatchTolerance = 1e-6;
   bool HoldUnnamedBoundary = true;
   bool FindValidRanges = true;
+  bool CheckDesigns = true;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
 };

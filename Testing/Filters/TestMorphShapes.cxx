@@ -2,12 +2,18 @@
 #include "TestGrids.h"
 
 #include "vtkFEMWarpMorph.h"
+#include "vtkMorphAdjoint.h"
 #include "vtkMorphShapes.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationDoubleVectorKey.h>
 #include <vtkNew.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <Eigen/Geometry>
@@ -316,4 +322,145 @@ TEST(MorphShapes, ValidRangesEndWhereCellsAreInverted)
   filter->Update();
   EXPECT_TRUE(std::isnan(filter->GetHighestWeight(0)));
   EXPECT_FALSE(filter->GetOutput()->GetFieldData()->GetArray("ShapeLowestWeight"));
+}
+
+namespace
+{
+/// A column for each name, given row by row.
+vtkSmartPointer<vtkTable> tableOf(
+  const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(names[i].c_str());
+    for (const std::vector<double>& row : rows)
+    {
+      column->InsertNextValue(row[i]);
+    }
+    table->AddColumn(column);
+  }
+  return table;
+}
+
+double weightAt(vtkMorphShapes* filter, int shape)
+{
+  return filter->GetOutput()->GetFieldData()->GetArray("ShapeWeights")->GetComponent(shape, 0);
+}
+}
+
+TEST(MorphShapes, ATableOfDesignsGivesTimeSteps)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { grids::twist, bulged, turnedTop(1.2) });
+  filter->SetShapeName(0, "twist");
+  filter->SetShapeName(2, "turn");
+  filter->SetMotion(2, vtkMorphShapes::MOTION_AS_ROTATION);
+  filter->SetWeight(1, .25);
+  filter->SetTableData(tableOf(
+    { "turn", "other", "twist" }, { { 0, 9, 0 }, { .2, 9, .5 }, { 9, 9, 0 }, { .1, 9, .2 } }));
+  filter->UpdateInformation();
+  vtkInformation* information = filter->GetOutputInformation(0);
+  ASSERT_EQ(information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 4);
+  for (const auto& [time, row] :
+    { std::make_pair(0., 0), std::make_pair(1., 1), std::make_pair(3., 3), std::make_pair(1.5, 1),
+      std::make_pair(-1., 0), std::make_pair(99., 3) })
+  {
+    filter->UpdateTimeStep(time);
+    EXPECT_EQ(weightAt(filter, 0), std::vector<double>({ 0, .5, 0, .2 })[row]) << time;
+    EXPECT_EQ(weightAt(filter, 1), .25) << time;
+    EXPECT_EQ(weightAt(filter, 2), std::vector<double>({ 0, .2, 9, .1 })[row]) << time;
+    EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), row)
+      << time;
+  }
+  EXPECT_STREQ(filter->GetInvertingDesigns(), "2");
+  EXPECT_EQ(filter->GetSolveCount(), 4);
+  auto fixed = shapesOf(grid, { grids::twist, bulged, turnedTop(1.2) });
+  fixed->SetMotion(2, vtkMorphShapes::MOTION_AS_ROTATION);
+  fixed->SetWeight(0, .2);
+  fixed->SetWeight(1, .25);
+  fixed->SetWeight(2, .1);
+  fixed->Update();
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(fixed->GetOutput()));
+
+  // Another answer for other rows; none without a table.
+  filter->SetTableData(tableOf({ "turn" }, { { 0 }, { .25 } }));
+  filter->UpdateTimeStep(1);
+  EXPECT_STREQ(filter->GetInvertingDesigns(), "none");
+  EXPECT_EQ(weightAt(filter, 2), .25);
+  filter->SetTableData(nullptr);
+  filter->Update();
+  EXPECT_STREQ(filter->GetInvertingDesigns(), "None");
+  EXPECT_EQ(weightAt(filter, 2), 0);
+  EXPECT_FALSE(information->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+}
+
+TEST(MorphShapes, WrongTablesAreRefused)
+{
+  auto grid = grids::hexes(3);
+  for (const auto& [table, message] :
+    { std::make_pair(tableOf({ "a" }, { { 1 } }), "its columns are a."),
+      std::make_pair(tableOf({ "Shape 1" }, { { 1 }, { NAN } }), "row 1 of the column 'Shape 1'"),
+      std::make_pair(tableOf({ "Shape 1" }, {}), "has no rows") })
+  {
+    auto filter = shapesOf(grid, { grids::twist });
+    const grids::Listener listener(filter);
+    filter->SetTableData(table);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find(message), std::string::npos) << listener.Errors[0];
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  }
+}
+
+TEST(MorphShapes, AdjointIsTheDerivativeByTheWeights)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { grids::twist, turnedTop(1.2), bulged });
+  filter->SetMotion(1, vtkMorphShapes::MOTION_AS_ROTATION);
+  const std::vector<double> at = { .5, .3, -1 };
+  const Points target = grids::mapped(grids::points(grid), grids::affine);
+  const auto objective = [&](const std::vector<double>& weights)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      filter->SetWeight(i, weights[i]);
+    }
+    filter->Update();
+    return .5 * (grids::points(filter->GetOutput()) - target).squaredNorm();
+  };
+  objective(at);
+  auto carrier = grids::copy(filter->GetOutput());
+  grids::addVectors(carrier, "Gradient", grids::points(carrier) - target);
+  vtkNew<vtkMorphAdjoint> adjoint;
+  adjoint->SetInputData(grid);
+  adjoint->SetGradientData(carrier);
+  adjoint->SetGradientArray("Gradient");
+  adjoint->SetMorphShapes(filter);
+  adjoint->Update();
+  vtkFieldData* fields = adjoint->GetOutput()->GetFieldData();
+  ASSERT_TRUE(fields->GetArray("ShapeGradient"));
+  EXPECT_EQ(
+    vtkStringArray::SafeDownCast(fields->GetAbstractArray("ShapeNames"))->GetValue(1), "Shape 2");
+  std::vector<double> derivatives;
+  for (int i = 0; i < 3; ++i)
+  {
+    derivatives.push_back(fields->GetArray("ShapeGradient")->GetComponent(i, 0));
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    std::vector<double> low = at, high = at;
+    low[i] -= 1e-4;
+    high[i] += 1e-4;
+    const double difference = (objective(high) - objective(low)) / 2e-4;
+    EXPECT_NEAR(derivatives[i], difference, 1e-6 * std::abs(difference)) << i;
+  }
+
+  vtkNew<vtkMorphShapes> never;
+  grids::Listener listener(adjoint);
+  adjoint->SetMorphShapes(never);
+  adjoint->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("has no result"), std::string::npos) << listener.Errors[0];
 }

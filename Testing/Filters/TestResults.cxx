@@ -105,6 +105,7 @@ Getters gettersOf(vtkMorphShapes* f)
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
     { "ValidRanges", [f] { return f->GetValidRanges(); } },
     { "LargestFactor", [f] { return f->GetLargestFactor(); } },
+    { "InvertingDesigns", [f] { return f->GetInvertingDesigns(); } },
     { "PrepareSeconds", [f] { return f->GetPrepareSeconds(); } },
     { "EvaluateSeconds", [f] { return f->GetEvaluateSeconds(); } },
     { "PrepareCount", [f] { return f->GetPrepareCount(); } },

@@ -36,6 +36,22 @@ class Adjoint(unittest.TestCase):
         self.assertLess(objectives[-1], 1e-8 * objectives[0])
         self.assertLess(errors[-1], 1e-3 * errors[0])
 
+    def test_example_fits_shapes(self):
+        model = SOURCE / "Data" / "Models" / "small" / "bore_hex_small.vtu"
+        program = [shutil.which("pvpython"), str(SOURCE / "Examples" / "fit_shapes.py")]
+        result = subprocess.run([*program, PLUGIN, str(model)],
+                                capture_output=True, text=True, timeout=250)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+        errors = re.findall(r"relative error (\S+)", result.stdout)
+        self.assertEqual(len(errors), 3)
+        self.assertLess(max(map(float, errors)), 1e-5)
+        iterations, objective = re.search(r"after (\d+) iterations: objective (\S+),",
+                                          result.stdout).groups()
+        self.assertLessEqual(int(iterations), 15)
+        self.assertLess(float(objective), 1e-10)
+        self.assertLess(float(re.search(r"largest error (\S+)", result.stdout).group(1)), 1e-2)
+        self.assertIn("displacement fields solved: 3; mesh Valid", result.stdout)
+
     def test_method_behind_the_gradient_is_taken(self):
         part = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])])
         boundary = ExtractMorphBoundary(Input=part)

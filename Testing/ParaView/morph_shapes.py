@@ -105,6 +105,26 @@ class MorphShapesTest(unittest.TestCase):
         numpy.testing.assert_allclose(lost, half * numpy.linalg.norm(rest[end][:, 1:], axis=1),
                                       atol=1e-5)
 
+    def test_table_of_designs_is_a_series(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "doe.csv")
+            path.write_text("note,bend,stretch\n1,0,0\n2,0,0.5\n3,0,-4.5\n", encoding="utf-8")
+            table = simple.CSVReader(FileName=[str(path)])
+            blend = self.blended(ShapeNames=["bend", "stretch"], Table=table)
+            blend.UpdatePipelineInformation()
+            self.assertEqual(list(blend.TimestepValues), [0, 1, 2])
+            ends = []
+            for time in blend.TimestepValues:
+                blend.UpdatePipeline(time)
+                ends.append(blend.GetDataInformation().GetBounds()[1])
+            numpy.testing.assert_allclose(ends[:2], [8, 9], atol=1e-5)
+            self.assertEqual(blend.InvertingDesigns, "2")
+            series = str(Path(folder, "designs.vtu"))
+            simple.SaveData(series, proxy=blend, Writetimestepsasfileseries=1)
+            self.assertEqual(len(list(Path(folder).glob("designs_*.vtu"))), 3)
+            over_time = simple.PlotDataOverTime(Input=blend, FieldAssociation="Cells")
+            self.assertEqual(fetched(over_time).VTKObject.GetBlock(0).GetNumberOfRows(), 3)
+
     def test_state(self):
         blend = self.blended(Weights=[0.25, 0.75], ShapeNames=["bend", "stretch"],
                              Motions=["As Displacement", "As Displacement"], Method="LBWARP")

@@ -100,8 +100,9 @@ class Properties(unittest.TestCase):
     def create(self, xml):
         names = [p.get("name") for p in xml.iter("InputProperty")]
         create = globals()[xml.get("label").replace(" ", "")]
-        # A selection is optional, and none of the other properties depends on it.
-        return create(**{name: self.inputs[name] for name in names if name != "Selection"})
+        # A selection and a table are optional, and none of the other properties depends on them.
+        return create(**{name: self.inputs[name] for name in names
+                         if name not in ("Selection", "Table")})
 
     def test_every_proxy_has_texts_and_a_place_in_the_menu(self):
         self.assertGreaterEqual(len(proxies()), 3)

@@ -7,6 +7,7 @@
 #include "Private/Pipeline/Input.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <chrono>
@@ -279,5 +280,45 @@ morph::NodeMotion ShapeModes::MotionOf(std::size_t shape, const morph::Points& b
     motion.angle = solved.Angle;
   }
   return motion;
+}
+
+std::vector<std::shared_ptr<const Points>> ShapeModes::Fields() const
+{
+  std::vector<std::shared_ptr<const Points>> fields;
+  for (const Mode& mode : this->Modes)
+  {
+    fields.push_back(mode.Field);
+  }
+  return fields;
+}
+
+std::vector<double> ShapeModes::Angles() const
+{
+  std::vector<double> angles;
+  for (const Solved& shape : this->Shapes)
+  {
+    angles.push_back(shape.Angle);
+  }
+  return angles;
+}
+
+std::vector<double> ShapeModes::Derivatives(
+  const std::vector<double>& weights, const Points& gradient, morph::Monitor& monitor) const
+{
+  std::vector<double> result;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const Solved& shape = this->Shapes[i];
+    const double along = morph::dot(*this->Modes[shape.Modes[0]].Field, gradient, monitor);
+    if (shape.Angle == 0)
+    {
+      result.push_back(along);
+      continue;
+    }
+    const double across = morph::dot(*this->Modes[shape.Modes[1]].Field, gradient, monitor);
+    const double angle = weights[i] * shape.Angle;
+    result.push_back(shape.Angle * (std::cos(angle) * along + std::sin(angle) * across));
+  }
+  return result;
 }
 }

@@ -62,6 +62,13 @@ public:
   /// The displacement fields of the shapes of the last Solve(), with their weights. `weights`:
   /// #shapes; of a rotation, the factor of its angle.
   std::vector<morph::WeightedMode> Weighted(const std::vector<double>& weights) const;
+  /// The fields and angles of the shapes: where both are the same, so is every blend.
+  std::vector<std::shared_ptr<const morph::Points>> Fields() const;
+  std::vector<double> Angles() const;
+  /// The derivatives of an objective with respect to the weights, from those with respect to the
+  /// nodes' positions. `gradient`: #nodes x 3.
+  std::vector<double> Derivatives(const std::vector<double>& weights, const morph::Points& gradient,
+    morph::Monitor& monitor) const;
   bool IsRotation(std::size_t shape) const { return this->Shapes[shape].Angle > 0; }
   /// The motion by the weight of one shape. `base`: #nodes x 3, the mesh at a weight of 0.
   morph::NodeMotion MotionOf(std::size_t shape, const morph::Points& base) const;
