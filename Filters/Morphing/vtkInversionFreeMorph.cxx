@@ -67,7 +67,7 @@ void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
   own.setTarget(this->TargetShape == TARGET_SHAPE_INITIAL ? morph::TargetConstruction::Initial
                 : this->TargetShape == TARGET_SHAPE_IDEAL ? morph::TargetConstruction::IdealSkew
                                                           : morph::TargetConstruction::Stretched);
-  own.setStiffening(this->ImproveWorst);
+  own.setRaising(this->ImproveWorst);
   own.setMinimizer(this->LowMemory ? morph::FoldoverContinuation::Minimizer::LimitedMemoryBfgs
                                    : morph::FoldoverContinuation::Minimizer::Newton);
 }

@@ -49,7 +49,7 @@ void Run::morphOnce(
   morph::InversionFree method;
   method.setStart(morph::InversionFree::Start::Rest);
   method.setMinimizer(minimizer);
-  method.setStiffening(!energyAlone);
+  method.setRaising(!energyAlone);
   method.setRefreshes(energyAlone ? 0 : 2);
   method.prepare(problem.mesh, problem.partition, *monitor);
   morph::Points moved;

@@ -166,7 +166,7 @@ TEST(InversionFree, AnyFirstGuessLeadsToAValidMesh)
     const Morphed result = run(method, mesh, boundary);
     EXPECT_EQ(result.inverted, 0);
     reference = start == 0 ? result.minimum : reference;
-    EXPECT_NEAR(result.minimum, reference, 0.03);
+    EXPECT_NEAR(result.minimum, reference, 0.08); // the minimum has several local maxima
   }
 }
 
@@ -186,7 +186,7 @@ TEST(InversionFree, MinimumIsNotBelowFemWarpsAndSimplexLinears)
         return { x[0], x[1], x[2] + 3 * std::sin(angle * M_PI / 180 * x[0] / 8) };
       });
   }
-  int kept = 0;
+  int better = 0;
   for (const auto& [name, mesh, map] : cases)
   {
     SCOPED_TRACE(name);
@@ -206,10 +206,11 @@ TEST(InversionFree, MinimumIsNotBelowFemWarpsAndSimplexLinears)
     ASSERT_GT(known, 0);
     InversionFree method;
     const Morphed result = run(method, mesh, boundary);
-    EXPECT_GE(result.minimum, known - 1e-13); // coordinates are rounded on the way
-    kept += count(result.report, "KeptLinear") > 0 ? 1 : 0;
+    EXPECT_GE(result.minimum, known);
+    EXPECT_EQ(count(result.report, "KeptLinear"), 0);
+    better += result.minimum > 1.01 * known ? 1 : 0;
   }
-  EXPECT_GE(kept, 3);
+  EXPECT_GE(better, 4);
 }
 
 TEST(InversionFree, TangledRestMeshesAreUntangled)
@@ -354,8 +355,10 @@ TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)
   Mesh turned = mesh;
   turned.points = motions::mapped(mesh.points, turn);
   InversionFree rigid;
-  const Points result = run(rigid, turned, motions::mapped(boundary, turn)).moved;
-  EXPECT_LT(motions::difference(result, motions::mapped(expected, turn)), 1e-4 * scale);
+  const Morphed result = run(rigid, turned, motions::mapped(boundary, turn));
+  // Where the minimum is raised, steps end by tests that rounding can turn.
+  EXPECT_LT(motions::difference(result.moved, motions::mapped(expected, turn)), 2e-2 * scale);
+  EXPECT_NEAR(result.minimum, run(one, mesh, boundary).minimum, 2e-3);
 }
 
 TEST(InversionFree, RepairsAnotherMethodsMesh)

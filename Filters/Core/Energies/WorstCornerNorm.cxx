@@ -16,7 +16,6 @@ namespace
 {
 using namespace foldover;
 using Corners = WorstCornerNorm::Corners;
-constexpr int Power = 8;
 
 /// A tetrahedron's corners in positive order; the decomposition has only one of them.
 constexpr WeightedTet TetCorners[4] = { { { 0, 1, 2, 3 }, 1 }, { { 1, 2, 0, 3 }, 1 },
@@ -66,15 +65,15 @@ struct Corner
     this->s = scale == 0. ? one : some ? quotient : zero;
   }
 
-  /// Computes s^-8, infinite where s is not positive.
-  MORPH_SIMD_INLINE void power(SimdDouble4& result) const
+  /// Computes 1 / s, squared this often; infinite where s is not positive.
+  MORPH_SIMD_INLINE void power(int squarings, SimdDouble4& result) const
   {
-    static_assert(Power == 8, "three squarings");
     const SimdDouble4 infinity = SimdDouble4{} + std::numeric_limits<double>::infinity();
     result = this->s > 0. ? 1. / this->s : infinity;
-    result *= result;
-    result *= result;
-    result *= result;
+    for (int k = 0; k < squarings; ++k)
+    {
+      result *= result;
+    }
   }
 };
 
@@ -94,7 +93,7 @@ struct BatchValue
     {
       const SimdDouble4 scale = load(scales[t].factor);
       SimdDouble4 power;
-      Corner(x, parts.tets[t].corner, scale).power(power);
+      Corner(x, parts.tets[t].corner, scale).power(corners.squarings, power);
       all += scale == 0. ? zero : power;
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
@@ -114,7 +113,7 @@ struct BatchGradient
     const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
     const WorstCornerNorm::Scales* scales =
       corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
-    const double mean = Power / static_cast<double>(corners.count);
+    const double mean = (1 << corners.squarings) / static_cast<double>(corners.count);
     const SimdDouble4 zero = {}, one = zero + 1.;
     for (int t = 0; t < parts.count; ++t)
     {
@@ -122,7 +121,7 @@ struct BatchGradient
       const int* corner = parts.tets[t].corner;
       const Corner own(x, corner, scale);
       SimdDouble4 power;
-      own.power(power);
+      own.power(corners.squarings, power);
       const auto counts = (scale != 0.) & (own.s > 0.);
       const SimdDouble4 factor = counts ? mean * power : zero;
       const SimdDouble4 byDeterminant = factor / (counts ? own.determinant : one);
@@ -146,10 +145,11 @@ struct BatchGradient
   }
 };
 
-Corners scaledCorners(
-  const CellBatches& batches, const std::vector<std::int8_t>& orientation, double least)
+Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>& orientation,
+  double least, int squarings)
 {
   Corners result;
+  result.squarings = squarings;
   result.scales.resize(batches.places() / SimdWidth);
   for (Index batch = 0; batch < batches.size(); ++batch)
   {
@@ -174,10 +174,10 @@ Corners scaledCorners(
 }
 
 WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& cells, const std::vector<Index>& free, double least)
+  const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_, cells)
-  , corners_(scaledCorners(this->batches_, orientation, least))
+  , corners_(scaledCorners(this->batches_, orientation, least, squarings))
 {
 }
 

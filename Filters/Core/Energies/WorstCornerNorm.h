@@ -9,7 +9,7 @@
 
 namespace morph
 {
-/// A norm of the worst corners: the mean over the corners of (least / s)^8. s is the determinant of
+/// A norm of the worst corners: the mean over the corners of (least / s)^p. s is the determinant of
 /// the corner's edges over the product of their lengths, scaled as in the cell's scaled Jacobian.
 /// So the worst corners dominate, and lengths have no effect. If any s is not positive it is
 /// infinite, and no step may end there. Pyramids count their base corners. Corners without a free
@@ -18,9 +18,10 @@ class WorstCornerNorm : public Objective
 {
 public:
   /// `cells`: ids of volume cells; `orientation`: #cells of the mesh; `free`: ids of the nodes that
-  /// move, ascending; `least`: reference value for s, above 0. Cost: 50 bytes a corner.
+  /// move, ascending; `least`: reference value for s, above 0; `squarings`: the power p is 2 to
+  /// this, in [0, 9]. Cost: 50 bytes a corner.
   WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const std::vector<Index>& cells, const std::vector<Index>& free, double least);
+    const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings);
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
@@ -35,7 +36,8 @@ public:
   struct Corners
   {
     std::vector<Scales> scales; ///< in the order of the batches' places, SimdWidth a corner
-    Index count = 0;            ///< number of corners that are not left out
+    int squarings = 0;
+    Index count = 0; ///< number of corners that are not left out
   };
 
 private:

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace morph
@@ -23,6 +24,10 @@ constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 // edge e of the twelve in HexAxisEdges, or -(e + 1) if it ends at the corner.
 constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 }, { -5, 2, 11 },
   { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
+// The three neighbors of each corner, in the same order.
+constexpr int HexCorners[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 }, { 3, 0, 2, 7 },
+  { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
+
 /// Returns the length of an edge, correct also if its square underflows.
 double lengthOf(const Vector& edge)
 {
@@ -43,14 +48,26 @@ double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, 
   return (a / la).dot((b / lb).cross(c / lc));
 }
 
+constexpr unsigned AllSamples = ~0u;
+constexpr unsigned HexCenter = 1u << 8; // of the samples of a hexahedron, after its corners
+
+bool isChosen(unsigned samples, int corner)
+{
+  return (samples >> corner & 1u) != 0;
+}
+
 template <int N>
-double leastCorner(const Vector* x, const int (&corners)[N][4], bool& collapsed)
+double leastCorner(const Vector* x, const int (&corners)[N][4], unsigned samples, bool& collapsed)
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const int(&c)[4] : corners)
+  for (int k = 0; k < N; ++k)
   {
-    least = std::min(least,
-      normalizedDeterminant(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]], x[c[3]] - x[c[0]], collapsed));
+    const int(&c)[4] = corners[k];
+    if (isChosen(samples, k))
+    {
+      least = std::min(least,
+        normalizedDeterminant(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]], x[c[3]] - x[c[0]], collapsed));
+    }
   }
   return least;
 }
@@ -70,7 +87,7 @@ double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x
   return std::sqrt(2.0) * e01.dot(e02.cross(e03)) / longest;
 }
 
-double hex(const Vector* x, bool& collapsed)
+double hex(const Vector* x, unsigned samples, bool& collapsed)
 {
   const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
   const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
@@ -79,32 +96,49 @@ double hex(const Vector* x, bool& collapsed)
   // collapsed.
   bool noMeanEdge = false;
   double least = normalizedDeterminant(r, s, t, noMeanEdge);
+  if ((samples & HexCenter) == 0)
+  {
+    least = std::numeric_limits<double>::infinity();
+  }
   // Each edge is at two corners. Roots and divisions, which take most of the time, are computed
   // once.
   Vector direction[12];
+  unsigned withoutLength = 0;
   for (int e = 0; e < 12; ++e)
   {
     const int* ends = HexAxisEdges[e / 4][e % 4];
     const Vector edge = x[ends[1]] - x[ends[0]];
     const double length = lengthOf(edge);
-    collapsed = collapsed || length == 0;
+    withoutLength |= length == 0 ? 1u << e : 0u;
     direction[e] = edge / length;
   }
   const auto from = [&direction](int edge) -> Vector
   { return edge > 0 ? direction[edge - 1] : Vector(-direction[-edge - 1]); };
-  for (const int(&c)[3] : HexCornerEdges)
+  for (int k = 0; k < 8; ++k)
   {
-    least = std::min(least, from(c[0]).dot(from(c[1]).cross(from(c[2]))));
+    if (isChosen(samples, k))
+    {
+      const int(&c)[3] = HexCornerEdges[k];
+      for (int d = 0; d < 3 && withoutLength != 0; ++d)
+      {
+        collapsed = collapsed || (withoutLength >> (std::abs(c[d]) - 1) & 1u) != 0;
+      }
+      least = std::min(least, from(c[0]).dot(from(c[1]).cross(from(c[2]))));
+    }
   }
   return least;
 }
 
-double pyramid(const Vector* x, bool& collapsed)
+double pyramid(const Vector* x, unsigned samples, bool& collapsed)
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const int(&c)[4] : PyramidCornerNodes)
+  for (int k = 0; k < 4; ++k)
   {
-    least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
+    const int(&c)[4] = PyramidCornerNodes[k];
+    if (isChosen(samples, k))
+    {
+      least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
+    }
   }
   // Pyramids higher than the ideal one exceed 1; the excess counts as a defect, as in Verdict.
   const double value = std::sqrt(2.0) * least;
@@ -141,7 +175,8 @@ double quad(const Vector* x, bool& collapsed)
   return least;
 }
 
-double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
+/// `samples`: of a volume cell, see samplesOf().
+double measure(Shape shape, const Vector* x, int corners, unsigned samples, bool& collapsed)
 {
   collapsed = false;
   // A comparison with NaN is false, so the minimum over the corners would ignore it.
@@ -165,13 +200,13 @@ double measure(Shape shape, const Vector* x, int corners, bool& collapsed)
       value = tet(x[0], x[1], x[2], x[3], collapsed);
       break;
     case Shape::Hex:
-      value = hex(x, collapsed);
+      value = hex(x, samples, collapsed);
       break;
     case Shape::Wedge:
-      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCornerNodes, collapsed);
+      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCornerNodes, samples, collapsed);
       break;
     case Shape::Pyramid:
-      value = pyramid(x, collapsed);
+      value = pyramid(x, samples, collapsed);
       break;
     case Shape::Other:
       break;
@@ -231,7 +266,7 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
           x[k].z() *= sign;
         }
         bool collapsed = false;
-        double value = measure(shape->shape, x, shape->numberOfCorners, collapsed);
+        double value = measure(shape->shape, x, shape->numberOfCorners, AllSamples, collapsed);
         if (!cornersOnly && isQuadraticVolume(*shape) && !collapsed)
         {
           value = measureInside(mesh.types[c], *shape, mesh, points, c, sign, value);
@@ -281,8 +316,103 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
 
 double scaledJacobian(std::uint8_t type, const double (*corners)[3])
 {
+  return scaledJacobian(type, corners, AllSamples);
+}
+
+unsigned samplesOf(Shape shape, unsigned nodes)
+{
+  const auto has = [nodes](int k) { return (nodes >> k & 1u) != 0; };
+  unsigned samples = 0;
+  const auto add = [&](int sample, const int* corner)
+  {
+    if (has(corner[0]) || has(corner[1]) || has(corner[2]) || has(corner[3]))
+    {
+      samples |= 1u << sample;
+    }
+  };
+  switch (shape)
+  {
+    case Shape::Tet:
+      return nodes != 0 ? 1u : 0u;
+    case Shape::Hex:
+      for (int k = 0; k < 8; ++k)
+      {
+        add(k, HexCorners[k]);
+      }
+      return nodes != 0 ? samples | HexCenter : 0u;
+    case Shape::Wedge:
+      for (int k = 0; k < 6; ++k)
+      {
+        add(k, WedgeCornerNodes[k]);
+      }
+      return samples;
+    case Shape::Pyramid:
+      for (int k = 0; k < 4; ++k)
+      {
+        add(k, PyramidCornerNodes[k]);
+      }
+      return samples;
+    default:
+      return 0;
+  }
+}
+
+namespace
+{
+/// The four corners of a tetrahedron with its other corners.
+constexpr int TetCorners[4][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 3, 0, 2, 1 } };
+
+/// The minimum of the sine of the angle between two edges at a corner, all three nodes in `nodes`
+/// and the fourth not.
+template <int N>
+double leastSine(const Vector* x, const int (&corners)[N][4], unsigned nodes)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const int(&c)[4] : corners)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      const int a = c[1 + d], b = c[1 + (d + 1) % 3], other = c[1 + (d + 2) % 3];
+      const unsigned three = 1u << c[0] | 1u << a | 1u << b, four = three | 1u << other;
+      if ((nodes & four) == three)
+      {
+        const Vector u = x[a] - x[c[0]], v = x[b] - x[c[0]];
+        const double lengths = lengthOf(u) * lengthOf(v);
+        least = std::min(least, lengths > 0 ? u.cross(v).norm() / lengths : 0.);
+      }
+    }
+  }
+  return least;
+}
+}
+
+double scaledJacobianBound(std::uint8_t type, const double (*corners)[3], unsigned nodes)
+{
+  Vector x[8];
   const CellShape* shape = cellShape(type);
-  if (!shape || shape->shape == Shape::Other)
+  for (int k = 0; k < shape->numberOfCorners; ++k)
+  {
+    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
+  }
+  switch (shape->shape)
+  {
+    case Shape::Tet:
+      return std::sqrt(2.) * leastSine(x, TetCorners, nodes);
+    case Shape::Hex:
+      return leastSine(x, HexCorners, nodes);
+    case Shape::Wedge:
+      return 2 / std::sqrt(3.) * leastSine(x, WedgeCornerNodes, nodes);
+    case Shape::Pyramid:
+      return 2 * leastSine(x, PyramidCornerNodes, nodes);
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
+double scaledJacobian(std::uint8_t type, const double (*corners)[3], unsigned samples)
+{
+  const CellShape* shape = cellShape(type);
+  if (!shape || shape->shape == Shape::Other || samples == 0)
   {
     return NotMeasured;
   }
@@ -292,7 +422,7 @@ double scaledJacobian(std::uint8_t type, const double (*corners)[3])
     x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
   }
   bool collapsed = false;
-  return measure(shape->shape, x, shape->numberOfCorners, collapsed);
+  return measure(shape->shape, x, shape->numberOfCorners, samples, collapsed);
 }
 
 bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])

@@ -27,6 +27,19 @@ namespace morph
 /// ... order.
 double scaledJacobian(std::uint8_t type, const double (*corners)[3]);
 
+/// The samples of a volume cell of which its scaled Jacobian is the minimum, as a set of bits: its
+/// corners, in the order of the formula, then a hexahedron's centre; one for a tetrahedron. Returns
+/// those that depend on a corner node k with bit k in `nodes`.
+unsigned samplesOf(Shape shape, unsigned nodes);
+
+/// The minimum over a volume cell's `samples` alone; NaN if there are none.
+double scaledJacobian(std::uint8_t type, const double (*corners)[3], unsigned samples);
+
+/// Returns an upper bound of the scaled Jacobian over the samples that depend on a corner node
+/// without a bit in `nodes`, for any position of these. It is the sine of an angle between edges of
+/// a face, in the scale of the cell; infinite without such a face corner.
+double scaledJacobianBound(std::uint8_t type, const double (*corners)[3], unsigned nodes);
+
 /// Whether scaledJacobian() of a hexahedron or wedge is certainly positive despite rounding. False
 /// proves nothing. Cost: a third of scaledJacobian()'s, by determinants that are not normalised.
 bool areCornersSurelyPositive(Shape shape, const double (*corners)[3]);

@@ -90,11 +90,10 @@ private:
 };
 }
 
-void FoldoverContinuation::setDensity(double epsilon, double stiffness)
+void FoldoverContinuation::setDensity(double epsilon)
 {
   FoldoverDensity density = this->energy_.density();
   density.epsilon = epsilon;
-  density.stiffness = stiffness;
   this->energy_.setDensity(density);
 }
 
@@ -167,30 +166,5 @@ void FoldoverContinuation::improve(Points& points, int steps, Monitor& monitor)
 {
   this->setDensity(Valid);
   this->minimize(points, steps, monitor);
-}
-
-void FoldoverContinuation::stiffen(Points& points, Monitor& monitor)
-{
-  constexpr int Rounds = 12, Steps = 2;
-  this->setDensity(Valid);
-  MeshEnergy::State state = this->evaluate(points, monitor);
-  if (!(state.minimumDeterminant > 0 && state.maximumDistortion > 0))
-  {
-    return;
-  }
-  double stiffness = (1 - 1e-3) / state.maximumDistortion;
-  for (int round = 0; round < Rounds; ++round)
-  {
-    this->setDensity(Valid, stiffness);
-    const double start = this->evaluate(points, monitor).energy;
-    const double worst = state.maximumDistortion;
-    state = this->minimize(points, Steps, monitor);
-    if (std::abs(worst - state.maximumDistortion) < 1e-3 * worst)
-    {
-      break;
-    }
-    const double sigma = std::max(1 - state.energy / start, 0.1);
-    stiffness += sigma * (1 - stiffness * state.maximumDistortion) / state.maximumDistortion;
-  }
 }
 }

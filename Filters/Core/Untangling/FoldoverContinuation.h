@@ -6,9 +6,9 @@
 
 namespace morph
 {
-/// Minimises a mesh's foldover-free energy by continuation in its regularisation. Sources: Garanzha
-/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069, and 43(1) (2024) 10. `points` in all
-/// functions: #nodes x 3, start and result.
+/// Minimises a mesh's foldover-free energy by continuation in its regularisation. Source: Garanzha
+/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points` in all functions: #nodes x 3,
+/// start and result.
 class FoldoverContinuation
 {
 public:
@@ -31,8 +31,6 @@ public:
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
   /// Improves a valid mesh by at most `steps` steps of the minimiser; the mesh stays valid.
   void improve(Points& points, int steps, Monitor& monitor);
-  /// Lowers the maximum distortion of a valid mesh; the mesh stays valid.
-  void stiffen(Points& points, Monitor& monitor);
 
   Minimizer minimizer() const { return this->minimizer_; }
   const MinimizerEffort& effort() const { return this->effort_; }
@@ -40,7 +38,7 @@ public:
   void include(const MinimizerEffort& effort);
 
 private:
-  void setDensity(double epsilon, double stiffness = 0);
+  void setDensity(double epsilon);
   MeshEnergy::State evaluate(const Points& points, Monitor& monitor);
   MeshEnergy::State minimize(Points& points, int steps, Monitor& monitor);
 

@@ -17,6 +17,9 @@ namespace morph
 namespace
 {
 constexpr int RefreshSteps = 3;
+// A minimum of this part of the undeformed mesh's is enough without the energy, which then rarely
+// leads to a higher one.
+constexpr double Enough = 0.75;
 
 /// Returns the mean edge of the volume cells, from node to node around them; 1 if there are none.
 double meanEdge(const Mesh& mesh)
@@ -90,6 +93,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   energy.setTargets(targetMatrices(
     this->referenceMesh_, this->orientation_, atRest, TargetConstruction::Initial, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
+  this->minimumAtRest_ =
+    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
 }
 
 Points InversionFree::moved(
@@ -100,6 +105,11 @@ Points InversionFree::moved(
   return result * this->scale_;
 }
 
+MovableQuality InversionFree::movableQuality() const
+{
+  return { this->referenceMesh_, this->orientation_, this->partition().free };
+}
+
 Points InversionFree::betterGuess(
   const Points& warped, const Points& boundary, Monitor& monitor) const
 {
@@ -108,8 +118,8 @@ Points InversionFree::betterGuess(
   {
     EvaluateReport ignored;
     Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
-    if (this->minimumScaledJacobian(simplex, monitor) >
-        this->minimumScaledJacobian(warped, monitor))
+    const MovableQuality quality = this->movableQuality();
+    if (quality.measure(warped, monitor) < quality.measure(simplex, monitor))
     {
       return simplex;
     }
@@ -117,50 +127,18 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
-void InversionFree::raiseQuality(
-  MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const
+double InversionFree::goal(const MovableQuality& quality, const Points& points) const
 {
-  monitor.progress(0.7);
-  for (int refresh = 0;
-       refresh < this->refreshes_ && this->target_ == TargetConstruction::Stretched; ++refresh)
-  {
-    const Points guide = points;
-    energy.setTargets(
-      targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_, monitor));
-    stages.improve(points, RefreshSteps, monitor);
-  }
-  monitor.progress(0.8);
-  if (this->stiffening_ && this->target_ != TargetConstruction::Initial)
-  {
-    const Points before = points;
-    stages.stiffen(points, monitor);
-    // Stiffening worsens the average cell: it is only kept if the worst cell gains.
-    const double least = this->minimumScaledJacobian(before, monitor);
-    if (!(this->minimumScaledJacobian(points, monitor) > least + significantGain(least)))
-    {
-      points = before;
-    }
-    this->raiseWorst(points, monitor); // distortion does not measure angles
-  }
-  monitor.progress(0.95);
+  // One place that the boundary spoils does not set the goal for the rest.
+  constexpr double OfUndeformed = 0.2;
+  const MovableQuality::Bounds bounds = quality.bounds(points);
+  const bool spoilt = !(bounds.fixed > OfUndeformed * this->minimumAtRest_);
+  return spoilt ? bounds.movable : std::min(bounds.fixed, bounds.movable);
 }
 
-void InversionFree::raiseWorst(Points& points, Monitor& monitor) const
+bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, const Points& guide,
+  Points& points, Outcome& outcome, Monitor& monitor) const
 {
-  raiseMinimumQuality(
-    this->referenceMesh_, this->orientation_, this->partition().free, points, monitor);
-}
-
-double InversionFree::minimumScaledJacobian(const Points& points, Monitor& monitor) const
-{
-  // Nodes between corners follow last.
-  return measureCorners(this->referenceMesh_, points, this->orientation_, {}, monitor).minimum;
-}
-
-InversionFree::Outcome InversionFree::improve(
-  Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
-{
-  monitor.check();
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
   const TargetMatrices targets =
@@ -170,22 +148,70 @@ InversionFree::Outcome InversionFree::improve(
   const Untangling::Result untangling = Untangling(
     this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
                                           .run(targets, energy, stages, points, untangle);
-  Outcome outcome;
-  outcome.untangled = untangling.valid;
   outcome.onFolds = untangling.onFolds;
   if (untangling.valid)
   {
-    this->raiseQuality(energy, stages, points, monitor);
+    monitor.progress(0.7);
+    for (int refresh = 0;
+         refresh < this->refreshes_ && this->target_ == TargetConstruction::Stretched; ++refresh)
+    {
+      const Points ownGuide = points;
+      energy.setTargets(
+        targetMatrices(this->referenceMesh_, this->orientation_, ownGuide, this->target_, monitor));
+      stages.improve(points, RefreshSteps, monitor);
+    }
+    monitor.progress(0.8);
+    if (this->raisesMinimum())
+    {
+      raiseMinimumQuality(quality, goal, points, monitor);
+    }
+    monitor.progress(0.95);
   }
   outcome.effort = stages.effort();
+  return untangling.valid;
+}
 
-  const double known = this->minimumScaledJacobian(alternative, monitor);
-  const double least = this->minimumScaledJacobian(points, monitor);
-  if (known > 0 && !(least >= known))
+InversionFree::Outcome InversionFree::improve(
+  Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
+{
+  monitor.check();
+  const MovableQuality quality = this->movableQuality();
+  const double goal = this->goal(quality, points);
+  MovableQuality::Result best = quality.measure(alternative, monitor);
+  const bool isValid = best.inverted == 0;
+  Outcome outcome;
+  outcome.untangled = isValid;
+  Points raised;
+  // Raising the minimum of a valid mesh costs far less than minimising the energy.
+  if (isValid && this->raisesMinimum() && this->target_ == TargetConstruction::Stretched)
   {
-    points = alternative;
-    outcome.kept = outcome.untangled = true;
+    raised = alternative;
+    if (raiseMinimumQuality(quality, goal, raised, monitor) > 0)
+    {
+      best = quality.measure(raised, monitor);
+    }
+    if (hasReached(best.minimum, goal) || best.minimum >= Enough * this->minimumAtRest_)
+    {
+      points = std::move(raised);
+      return outcome;
+    }
+    if (this->start_ == Start::FemWarp)
+    {
+      points = raised;
+    }
+  }
+  outcome.untangled =
+    this->minimizeEnergy(quality, goal, guide, points, outcome, monitor) || isValid;
+  if (isValid && quality.measure(points, monitor) < best)
+  {
+    points = raised.rows() > 0 ? raised : alternative;
     outcome.onFolds.clear();
+  }
+  outcome.kept =
+    isValid && outcome.effort.steps > 0 && (points.array() == alternative.array()).all();
+  if (outcome.kept && this->target_ == TargetConstruction::IdealSkew && this->raisesMinimum())
+  {
+    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor) == 0;
   }
   return outcome;
 }
@@ -249,16 +275,12 @@ EvaluateReport InversionFree::displace(
   {
     points = this->moved(*this->method_, boundary, guesses, second);
   }
-  else if (this->start_ == Start::FemWarp && this->validAtRest_)
-  {
-    points = warped;
-  }
   const Points alternative = this->betterGuess(warped, boundary, third);
-  const Outcome outcome = this->improve(points, warped, alternative, monitor);
-  if (outcome.kept && this->stiffening_ && this->target_ != TargetConstruction::Initial)
+  if (this->start_ == Start::FemWarp && this->validAtRest_)
   {
-    this->raiseWorst(points, monitor);
+    points = alternative;
   }
+  const Outcome outcome = this->improve(points, alternative, alternative, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];

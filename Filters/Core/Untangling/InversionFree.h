@@ -7,24 +7,27 @@
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Morpher/Morpher.h"
+#include "Quality/MovableQuality.h"
 #include "Untangling/FoldoverContinuation.h"
 
 #include <memory>
 
 namespace morph
 {
-/// The inversion-free morph: minimises a foldover-free energy, which removes inverted cells and
-/// improves the worst ones. It starts from FEMWARP's mesh or another first guess. The energy
-/// (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is a mean over the averaged
-/// simplicial decompositions of all cells. So a valid minimum passes the scaled Jacobian's corner
-/// test. Hexahedra, wedges and pyramids aim for their undeformed shape, stretched to FEMWARP's edge
-/// lengths; tetrahedra for their undeformed shape.
+/// The inversion-free morph: it removes inverted cells by a foldover-free energy, and raises the
+/// minimum scaled Jacobian. It starts from the better of FEMWARP's and the simplex-linear mesh, or
+/// from another first guess. If that mesh is valid, its minimum is raised at once
+/// (MinQualityAscent.h), up to what the boundary allows (MovableQuality.h). The energy is minimised
+/// only where a cell is inverted, or where the minimum stays below three quarters of the
+/// undeformed mesh's and of that bound.
 ///
-/// Newton's method uses the projected Hessian. Once the mesh is valid, stiffening (ACM Trans.
-/// Graph. 43(1) (2024), arXiv 2201.12112) lowers the maximum distortion. If FEMWARP's mesh is valid
-/// with a higher minimum scaled Jacobian, it is the result. With stretched targets this also holds
-/// for the simplex-linear mesh. So the minimum is never below these two, except by rounding of the
-/// coordinates.
+/// The energy (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is a mean over
+/// the averaged simplicial decompositions of all cells. So a valid minimum passes the scaled
+/// Jacobian's corner test. Hexahedra, wedges and pyramids aim for their undeformed shape, stretched
+/// to the first guess's edge lengths; tetrahedra for their undeformed shape. Newton's method uses
+/// the projected Hessian; then the minimum is raised again. The better mesh is the result, so with
+/// stretched targets it is never below FEMWARP's and the simplex-linear one: it has no more
+/// inverted cells, and with as many no lower minimum over what free nodes can change.
 ///
 /// No method can repair cells that the boundary itself inverts (BoundaryDetermined.h): a warning
 /// names them, and the other cells are morphed. If other cells stay inverted, the count `Untangled`
@@ -33,10 +36,11 @@ namespace morph
 /// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`,
 /// `FoldedBoundaryCells`, `KeptLinear` and `Untangled` (1 or 0).
 ///
-/// prepare(): as FEMWARP and simplex-linear, and passes over the cells. evaluate(): 10 to 60 Newton
-/// steps of 0.4 to 0.8 microseconds of processor time a tetrahedron (ten a hexahedron), each with a
-/// linear solution. It temporarily takes 4 kB a hexahedron. The result is not linear in the
-/// boundary, so there is no adjoint.
+/// prepare(): as FEMWARP and simplex-linear, and passes over the cells. evaluate(): raising the
+/// minimum takes passes over the cells, and 100 to 1000 over those around the worst ones. The
+/// energy takes 5 to 40 Newton steps of 0.4 to 0.8 microseconds of processor time a tetrahedron
+/// (ten a hexahedron), each with a linear solution. It temporarily takes 4 kB a hexahedron. The
+/// result is not linear in the boundary, so there is no adjoint.
 class InversionFree : public Morpher
 {
 public:
@@ -60,9 +64,9 @@ public:
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   /// Default Newton.
   void setMinimizer(FoldoverContinuation::Minimizer minimizer) { this->minimizer_ = minimizer; }
-  /// Whether to lower the maximum distortion last, and to raise the minimum scaled Jacobian
-  /// (MinQualityAscent.h); never for Initial. Default on.
-  void setStiffening(bool on) { this->stiffening_ = on; }
+  /// Whether to raise the minimum scaled Jacobian (MinQualityAscent.h), at the expense of the mean;
+  /// never for Initial. Default on.
+  void setRaising(bool on) { this->raising_ = on; }
   /// Sets how often the stretched targets are recomputed from the current mesh. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
 
@@ -89,23 +93,29 @@ private:
   /// mesh that the result must not be worse than.
   Outcome improve(
     Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
-  /// Returns FEMWARP's mesh `warped`, or simplex-linear's if its minimum scaled Jacobian is higher.
+  /// Returns FEMWARP's mesh `warped`, or simplex-linear's if that is better.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
-  /// Improves a valid mesh.
-  void raiseQuality(
-    MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
+  MovableQuality movableQuality() const;
+  /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
+  /// holds that of the whole mesh there; infinite where it does not.
+  double goal(const MovableQuality& quality, const Points& points) const;
+  bool raisesMinimum() const
+  {
+    return this->raising_ && this->target_ != TargetConstruction::Initial;
+  }
+  /// Untangles and improves `points` by the energy. Returns whether the mesh is valid.
+  bool minimizeEnergy(const MovableQuality& quality, double goal, const Points& guide,
+    Points& points, Outcome& outcome, Monitor& monitor) const;
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
   EvaluateReport report(
     const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const;
-  void raiseWorst(Points& points, Monitor& monitor) const;
-  double minimumScaledJacobian(const Points& points, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
   TargetConstruction target_ = TargetConstruction::Stretched;
   FoldoverContinuation::Minimizer minimizer_ = FoldoverContinuation::Minimizer::Newton;
-  bool stiffening_ = true;
+  bool raising_ = true;
   int refreshes_ = 2;
 
   Points reference_;
@@ -115,6 +125,7 @@ private:
   BoundaryFaces boundary_;
   Classification geometry_; ///< of the undeformed boundary
   bool validAtRest_ = true;
+  double minimumAtRest_ = 0; ///< of the scaled Jacobian
   FemWarp femWarp_;
   SimplexLinear simplexLinear_;
   bool hasSimplexLinear_ = false; ///< a flat boundary has no tessellation, for instance

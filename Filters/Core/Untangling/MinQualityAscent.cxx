@@ -4,48 +4,40 @@
 #include "Energies/WorstCornerNorm.h"
 #include "Mesh/KRing.h"
 #include "Optimization/Minimizers.h"
-#include "Quality/ScaledJacobian.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace morph
 {
 namespace
 {
-constexpr int Rounds = 16;
-constexpr int Setbacks = 2; // in a row
-constexpr int Steps = 40;
-constexpr int Rings = 2;
+constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
+constexpr int Rounds = 40;
+constexpr int Rings = 8;
+constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
+
+int stepsOf(int squarings)
+{
+  return squarings <= LowSquarings ? 60 : 100;
+}
+
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 
-std::vector<Index> worstCells(const Mesh& mesh, const Quality& quality)
+std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& quality)
 {
   const double least = quality.minimum;
   const double limit = least + std::min(OfTheLeast * least, OfTheWay * (1 - least));
   std::vector<Index> worst;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (quality.scaledJacobian[c] <= limit && numberOfCorners(cellShape(mesh.types[c])->shape) > 0)
+    if (quality.scaledJacobian[c] <= limit)
     {
       worst.push_back(c);
     }
   }
   return worst;
-}
-
-bool hasFreeCorner(const Mesh& mesh, const std::vector<Index>& free, Index cell)
-{
-  const CellShape& shape = *cellShape(mesh.types[cell]);
-  const Index* nodes = mesh.cell(cell);
-  for (int k = 0; k < numberOfCorners(shape.shape); ++k)
-  {
-    if (std::binary_search(free.begin(), free.end(), nodes[shape.cornerNode[k]]))
-    {
-      return true;
-    }
-  }
-  return false;
 }
 }
 
@@ -54,50 +46,51 @@ double significantGain(double least)
   return std::max(1e-6, std::min(1e-3 * least, 1e-2 * (1 - least)));
 }
 
-int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& free, Points& points, Monitor& monitor)
+bool hasReached(double minimum, double goal)
 {
-  Quality quality = measureCorners(mesh, points, orientation, {}, monitor);
-  if (!(quality.minimum > 0))
+  return minimum + significantGain(minimum) >= goal;
+}
+
+int raiseMinimumQuality(
+  const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
+{
+  const double goal = std::min(bound, 1.);
+  const Mesh& mesh = measured.mesh();
+  MovableQuality::Result quality = measured.measure(points, monitor);
+  if (!(quality.minimum > 0) || hasReached(quality.minimum, goal) || measured.free().empty())
   {
     return 0;
   }
   const Adjacency around = nodeToCells(mesh);
   Points trial = points;
-  double least = quality.minimum;
-  Index worst = quality.worstCell;
-  int kept = 0, setbacks = 0;
-  for (int round = 0; round < Rounds && setbacks < Setbacks; ++round)
+  int kept = 0, squarings = FirstSquarings;
+  for (int round = 0;
+       round < Rounds && squarings <= LastSquarings && !hasReached(quality.minimum, goal); ++round)
   {
-    // A cell without a free node is fixed by the boundary: no mesh has a higher minimum.
-    if (!(quality.minimum > 0) || !hasFreeCorner(mesh, free, worst))
-    {
-      break;
-    }
-    const KRing patch = kRingOfCells(mesh, around, free, worstCells(mesh, quality), Rings);
-    if (patch.nodes.empty())
-    {
-      break;
-    }
-    const WorstCornerNorm angles(mesh, orientation, patch.cells, patch.nodes, quality.minimum);
+    const KRing patch =
+      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), Rings);
+    const WorstCornerNorm norm(
+      mesh, measured.orientation(), patch.cells, patch.nodes, quality.minimum, squarings);
     MinimizerLimits limits;
-    limits.steps = Steps;
+    limits.steps = stepsOf(squarings);
     MinimizerEffort effort;
-    limitedMemoryBfgs(angles, trial, limits, effort, monitor);
-    quality = measureCorners(mesh, trial, orientation, {}, monitor);
-    // The sum can decrease while its largest term grows; the next round mostly compensates for it.
-    // for it.
-    if (quality.minimum > least + significantGain(least))
+    limitedMemoryBfgs(norm, trial, limits, effort, monitor);
+    MovableQuality::Result next = measured.measure(trial, monitor);
+    const bool gained = next.minimum > quality.minimum + significantGain(quality.minimum);
+    if (gained)
     {
-      points = trial;
-      least = quality.minimum;
-      worst = quality.worstCell;
+      points(patch.nodes, Eigen::all) = trial(patch.nodes, Eigen::all);
+      quality = std::move(next);
       ++kept;
-      setbacks = 0;
     }
     else
     {
-      ++setbacks;
+      // A lower norm can have a lower minimum. The next power starts from the best mesh.
+      trial(patch.nodes, Eigen::all) = points(patch.nodes, Eigen::all);
+    }
+    if (!gained || effort.steps < limits.steps)
+    {
+      ++squarings;
     }
   }
   return kept;

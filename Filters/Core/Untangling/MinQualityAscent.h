@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Mesh.h"
+#include "Quality/MovableQuality.h"
 #include "Support/Monitor.h"
-
-#include <cstdint>
-#include <vector>
 
 namespace morph
 {
@@ -14,12 +11,16 @@ namespace morph
 /// worth its cost to the other cells.
 double significantGain(double least);
 
-/// Raises the minimum scaled Jacobian of a valid mesh, which stays valid. Nodes within two rings of
-/// the worst cells move to lower their WorstCornerNorm (L-BFGS, 40 steps a round). It ends after 16
-/// rounds, or two successive ones without significantGain(). It also ends if the worst cell has no
-/// free node, since no mesh is then better. `free`: ids of nodes that may move, ascending;
-/// `points`: #nodes x 3, start and best result. Returns the number of rounds with a gain. Cost: a
-/// pass over the cells a round, and the minimisation near the worst cells.
-int raiseMinimumQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& free, Points& points, Monitor& monitor);
+/// Whether nothing significant can be gained below the upper bound `goal`.
+bool hasReached(double minimum, double goal);
+
+/// Raises the minimum scaled Jacobian over what free nodes can change in a mesh that is valid
+/// there, and stays so. Nodes within a few rings of the worst cells move to lower their
+/// WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners help the worst ones,
+/// and doubles whenever a round gains nothing or has converged. It ends after the highest power, or
+/// where the minimum has reached `goal`, see hasReached(). `points`: #nodes x 3, start and
+/// best result. Returns the number of rounds with a gain. Cost: a pass over the cells a round, and
+/// the minimisation near the worst cells.
+int raiseMinimumQuality(
+  const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 }

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/MovableQuality.h"
+
+#include "Mesh/CellShape.h"
+
+#include <algorithm>
+#include <bitset>
+#include <limits>
+#include <tuple>
+
+namespace morph
+{
+bool MovableQuality::Result::operator<(const Result& other) const
+{
+  return std::make_tuple(-this->inverted, this->minimum) <
+         std::make_tuple(-other.inverted, other.minimum);
+}
+
+MovableQuality::MovableQuality(
+  const Mesh& mesh, const std::vector<std::int8_t>& orientation, const std::vector<Index>& free)
+  : mesh_(mesh)
+  , orientation_(orientation)
+  , free_(free)
+  , skip_(mesh.numberOfCells(), 0)
+{
+  std::vector<char> isFree(mesh.numberOfNodes(), 0);
+  for (Index node : free)
+  {
+    isFree[node] = 1;
+  }
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    if (shape.dimension != 3)
+    {
+      this->skip_[c] = 1;
+      continue;
+    }
+    unsigned all = 0, free = 0;
+    for (int k = 0; k < shape.numberOfCorners; ++k)
+    {
+      all |= 1u << k;
+      free |= isFree[mesh.cell(c)[shape.cornerNode[k]]] ? 1u << k : 0u;
+    }
+    const unsigned movable = samplesOf(shape.shape, free);
+    const unsigned fixed = samplesOf(shape.shape, all) & ~movable;
+    if (fixed != 0 || std::bitset<8>(all & ~free).count() >= 3)
+    {
+      this->held_.push_back({ c, all & ~free, movable, fixed });
+    }
+    this->skip_[c] = movable == 0;
+  }
+}
+
+void MovableQuality::cornersOf(Index cell, const Points& points, double (*x)[3]) const
+{
+  const CellShape& shape = *cellShape(this->mesh_.types[cell]);
+  copyCorners(this->mesh_, cell, shape, points, x[0]);
+  for (int k = 0; k < shape.numberOfCorners; ++k)
+  {
+    x[k][2] *= this->orientation_[cell]; // a mirrored cell as its mirror image
+  }
+}
+
+MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& monitor) const
+{
+  Result result;
+  result.scaledJacobian =
+    measureCorners(this->mesh_, points, this->orientation_, this->skip_, monitor).scaledJacobian;
+  for (const Cell& cell : this->held_)
+  {
+    if (cell.fixed != 0 && cell.movable != 0)
+    {
+      double x[8][3];
+      this->cornersOf(cell.id, points, x);
+      result.scaledJacobian[cell.id] =
+        morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.movable);
+    }
+  }
+  result.minimum = std::numeric_limits<double>::infinity();
+  for (const double value : result.scaledJacobian)
+  {
+    result.minimum = std::min(result.minimum, value); // NaN is passed over
+    result.inverted += value <= 0 ? 1 : 0;
+  }
+  return result;
+}
+
+MovableQuality::Bounds MovableQuality::bounds(const Points& points) const
+{
+  Bounds result;
+  for (const Cell& cell : this->held_)
+  {
+    double x[8][3];
+    this->cornersOf(cell.id, points, x);
+    const std::uint8_t type = this->mesh_.types[cell.id];
+    result.movable = std::min(result.movable, scaledJacobianBound(type, x, cell.prescribed));
+    if (cell.fixed != 0)
+    {
+      result.fixed = std::min(result.fixed, morph::scaledJacobian(type, x, cell.fixed));
+    }
+  }
+  return result;
+}
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace morph
+{
+/// Measures a mesh by the samples of its volume cells that free nodes can change. The prescribed
+/// nodes alone determine the others, so one badly placed prescribed node does not hide what a
+/// method can improve. Samples are those of samplesOf().
+class MovableQuality
+{
+public:
+  /// `orientation`: #cells, see cellSigns() in Topology.h; `free`: ids of the nodes that move,
+  /// ascending. Holds all three by reference. Cost: one pass over the cells.
+  MovableQuality(
+    const Mesh& mesh, const std::vector<std::int8_t>& orientation, const std::vector<Index>& free);
+
+  const Mesh& mesh() const { return this->mesh_; }
+  const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
+  const std::vector<Index>& free() const { return this->free_; }
+
+  struct Result
+  {
+    std::vector<double> scaledJacobian; ///< #cells; NaN without a sample
+    double minimum = 0;                 ///< infinite without a sample in the mesh
+    Index inverted = 0;                 ///< cells with 0 or less, degenerate ones too
+
+    /// Whether this mesh is worse: it has more inverted cells or, with as many, a lower minimum.
+    bool operator<(const Result& other) const;
+  };
+  /// Measures the mesh at `points`, #nodes x 3, by corners alone. Cost: measureCorners().
+  Result measure(const Points& points, Monitor& monitor) const;
+
+  /// What the prescribed nodes alone allow; infinite where they set no limit.
+  struct Bounds
+  {
+    /// the minimum over samples without a free node
+    double fixed = std::numeric_limits<double>::infinity();
+    /// an upper bound of the others' minimum, see scaledJacobianBound()
+    double movable = std::numeric_limits<double>::infinity();
+  };
+  /// `points`: #nodes x 3, read at prescribed nodes. Cost: a pass over the cells at prescribed
+  /// nodes.
+  Bounds bounds(const Points& points) const;
+
+private:
+  struct Cell
+  {
+    Index id;
+    unsigned prescribed;     ///< corner nodes
+    unsigned movable, fixed; ///< samples
+  };
+  void cornersOf(Index cell, const Points& points, double (*x)[3]) const;
+
+  const Mesh& mesh_;
+  const std::vector<std::int8_t>& orientation_;
+  const std::vector<Index>& free_;
+  std::vector<Cell> held_;         ///< cells with three or more prescribed corner nodes, ascending
+  std::vector<std::uint8_t> skip_; ///< #cells, nonzero for cells without a movable sample
+};
+}

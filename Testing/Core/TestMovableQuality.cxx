@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+#include "Motions.h"
+#include "Quality/MovableQuality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace
+{
+using morph::Index;
+using morph::MovableQuality;
+using morph::Points;
+
+std::vector<std::int8_t> orientationOf(const morph::Mesh& mesh)
+{
+  return morph::cellSigns(mesh, morph::connectedComponents(mesh));
+}
+}
+
+TEST(MovableQuality, MovableAndFixedSamplesMakeTheScaledJacobian)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = orientationOf(mesh);
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    const MovableQuality quality(mesh, orientation, partition.free);
+    const MovableQuality::Result movable = quality.measure(mesh.points, monitor);
+    const morph::Quality whole = morph::measureCorners(mesh, mesh.points, orientation, {}, monitor);
+    EXPECT_EQ(std::min(movable.minimum, quality.bounds(mesh.points).fixed), whole.minimum);
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      EXPECT_FALSE(movable.scaledJacobian[c] < whole.scaledJacobian[c]) << c;
+    }
+  }
+}
+
+TEST(MovableQuality, FreeNodesChangeNothingThatIsFixedAndNoMovableSampleExceedsItsBound)
+{
+  for (const auto& [name, original] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    morph::Mesh mesh = original;
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = orientationOf(mesh);
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    const MovableQuality quality(mesh, orientation, partition.free);
+    const MovableQuality::Bounds bounds = quality.bounds(mesh.points);
+    EXPECT_GT(bounds.movable, 0);
+    for (int round = 0; round < 20; ++round)
+    {
+      for (Index node : partition.free)
+      {
+        mesh.points.row(node) = original.points.row(node) + 0.3 * Eigen::RowVector3d::Random();
+      }
+      EXPECT_EQ(quality.bounds(mesh.points).fixed, bounds.fixed);
+      EXPECT_EQ(quality.bounds(mesh.points).movable, bounds.movable);
+      EXPECT_LE(quality.measure(mesh.points, monitor).minimum, bounds.movable);
+    }
+  }
+}
+
+TEST(MovableQuality, ASkewFaceIsTheBoundOfAHexahedron)
+{
+  morph::Mesh mesh = meshes::hexes(2, 2, 2);
+  const auto orientation = orientationOf(mesh);
+  const double angle = 0.4;
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    mesh.points(n, 0) += mesh.points(n, 1) / std::tan(angle);
+  }
+  // The node in the middle is free, and no cell has a sample without a free node but at the brick's
+  // corners and edges.
+  const morph::NodePartition partition = motions::outerPartition(mesh);
+  const MovableQuality quality(mesh, orientation, partition.free);
+  meshes::ThreadedMonitor monitor;
+  EXPECT_NEAR(quality.bounds(mesh.points).movable, std::sin(angle), 1e-14);
+  EXPECT_NEAR(quality.bounds(mesh.points).fixed, std::sin(angle), 1e-14);
+  EXPECT_NEAR(quality.measure(mesh.points, monitor).minimum, std::sin(angle), 1e-14);
+}
+
+TEST(MovableQuality, MoreInvertedCellsAreWorseThanALowerMinimum)
+{
+  MovableQuality::Result valid, lower, tangled;
+  valid.minimum = 0.2;
+  lower.minimum = 0.1;
+  tangled.minimum = 0.3;
+  tangled.inverted = 1;
+  EXPECT_TRUE(lower < valid);
+  EXPECT_FALSE(valid < lower);
+  EXPECT_FALSE(valid < valid);
+  EXPECT_TRUE(tangled < lower);
+}
+
+TEST(MovableQuality, WithoutAFreeNodeNothingIsMovable)
+{
+  const morph::Mesh mesh = meshes::hexes(1, 1, 1);
+  const auto orientation = orientationOf(mesh);
+  const std::vector<Index> none;
+  const MovableQuality quality(mesh, orientation, none);
+  meshes::ThreadedMonitor monitor;
+  EXPECT_EQ(quality.bounds(mesh.points).fixed, 1);
+  EXPECT_EQ(quality.bounds(mesh.points).movable, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(quality.measure(mesh.points, monitor).inverted, 0);
+  EXPECT_TRUE(std::isnan(quality.measure(mesh.points, monitor).scaledJacobian[0]));
+}
