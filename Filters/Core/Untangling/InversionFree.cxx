@@ -20,6 +20,8 @@ constexpr int RefreshSteps = 3;
 // A minimum of this part of the undeformed mesh's is enough without the energy, which then rarely
 // leads to a higher one.
 constexpr double Enough = 0.75;
+// A minimum of this part of the best known one may be raised beyond it.
+constexpr double WorthRaising = 0.6;
 
 /// Returns the mean edge of the volume cells, from node to node around them; 1 if there are none.
 double meanEdge(const Mesh& mesh)
@@ -136,8 +138,8 @@ double InversionFree::goal(const MovableQuality& quality, const Points& points) 
   return spoilt ? bounds.movable : std::min(bounds.fixed, bounds.movable);
 }
 
-bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, const Points& guide,
-  Points& points, Outcome& outcome, Monitor& monitor) const
+bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, double best,
+  const Points& guide, Points& points, Outcome& outcome, Monitor& monitor) const
 {
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
@@ -161,7 +163,7 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, c
       stages.improve(points, RefreshSteps, monitor);
     }
     monitor.progress(0.8);
-    if (this->raisesMinimum())
+    if (this->raisesMinimum() && quality.measure(points, monitor).minimum >= WorthRaising * best)
     {
       raiseMinimumQuality(quality, goal, points, monitor);
     }
@@ -200,8 +202,9 @@ InversionFree::Outcome InversionFree::improve(
       points = raised;
     }
   }
-  outcome.untangled =
-    this->minimizeEnergy(quality, goal, guide, points, outcome, monitor) || isValid;
+  outcome.untangled = this->minimizeEnergy(quality, goal, isValid ? best.minimum : 0, guide, points,
+                        outcome, monitor) ||
+                      isValid;
   if (isValid && quality.measure(points, monitor) < best)
   {
     points = raised.rows() > 0 ? raised : alternative;

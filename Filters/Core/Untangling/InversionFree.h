@@ -103,8 +103,9 @@ private:
   {
     return this->raising_ && this->target_ != TargetConstruction::Initial;
   }
-  /// Untangles and improves `points` by the energy. Returns whether the mesh is valid.
-  bool minimizeEnergy(const MovableQuality& quality, double goal, const Points& guide,
+  /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
+  /// minimum of the best mesh so far, 0 without a valid one.
+  bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Points& guide,
     Points& points, Outcome& outcome, Monitor& monitor) const;
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(

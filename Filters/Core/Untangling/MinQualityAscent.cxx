@@ -14,7 +14,11 @@ namespace
 {
 constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
 constexpr int Rounds = 40;
-constexpr int Rings = 8;
+constexpr int Rings = 5;
+// A gain of this many significant ones in a full round promises more from the same power.
+constexpr double Promising = 30;
+// A mesh within this part of the bound is left as it is.
+constexpr double NearBound = 5e-3;
 constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
 
 int stepsOf(int squarings)
@@ -48,7 +52,7 @@ double significantGain(double least)
 
 bool hasReached(double minimum, double goal)
 {
-  return minimum + significantGain(minimum) >= goal;
+  return minimum >= (1 - NearBound) * std::min(goal, 1.);
 }
 
 int raiseMinimumQuality(
@@ -64,8 +68,8 @@ int raiseMinimumQuality(
   const Adjacency around = nodeToCells(mesh);
   Points trial = points;
   int kept = 0, squarings = FirstSquarings;
-  for (int round = 0;
-       round < Rounds && squarings <= LastSquarings && !hasReached(quality.minimum, goal); ++round)
+  const auto canGain = [&] { return quality.minimum + significantGain(quality.minimum) < goal; };
+  for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
     const KRing patch =
       kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), Rings);
@@ -76,7 +80,9 @@ int raiseMinimumQuality(
     MinimizerEffort effort;
     limitedMemoryBfgs(norm, trial, limits, effort, monitor);
     MovableQuality::Result next = measured.measure(trial, monitor);
-    const bool gained = next.minimum > quality.minimum + significantGain(quality.minimum);
+    const double gain = next.minimum - quality.minimum, least = significantGain(quality.minimum);
+    const bool gained = gain > least;
+    const bool more = gain > Promising * least && effort.steps >= limits.steps;
     if (gained)
     {
       points(patch.nodes, Eigen::all) = trial(patch.nodes, Eigen::all);
@@ -88,7 +94,7 @@ int raiseMinimumQuality(
       // A lower norm can have a lower minimum. The next power starts from the best mesh.
       trial(patch.nodes, Eigen::all) = points(patch.nodes, Eigen::all);
     }
-    if (!gained || effort.steps < limits.steps)
+    if (!more)
     {
       ++squarings;
     }

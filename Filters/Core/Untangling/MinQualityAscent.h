@@ -11,16 +11,17 @@ namespace morph
 /// worth its cost to the other cells.
 double significantGain(double least);
 
-/// Whether nothing significant can be gained below the upper bound `goal`.
+/// Whether a minimum is within 0.5 % of the upper bound `goal`, or of 1. Raising it is then not
+/// worth its cost.
 bool hasReached(double minimum, double goal);
 
 /// Raises the minimum scaled Jacobian over what free nodes can change in a mesh that is valid
-/// there, and stays so. Nodes within a few rings of the worst cells move to lower their
+/// there, and stays so. Nodes within five rings of the worst cells move to lower their
 /// WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners help the worst ones,
-/// and doubles whenever a round gains nothing or has converged. It ends after the highest power, or
-/// where the minimum has reached `goal`, see hasReached(). `points`: #nodes x 3, start and
-/// best result. Returns the number of rounds with a gain. Cost: a pass over the cells a round, and
-/// the minimisation near the worst cells.
+/// and doubles whenever a round gains little or has converged. It ends after the highest power, or
+/// at `goal`; a mesh that has reached that, see hasReached(), is left as it is. `points`: #nodes x
+/// 3, start and best result. Returns the number of rounds with a gain. Cost: a pass over the cells
+/// a round, and the minimisation near the worst cells.
 int raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 }
