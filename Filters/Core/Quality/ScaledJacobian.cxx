@@ -24,9 +24,6 @@ constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 // edge e of the twelve in HexAxisEdges, or -(e + 1) if it ends at the corner.
 constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 }, { -5, 2, 11 },
   { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
-// The three neighbors of each corner, in the same order.
-constexpr int HexCorners[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 }, { 3, 0, 2, 7 },
-  { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
 
 /// Returns the length of an edge, correct also if its square underflows.
 double lengthOf(const Vector& edge)
@@ -337,7 +334,7 @@ unsigned samplesOf(Shape shape, unsigned nodes)
     case Shape::Hex:
       for (int k = 0; k < 8; ++k)
       {
-        add(k, HexCorners[k]);
+        add(k, HexCornerNodes[k]);
       }
       return nodes != 0 ? samples | HexCenter : 0u;
     case Shape::Wedge:
@@ -399,7 +396,7 @@ double scaledJacobianBound(std::uint8_t type, const double (*corners)[3], unsign
     case Shape::Tet:
       return std::sqrt(2.) * leastSine(x, TetCorners, nodes);
     case Shape::Hex:
-      return leastSine(x, HexCorners, nodes);
+      return leastSine(x, HexCornerNodes, nodes);
     case Shape::Wedge:
       return 2 / std::sqrt(3.) * leastSine(x, WedgeCornerNodes, nodes);
     case Shape::Pyramid:
