@@ -105,7 +105,7 @@ public:
   ///@{
   /**
    * Whether steps start from the undeformed mesh, and from the mesh of the step before; see
-   * vtkMorphAlgorithm::SetStepping(). Default: both.
+   * vtkMorphAlgorithm::SetStepping(). Default: from the undeformed mesh alone.
    */
   vtkSetMacro(Absolute, bool);
   vtkGetMacro(Absolute, bool);
@@ -118,7 +118,7 @@ public:
   ///@{
   /**
    * Steps of a boundary that does not vary in time; see vtkMorphAlgorithm::SetNumberOfSteps().
-   * Default 20, as in the paper. Range [1, 1000000]; values outside become the nearest bound.
+   * Default 5; the paper takes 20. Range [1, 1000000]; values outside become the nearest bound.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 1000000);
   vtkGetMacro(NumberOfSteps, int);
@@ -197,8 +197,8 @@ private:
   bool LBWARP = true;
   bool InversionFree = true;
   bool Absolute = true;
-  bool Relative = true;
-  int NumberOfSteps = 20;
+  bool Relative = false;
+  int NumberOfSteps = 5;
   double Percentile = 1;
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;

@@ -16,6 +16,11 @@ namespace morph_mesh
 namespace
 {
 const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output>\n"
+                          "       morph-mesh --move <surface> --translate <x,y,z> [options] "
+                          "<grid> <output>\n"
+                          "       morph-mesh --target <surface file> [options] <grid> <output>\n"
+                          "       morph-mesh --displacements <csv> [options] <grid> <output>\n"
+                          "       morph-mesh --list-surfaces <grid>\n"
                           "       morph-mesh --extract-boundary <grid> <boundary>\n"
                           "       morph-mesh [options] <grid> --shapes <boundary>... --table "
                           "<table> --output <folder>\n"
@@ -65,6 +70,78 @@ int threadCount(const std::string& text)
   return static_cast<int>(value);
 }
 
+/// "1,2,3"; `alone`: a single number stands for all three.
+std::array<double, 3> triple(const std::string& option, const std::string& text, bool alone)
+{
+  std::vector<double> values;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');)
+  {
+    values.push_back(number(option, part));
+  }
+  if (alone && values.size() == 1)
+  {
+    values.assign(3, values.front());
+  }
+  if (values.size() != 3)
+  {
+    throw UsageError(option + " needs three numbers with commas between them" +
+                     (alone ? ", or one," : ",") + " not '" + text + "'.");
+  }
+  return { values[0], values[1], values[2] };
+}
+
+/// "z,30": degrees about an axis.
+std::array<double, 3> rotation(const std::string& text)
+{
+  const std::size_t axis = text.empty() ? std::string::npos : std::string("xyz").find(text[0]);
+  if (axis == std::string::npos || text.size() < 3 || text[1] != ',')
+  {
+    throw UsageError(
+      "--rotate needs an axis (x, y or z), a comma and degrees, not '" + text + "'.");
+  }
+  std::array<double, 3> degrees = { 0, 0, 0 };
+  degrees[axis] = number("--rotate", text.substr(2));
+  return degrees;
+}
+
+int stepCount(const std::string& text)
+{
+  const double value = number("--steps", text);
+  if (!(value >= 1 && value <= 1000000) || value != static_cast<int>(value))
+  {
+    throw UsageError("--steps needs a whole number from 1 to 1000000, not '" + text + "'.");
+  }
+  return static_cast<int>(value);
+}
+
+/// Throws UsageError where the options of the motion contradict each other.
+void checkMotion(const Arguments& arguments)
+{
+  const Motion& motion = arguments.motion;
+  const int ways = !motion.moving.empty() + !motion.target.empty() + !motion.displacements.empty();
+  if (ways > 1)
+  {
+    throw UsageError("Of --move, --target and --displacements only one can be given.");
+  }
+  const Motion none;
+  const bool hasNumbers = motion.translation != none.translation ||
+                          motion.rotation != none.rotation || motion.scale != none.scale;
+  if (motion.moving.empty() &&
+      (hasNumbers || motion.radius != 0 || !motion.fixed.empty() || !motion.sliding.empty()))
+  {
+    throw UsageError("--translate, --rotate, --scale, --radius, --fix and --slide need --move.");
+  }
+  if (hasNumbers && motion.radius != 0)
+  {
+    throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
+  }
+  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0)
+  {
+    throw UsageError("--move needs --translate, --rotate, --scale or --radius.");
+  }
+}
+
 std::pair<std::string, std::string> nameAndValue(const std::string& text)
 {
   const std::size_t equals = text.find('=');
@@ -105,16 +182,22 @@ void takeFiles(const std::vector<std::string>& files, Arguments& result)
     return;
   }
   const bool morphs = result.task == Arguments::Task::Morph;
-  const std::size_t expected = morphs ? 3 : 2;
+  const bool lists = result.task == Arguments::Task::ListSurfaces;
+  const bool reads = morphs && !result.motion.any();
+  const std::size_t expected = lists ? 1 : reads ? 3 : 2;
   if (files.size() != expected)
   {
-    throw UsageError(std::to_string(expected) + " files are needed (" +
-                     (morphs ? "grid, boundary, output" : "grid, boundary") + "), " +
-                     std::to_string(files.size()) + " are given.");
+    throw UsageError(std::to_string(expected) + (lists ? " file is" : " files are") + " needed (" +
+                     (lists     ? "grid"
+                       : reads  ? "grid, boundary, output"
+                       : morphs ? "grid, output"
+                                : "grid, boundary") +
+                     "), " + std::to_string(files.size()) +
+                     (files.size() == 1 ? " is given." : " are given."));
   }
   result.grid = files.front();
-  result.boundary = morphs ? files[1] : "";
-  result.output = files.back();
+  result.boundary = reads ? files[1] : "";
+  result.output = lists ? "" : files.back();
 }
 
 struct Option
@@ -174,6 +257,40 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--progress", nullptr, "show progress even if standard error is no terminal",
       flag(result.progress) },
     { "--quiet", nullptr, "print nothing but warnings and errors", flag(result.quiet) },
+    { "--move", "<surface>",
+      "a surface or curve that moves, as --list-surfaces names it; may be repeated",
+      [&](const std::string& value) { result.motion.moving.push_back(value); } },
+    { "--translate", "<x,y,z>", "how far it moves",
+      [&](const std::string& value)
+      { result.motion.translation = triple("--translate", value, false); } },
+    { "--rotate", "<axis,degrees>", "how it turns about its centre: z,30",
+      [&](const std::string& value) { result.motion.rotation = rotation(value); } },
+    { "--scale", "<factor>|<x,y,z>", "how it is scaled about its centre",
+      [&](const std::string& value) { result.motion.scale = triple("--scale", value, true); } },
+    { "--center", "<x,y,z>", "another centre",
+      [&](const std::string& value)
+      {
+        result.motion.center = triple("--center", value, false);
+        result.motion.hasCenter = true;
+      } },
+    { "--radius", "<change>", "how much the radius of the cylinders grows that move",
+      [&](const std::string& value) { result.motion.radius = number("--radius", value); } },
+    { "--fix", "<surface>", "a surface that stays; may be repeated",
+      [&](const std::string& value) { result.motion.fixed.push_back(value); } },
+    { "--slide", "<surface>",
+      "a surface whose nodes slide along it, a plane of symmetry; repeatable",
+      [&](const std::string& value) { result.motion.sliding.push_back(value); } },
+    { "--target", "<file>", "a surface onto which the boundary is projected; vertices stay",
+      text(result.motion.target) },
+    { "--displacements", "<csv>", "nodes that move: columns id (0-based point id), dx, dy, dz",
+      text(result.motion.displacements) },
+    { "--node-numbers", nullptr, "ids of --displacements are the node numbers of the grid's file",
+      flag(result.motion.nodeNumbers) },
+    { "--steps", "<number>",
+      "write the equal steps of the motion: <output> with -1, -2, ... before its extension",
+      [&](const std::string& value) { result.steps = stepCount(value); } },
+    { "--list-surfaces", nullptr, "print name, faces, area and centre of each surface, and stop",
+      task(Task::ListSurfaces) },
     { "--extract-boundary", nullptr, "write the grid's boundary, to be moved, and stop",
       task(Task::ExtractBoundary) },
     { "--version", nullptr, "print the version and stop", task(Task::ShowVersion) },
@@ -255,6 +372,7 @@ Arguments parseArguments(int argc, char* argv[])
       return result;
     }
   }
+  checkMotion(result);
   takeFiles(files, result);
   return result;
 }

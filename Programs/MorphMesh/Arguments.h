@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -8,6 +9,25 @@
 
 namespace morph_mesh
 {
+/// How the boundary moves where it is not read from a file.
+struct Motion
+{
+  std::vector<std::string> moving, fixed, sliding; ///< names of surfaces and curves
+  std::array<double, 3> translation = { 0, 0, 0 };
+  std::array<double, 3> rotation = { 0, 0, 0 }; ///< degrees about x, y and z
+  std::array<double, 3> scale = { 1, 1, 1 };
+  std::array<double, 3> center = { 0, 0, 0 };
+  bool hasCenter = false;            ///< else the centre of what moves
+  double radius = 0;                 ///< change of the radius of cylinders
+  std::string target, displacements; ///< files; empty: none
+  bool nodeNumbers = false;
+
+  bool any() const
+  {
+    return !this->moving.empty() || !this->target.empty() || !this->displacements.empty();
+  }
+};
+
 /// The task, files and options of a command line.
 struct Arguments
 {
@@ -15,12 +35,15 @@ struct Arguments
   {
     Morph,
     ExtractBoundary,
+    ListSurfaces,
     WriteDesigns,
     ShowHelp,
     ShowVersion
   };
   Task task = Task::Morph;
-  std::string grid, boundary, output; ///< files; ExtractBoundary takes no boundary
+  std::string grid, boundary, output; ///< files; boundary: empty unless it is read
+  Motion motion;
+  int steps = 0;                      ///< 0: the whole motion alone
   std::vector<std::string> shapes;    ///< files, of WriteDesigns, whose output is a folder
   std::vector<std::string> rotations; ///< names of shapes
   std::string table;                  ///< file of WriteDesigns

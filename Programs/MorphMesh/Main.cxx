@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // morph-mesh: the morphing filters on the command line.
 #include "Arguments.h"
+#include "Boundaries.h"
 #include "Designs.h"
 #include "Files.h"
 #include "Messages.h"
@@ -16,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVersion.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 
@@ -65,13 +67,41 @@ vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
   return filter;
 }
 
-int morphMesh(const Arguments& arguments)
+/// Connects the displaced boundary: one that is read, or that is made here.
+void setBoundary(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arguments& arguments)
 {
-  const vtkSmartPointer<vtkMorphAlgorithm> filter = makeFilter(arguments);
-  requireGridFormat(arguments.output);
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(readPoints(arguments.boundary));
+  const Motion& motion = arguments.motion;
+  if (!motion.any())
+  {
+    filter->SetBoundaryData(readPoints(arguments.boundary));
+    return;
+  }
+  if (!motion.displacements.empty())
+  {
+    filter->SetBoundaryConnection(
+      readDisplacements(grid, motion.displacements, motion.nodeNumbers)->GetOutputPort());
+    filter->SetDisplacementArray(DisplacementName);
+    return;
+  }
+  const vtkSmartPointer<vtkAlgorithm> displacement =
+    makeDisplacement(grid, motion, arguments.threads);
+  Messages messages(displacement);
+  messages.update("Cannot move the boundary of " + arguments.grid);
+  printWarnings(messages);
+  filter->SetBoundaryData(displacement->GetOutputDataObject(0));
+}
+
+/// "out.vtu" and 3: "out-3.vtu".
+std::string numbered(const std::string& path, int step)
+{
+  const std::size_t dot = path.find_last_of('.');
+  return path.substr(0, dot) + "-" + std::to_string(step) + path.substr(dot);
+}
+
+/// Morphs by a part of the motion, and writes and reports the mesh.
+int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arguments& arguments,
+  const std::string& output)
+{
   Messages messages(filter);
   std::string partial;
   {
@@ -83,7 +113,7 @@ int morphMesh(const Arguments& arguments)
   {
     std::cerr << "morph-mesh: " << partial << "\n";
   }
-  writeGrid(filter->GetOutput(), arguments.output);
+  writeGrid(filter->GetOutput(), output);
   if (!arguments.quiet)
   {
     vtkNew<vtkScaledJacobian> before;
@@ -94,6 +124,26 @@ int morphMesh(const Arguments& arguments)
   }
   const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
   return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
+}
+
+int morphMesh(const Arguments& arguments)
+{
+  const vtkSmartPointer<vtkMorphAlgorithm> filter = makeFilter(arguments);
+  requireGridFormat(arguments.output);
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
+  filter->SetInputData(grid);
+  setBoundary(filter, grid, arguments);
+  if (arguments.steps == 0)
+  {
+    return morphPart(filter, grid, arguments, arguments.output);
+  }
+  int status = 0;
+  for (int step = 1; step <= arguments.steps; ++step)
+  {
+    filter->SetScaleFactor(arguments.scaleFactor * step / arguments.steps);
+    status = std::max(status, morphPart(filter, grid, arguments, numbered(arguments.output, step)));
+  }
+  return status;
 }
 
 int run(int argc, char* argv[])
@@ -112,6 +162,9 @@ int run(int argc, char* argv[])
       return extractBoundary(arguments);
     case Arguments::Task::WriteDesigns:
       return writeDesigns(arguments);
+    case Arguments::Task::ListSurfaces:
+      printSurfaces(readGrid(arguments.grid), arguments.grid, arguments.threads);
+      return 0;
     case Arguments::Task::Morph:
       break;
   }

@@ -36,7 +36,6 @@ vtkSmartPointer<vtkAlgorithm> makeCompare()
 {
   auto filter = vtkSmartPointer<vtkCompareMorphMethods>::New();
   filter->SetNumberOfSteps(1);
-  filter->RelativeOff();
   filter->SmoothingOff();
   filter->InversionFreeOff();
   return filter;

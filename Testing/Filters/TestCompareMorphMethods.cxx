@@ -42,6 +42,7 @@ protected:
     this->Filter->SetInputData(this->Grid);
     this->Filter->SetBoundaryData(grids::boundary(this->Grid, waves));
     this->Filter->SetNumberOfSteps(4);
+    this->Filter->RelativeOn();
   }
   void Choose(bool fem, bool residual, bool others = false)
   {

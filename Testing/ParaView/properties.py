@@ -16,6 +16,7 @@ import xml.etree.ElementTree as ElementTree
 from paraview import simple
 
 from versions import number_points
+from window_events import category
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -112,7 +113,8 @@ class Properties(unittest.TestCase):
                 self.assertTrue(documentation.text.strip())
                 self.assertTrue(documentation.get("short_help"))
                 self.assertTrue(documentation.get("long_help"))
-                self.assertEqual(xml.find("Hints/ShowInMenu").get("category"), "Mesh Morphing")
+                self.assertEqual(xml.find("Hints/ShowInMenu").get("category"),
+                                 category(xml.get("name")))
                 for p in list(xml.iter("InputProperty")) + properties(xml):
                     text = p.findtext("Documentation", "")
                     self.assertTrue(text.strip(), p.get("name"))

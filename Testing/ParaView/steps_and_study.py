@@ -67,7 +67,8 @@ class Steps(unittest.TestCase):
 class Compare(unittest.TestCase):
     def test_fills_three_tables(self):
         grid, boundary = inputs()
-        compare = CompareMorphMethods(Input=grid, Boundary=boundary, NumberOfSteps=3, Smoothing=0)
+        compare = CompareMorphMethods(Input=grid, Boundary=boundary, NumberOfSteps=3, Relative=1,
+                                      Smoothing=0)
         compare.UpdatePipeline()
         tables = [compare.GetClientSideObject().GetOutputDataObject(port) for port in range(3)]
         self.assertEqual([table.GetNumberOfRows() for table in tables], [6 * 2 * 4, 4, 6 * 2])

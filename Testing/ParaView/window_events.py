@@ -14,6 +14,15 @@ PANEL = (PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContent
 BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
+#: The filters of the menu Mesh Morphing; those for one step of a morph have a menu of their own.
+FIRST = ("MorphMesh", "MorphShapes", "ScaledJacobian", "CompareMorphMethods")
+
+
+def category(name):
+    """The menu of a filter of the plugin."""
+    return "Mesh Morphing" if name in FIRST else "Mesh Morphing Steps"
+
+
 class Events:
     """What a user does, in order, by the names of ParaView's widgets."""
 
@@ -53,8 +62,8 @@ class Events:
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
             self.do(browser, command, f"{buttons},0,60,10,{place}")
 
-    def filter(self, name, category="Mesh Morphing"):
-        self.menu("menuFilters/" + category, name)
+    def filter(self, name, menu=None):
+        self.menu("menuFilters/" + (menu or category(name)), name)
 
     def choose_input(self, port, place):
         dialog = MAIN + "SelectInputDialog/"

@@ -70,6 +70,74 @@ class MorphMesh(unittest.TestCase):
                               "worst cell"):
                     self.assertEqual(row(same.stdout, label), 2 * row(result.stdout, label)[1:])
 
+    def test_surfaces_are_listed_and_moved(self):
+        listed = run("--list-surfaces", BORE)
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        rows = [line.split() for line in listed.stdout.splitlines()[1:]]
+        self.assertEqual([" ".join(r[:2]) for r in rows],
+                         [f"Surface {i}" for i in range(len(rows))])
+        self.assertGreater(min(float(r[3]) for r in rows), 0)
+        moved = self.folder / "moved.vtu"
+        result = run("--move", "Surface 1", "--translate", "0,0,0.2", "--validity", "Repair", BORE,
+                     moved)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(row(result.stdout, "inverted cells"), (0, 0))
+        after = run("--list-surfaces", moved).stdout.splitlines()[2].split(None, 4)
+        before = listed.stdout.splitlines()[2].split(None, 4)
+        shift = [float(b) - float(a) for a, b in zip(before[4].split(","), after[4].split(","))]
+        for found, wanted in zip(shift, (0, 0, 0.2)):
+            self.assertAlmostEqual(found, wanted, delta=1e-4)
+        self.fails(1, "Surface 99", "--move", "Surface 99", "--translate", "1,0,0", BORE, moved)
+        for status, message, *arguments in (
+                (2, "--move needs", "--move", "Surface 1", BORE, moved),
+                (2, "three numbers", "--move", "Surface 1", "--translate", "1,2", BORE, moved),
+                (2, "an axis", "--move", "Surface 1", "--rotate", "w,3", BORE, moved),
+                (2, "need --move", "--translate", "1,2,3", BORE, moved),
+                (2, "only one", "--move", "Surface 1", "--target", "x.stl", BORE, moved),
+                (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
+                (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
+            self.fails(status, message, *arguments)
+
+    def test_steps_are_written_one_by_one(self):
+        result = run("--move=Surface 1", "--translate=0,0,0.2", "--steps=2", BORE,
+                     self.folder / "step.vtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        last, half = (run("--move=Surface 1", f"--translate=0,0,{z}", BORE,
+                          self.folder / "whole.vtu").stdout for z in (0.2, 0.1))
+        both = result.stdout.split("minimum scaled Jacobian")
+        self.assertIn(half.split("minimum scaled Jacobian")[1].split("\n")[0], both[1])
+        self.assertIn(last.split("minimum scaled Jacobian")[1].split("\n")[0], both[2])
+        self.assertTrue((self.folder / "step-1.vtu").exists())
+        self.assertTrue((self.folder / "step-2.vtu").exists())
+        self.assertFalse((self.folder / "step.vtu").exists())
+
+    def test_displacements_of_nodes(self):
+        nodes = self.folder / "nodes.csv"
+        nodes.write_text("dx,id,dy,dz\n0.01,0,0,0\n0,1,0.01,0\n\n", encoding="utf-8")
+        result = run("--displacements", nodes, BORE, self.folder / "out.vtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLess(row(result.stdout, "mean scaled Jacobian")[1], 1)
+        for text, message in (("id,dx,dy\n", "line 1: there is no column dz"),
+                              ("id,dx,dy,dz\n0,1,2,x\n", "line 2: 'x' is no number"),
+                              ("id,dx,dy,dz\n0,1,2\n", "line 2: '' is no number"),
+                              ("id,dx,dy,dz\n\n999999,1,2,3\n", "line 3: the grid has no node"),
+                              ("id,dx,dy,dz\n0.5,1,2,3\n", "line 2: the grid has no node '0.5'"),
+                              ("id,dx,dy,dz\n", "has no node that moves"),
+                              ("", "Cannot read")):
+            nodes.write_text(text, encoding="utf-8")
+            self.fails(1, message, "--displacements", nodes, BORE, self.folder / "x.vtu")
+        nodes.write_text("id,dx,dy,dz\n1,0,0,0\n", encoding="utf-8")
+        self.fails(1, "has no node numbers", "--displacements", nodes, "--node-numbers", BORE,
+                   self.folder / "x.vtu")
+
+    def test_the_boundary_is_fitted_to_a_target(self):
+        # Its own boundary as target: nothing moves, beyond rounding.
+        result = run("--target", self.boundary, BORE, self.folder / "out.vtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        before, after = row(result.stdout, "minimum scaled Jacobian")
+        self.assertAlmostEqual(before, after, delta=1e-6)
+        self.fails(1, "x.stl", "--target", "x.stl", BORE, self.folder / "out.vtu")
+
     def test_method_names_are_found_however_they_are_written(self):
         texts = {self.morph("--method", name).stdout.split("prepared in")[0]
                  for name in ("WeightedResidual", "weighted-residual", "weighted_residual",
