@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Morph Mesh in ParaView's window: six clicks from an open mesh to a morphed one, with the numbers
+of pvpython; and nothing ticked, which is no error. A click is one press of the mouse, each level of
+a menu included; typing is counted apart.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
+         pvpython window_morph_mesh.py
+"""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview import simple
+
+from window_events import PANEL, Events
+
+PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
+SURFACE, UP = "Surface 1", "0.2"
+NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId",
+           "LargestValidStep")
+BOX = "Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/"
+
+
+class Clicks(Events):
+    """Counts what a user presses and types."""
+
+    def __init__(self):
+        super().__init__()
+        self.clicks = self.typed = 0
+
+    def menu(self, menu, action):
+        super().menu(menu, action)
+        self.clicks += len(menu.split("/")) + 1
+
+    def apply(self):
+        super().apply()
+        self.clicks += 1
+
+    def tick(self, widget, row):
+        """The box at the left of a row of a list."""
+        for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+            self.set(widget, command, f"{buttons},0,12,8,/{row}:0")
+        self.clicks += 1
+
+    def type(self, widget, text):
+        """A click into the field, and a text."""
+        self.set(widget, "set_string", text)
+        self.clicks += 1
+        self.typed += 1
+
+
+def text(value):
+    """As the panel shows it."""
+    shown = repr(float(value))
+    return shown[:-2] if shown.endswith(".0") else shown
+
+
+class MorphMeshInTheWindow(unittest.TestCase):
+    def test_six_clicks(self):
+        part = simple.OpenDataFile(str(MESH))
+        morph = MorphMesh(Input=part, Surfaces=[SURFACE])
+        morph.Transform.Translate = [0, 0, float(UP)]
+        morph.UpdatePipeline()
+        self.assertEqual(morph.MorphStatus, "Valid")
+        self.assertEqual(morph.InvertedCells, 0)
+        names = list(morph.GetProperty("Surfaces").GetAvailable())
+        with tempfile.TemporaryDirectory() as name:
+            events = Clicks()
+            events.load_plugin(PLUGIN)
+            events.open(str(MESH))
+            events.clicks = 0
+            events.filter("MorphMesh")
+            # ParaView sorts them: curves come first.
+            events.tick("Surfaces/ArraySelectionWidget", sorted(names).index(SURFACE))
+            events.type(BOX + "translateZ", UP)
+            events.apply()
+            self.assertEqual((events.clicks, events.typed), (6, 1))
+            for number in NUMBERS:
+                events.expect(f"{PANEL}{number}/DoubleLineEdit0", text(getattr(morph, number)))
+
+            events.select("/0:0/0:0")
+            events.filter("MorphMesh")
+            events.apply()  # nothing is ticked
+            events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+            code, messages = events.play(Path(name))
+            self.assertEqual(code, 0, messages)
+            self.assertNotIn("ERR|", messages)
+            self.assertNotIn("rror:", messages)
+
+
+if __name__ == "__main__":
+    unittest.main()
