@@ -20,8 +20,10 @@ set(core_headers
   Mesh/Mesh.h
   Mesh/NodePartition.h
   Mesh/Topology.h
+  Morpher/Blend.h
   Morpher/Morpher.h
   Quality/ScaledJacobian.h
+  Quality/ValidRange.h
   Support/Error.h
   Support/Monitor.h
   Support/Types.h

@@ -35,7 +35,7 @@ Points BoundaryMotion::moved() const
       result.row(n) += this->displacement.row(n);
     }
   }
-  result(this->givenIds, Eigen::all) = this->givenTargets;
+  result(this->givenIds, allColumns) = this->givenTargets;
   return result;
 }
 

@@ -69,7 +69,7 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
   }
   monitor.check();
   this->weights_ = inverseDistanceWeights(
-    this->sites_, places(this->reached_, Eigen::all), Neighborhood{ Neighbors, false }, monitor);
+    this->sites_, places(this->reached_, allColumns), Neighborhood{ Neighbors, false }, monitor);
 }
 
 Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const

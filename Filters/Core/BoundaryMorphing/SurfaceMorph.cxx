@@ -49,7 +49,7 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
   surface.fixed.clear(); // if prepare() throws, none are kept
   surface.residual.setNumberOfNeighbors(neighbors);
   surface.residual.prepare(
-    rest(fixed, Eigen::all), rest(free, Eigen::all), loopRows(faces, faceIds, fixed), monitor);
+    rest(fixed, allColumns), rest(free, allColumns), loopRows(faces, faceIds, fixed), monitor);
   surface.fixed = fixed;
   ++weights.prepared;
 }
@@ -58,7 +58,7 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
 bool moveByResidual(const SurfaceResidual& residual, const std::vector<Index>& fixed,
   const std::vector<Index>& free, BoundaryMotion& motion, Monitor& monitor)
 {
-  const Points target = motion.rest(fixed, Eigen::all) + motion.displacement(fixed, Eigen::all);
+  const Points target = motion.rest(fixed, allColumns) + motion.displacement(fixed, allColumns);
   Points moved;
   const bool replaced = residual.evaluate(target, moved, monitor).replaced();
   for (std::size_t i = 0; i < free.size(); ++i)

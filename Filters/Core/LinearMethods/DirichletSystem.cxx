@@ -57,7 +57,7 @@ std::vector<AffineFit> AffineGuess::fits(const Points& prescribed) const
   result.reserve(this->coupled_.size());
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
-    result.push_back(this->leastSquares_[c].fit(prescribed(this->coupled_[c], Eigen::all)));
+    result.push_back(this->leastSquares_[c].fit(prescribed(this->coupled_[c], allColumns)));
   }
   return result;
 }

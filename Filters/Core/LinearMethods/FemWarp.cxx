@@ -340,7 +340,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows_, Eigen::all);
+  const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
   try
   {

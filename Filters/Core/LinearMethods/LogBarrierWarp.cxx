@@ -68,7 +68,7 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows_, Eigen::all);
+  const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(system.interior, coordinates, last);

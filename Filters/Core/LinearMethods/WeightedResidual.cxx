@@ -42,7 +42,7 @@ void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   this->fit_ = AffineLeastSquares(this->sites_.coordinates());
-  this->freePlaces_ = rest.points(this->partition().free, Eigen::all);
+  this->freePlaces_ = rest.points(this->partition().free, allColumns);
   monitor.check();
 
   this->weights_ = inverseDistanceWeights(this->sites_, this->freePlaces_,

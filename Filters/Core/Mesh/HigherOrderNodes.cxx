@@ -126,13 +126,13 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
 void HigherOrderNodes::apply(Points& displacement) const
 {
   const Points moved = this->weights_ * displacement;
-  displacement(this->ids_, Eigen::all) = moved;
+  displacement(this->ids_, allColumns) = moved;
 }
 
 void HigherOrderNodes::applyTranspose(Points& gradient) const
 {
-  const Points own = gradient(this->ids_, Eigen::all);
-  gradient(this->ids_, Eigen::all).setZero();
+  const Points own = gradient(this->ids_, allColumns);
+  gradient(this->ids_, allColumns).setZero();
   gradient += this->weights_.transpose() * own;
 }
 }

@@ -11,7 +11,7 @@ namespace morph
 {
 BoundaryPath straightPath(const Points& rest, const NodePartition& partition, const Points& target)
 {
-  return [start = Points(rest(partition.prescribed, Eigen::all)), target](double time) -> Points
+  return [start = Points(rest(partition.prescribed, allColumns)), target](double time) -> Points
   {
     // Reaches the end exactly, and so keeps nodes that do not move.
     return time == 1 ? target : Points(start + time * (target - start));

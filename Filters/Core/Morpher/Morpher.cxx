@@ -176,8 +176,8 @@ EvaluateReport Morpher::evaluate(
   else
   {
     Points all = Points::Zero(this->rest_.rows(), 3);
-    all(this->partition_.free, Eigen::all) = freeDisplacement;
-    all(ids, Eigen::all) = displacement;
+    all(this->partition_.free, allColumns) = freeDisplacement;
+    all(ids, allColumns) = displacement;
     this->higherOrderNodes_.apply(all);
     for (Index n = 0; n < all.rows(); ++n)
     {
@@ -186,7 +186,7 @@ EvaluateReport Morpher::evaluate(
   }
   // The undeformed position plus the displacement may differ from the given position in the last
   // bit.
-  result(ids, Eigen::all) = prescribed;
+  result(ids, allColumns) = prescribed;
   if (&result == &fresh)
   {
     moved.swap(fresh);
@@ -207,12 +207,12 @@ EvaluateReport LinearMorpher::applyTranspose(
   }
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
   this->higherOrderNodes_.applyTranspose(all);
-  Points result = all(this->partition().prescribed, Eigen::all);
+  Points result = all(this->partition().prescribed, allColumns);
   EvaluateReport report;
   if (!this->partition().free.empty())
   {
     ProgressRange whole(monitor, 0, 1);
-    report = this->displaceTranspose(all(this->partition().free, Eigen::all), result, whole);
+    report = this->displaceTranspose(all(this->partition().free, allColumns), result, whole);
   }
   prescribed.swap(result);
   monitor.progress(1);
@@ -242,8 +242,8 @@ Points LinearMorpher::mode(
                 ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
   Points all = Points::Zero(this->restPoints().rows(), 3);
-  all(partition.free, Eigen::all) = free;
-  all(partition.prescribed, Eigen::all) = displacement;
+  all(partition.free, allColumns) = free;
+  all(partition.prescribed, allColumns) = displacement;
   this->higherOrderNodes_.apply(all);
   return all;
 }

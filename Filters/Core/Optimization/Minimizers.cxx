@@ -208,7 +208,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     }
     inverse.apply(gradient, direction, monitor);
     double slope = dot(gradient, direction, monitor);
-    const Points start = points(objective.free(), Eigen::all);
+    const Points start = points(objective.free(), allColumns);
     const double before = value.energy;
     bool found = lineSearch(objective, direction, slope, points, value, effort, monitor);
     if (!found && !inverse.empty())
@@ -225,7 +225,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     ++effort.steps;
     const Points old = gradient;
     objective.gradient(points, gradient, monitor);
-    inverse.remember(points(objective.free(), Eigen::all) - start, gradient - old, monitor);
+    inverse.remember(points(objective.free(), allColumns) - start, gradient - old, monitor);
     if (progress.settled(before, value.energy, norm))
     {
       break;

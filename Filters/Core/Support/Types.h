@@ -13,4 +13,11 @@ using Index = std::int64_t; ///< node and cell ids; as wide as vtkIdType
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Read-only argument: binds to Points and to an Eigen::Map over foreign memory without a copy.
 using ConstPoints = Eigen::Ref<const Points>;
+
+/// points(ids, allColumns) are the rows `ids`. Eigen 5 has no Eigen::all; 3.4 deprecates the other.
+#if EIGEN_MAJOR_VERSION < 5
+static const auto allColumns = Eigen::all;
+#else
+static const auto allColumns = Eigen::placeholders::all;
+#endif
 }

@@ -85,14 +85,14 @@ int raiseMinimumQuality(
     const bool more = gain > Promising * least && effort.steps >= limits.steps;
     if (gained)
     {
-      points(patch.nodes, Eigen::all) = trial(patch.nodes, Eigen::all);
+      points(patch.nodes, allColumns) = trial(patch.nodes, allColumns);
       quality = std::move(next);
       ++kept;
     }
     else
     {
       // A lower norm can have a lower minimum. The next power starts from the best mesh.
-      trial(patch.nodes, Eigen::all) = points(patch.nodes, Eigen::all);
+      trial(patch.nodes, allColumns) = points(patch.nodes, allColumns);
     }
     if (!more)
     {
