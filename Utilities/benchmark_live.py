@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter
 upstream to the finished picture, and where the time goes. Median of several drags after the first,
-which prepares the method.
+which prepares the method. With --shapes: from a changed weight of Morph Shapes to the picture of
+its output Surface, beside the floor: the same view of a surface of that size whose points change.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
          pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\
-         [--methods FEMWARP,LBWARP] [--upstream Transform]
+         [--methods FEMWARP,LBWARP] [--upstream Transform] [--shapes]
 """
 import argparse
 import os
@@ -14,9 +15,11 @@ import time
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.numpy_support import (numpy_to_vtk, numpy_to_vtkIdTypeArray,
+                                           vtk_to_numpy)
 from vtkmodules.vtkCommonCore import vtkPoints, vtkSMPTools
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, vtkCellArray, vtkPolyData,
+                                           vtkUnstructuredGrid)
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -99,6 +102,53 @@ def measure(method, part, drag, drags):
     return [statistics.median(column) for column in zip(*rows)], count, first, prepare
 
 
+def measure_floor(surface, drags):
+    """The median time of a picture of a surface whose points change each time."""
+    moving = vtkPolyData()
+    moving.ShallowCopy(surface)
+    rest = vtk_to_numpy(surface.GetPoints().GetData()).copy()
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(moving)
+    view = simple.CreateRenderView(ViewSize=[1000, 800])
+    simple.Show(source, view)
+    times = []
+    for step in range(drags + 1):
+        points = vtkPoints()
+        points.SetData(numpy_to_vtk(rest * (1 + 0.001 * step), deep=True))
+        moving.SetPoints(points)
+        source.MarkModified(source)
+        times.append(seconds(lambda: simple.Render(view)))
+    simple.Delete(view)
+    simple.Delete(source)
+    return statistics.median(times[1:])
+
+
+def measure_shapes(part, drags):
+    """Medians of the columns of --shapes."""
+    boundary = ExtractMorphBoundary(Input=part)
+    shapes = [simple.Calculator(Input=boundary, Function=function, CoordinateResults=1)
+              for function in ("coords + 0.1*coordsZ*coordsX*iHat",
+                               "coords + 0.1*coordsZ*coordsY*coordsY*jHat",
+                               "coords + 0.05*coordsX*kHat")]
+    blend = MorphShapes(Input=part, Shapes=shapes, Weights=[0, 0, 0], Quality="Surface",
+                        FindValidRanges=0)
+    view = simple.CreateRenderView(ViewSize=[1000, 800])
+    simple.Show(simple.OutputPort(blend, "Surface"), view)
+    first = seconds(lambda: simple.Render(view))
+    rows = []
+    for step in range(drags):
+        blend.Weights = [0.02 * (step + 1), 0.5, -0.5]
+        filter_time = seconds(blend.UpdatePipeline)
+        picture = seconds(lambda: simple.Render(view))
+        blend.UpdatePropertyInformation()
+        rows.append((blend.EvaluateSeconds, filter_time - blend.EvaluateSeconds, picture,
+                     filter_time + picture))
+    surface = blend.GetClientSideObject().GetOutputDataObject(2)
+    medians = [statistics.median(column) for column in zip(*rows)]
+    simple.Delete(view)
+    return medians + [measure_floor(surface, drags), first]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cells", type=int, default=50, help="cells along an edge of the cube")
@@ -106,6 +156,7 @@ def main():
     parser.add_argument("--methods", default=",".join(METHODS))
     parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"),
                         default="Transform")
+    parser.add_argument("--shapes", action="store_true")
     options = parser.parse_args()
     grid = cube(options.cells)
     part = simple.TrivialProducer()
@@ -113,6 +164,11 @@ def main():
     print(f"{grid.GetNumberOfPoints():,} nodes, {grid.GetNumberOfCells():,} hexahedra; "
           f"milliseconds; {options.upstream}; "
           f"VTK's threads: {vtkSMPTools.GetBackend()}, cores: {os.cpu_count()}")
+    if options.shapes:
+        names = ("blend", "rest of filter", "render", "weight to picture", "floor", "first")
+        print("".join(f"{name:>20}" for name in names))
+        print("".join(f"{1e3 * m:20.1f}" for m in measure_shapes(part, options.drags)))
+        return
     print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS)
           + f"{'prepared':>10}{'first':>10}")
     for method in options.methods.split(","):

@@ -8,6 +8,7 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Gradient.h"
+#include "Private/Data/MovedSurface.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
@@ -25,6 +26,7 @@
 #include "Support/ProgressRange.h"
 
 #include <vtkAlgorithmOutput.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
@@ -35,6 +37,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -115,6 +118,8 @@ public:
   filters::WeightRanges Ranges; ///< of the last execution
   std::vector<double> Weights;  ///< of the last execution; empty where it had no result
   filters::Designs Designs;
+  filters::MovedSurface Surface;
+  int SurfaceOf = 0;   ///< the mesh of Surface, by its number
   vtkIdType Rows = 0;  ///< of the table, as of the last update of the information
   vtkIdType Row = 0;   ///< that the outputs are asked for
   morph::Points Moved; ///< kept for its memory: its content has no effect
@@ -126,7 +131,7 @@ public:
   }
 
   void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries, vtkDataObject* table,
-    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+    vtkInformationVector* outputs, morph::Monitor& monitor);
 
 private:
   vtkMorphShapes* Filter;
@@ -134,7 +139,8 @@ private:
   filters::ShapeModes::Options Options() const;
   std::vector<filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
   void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
-  void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+  void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
+    morph::Monitor& monitor);
   /// The present weights: the filter's, or those of the table's row.
   std::vector<double> PresentWeights(
     std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor);
@@ -147,7 +153,7 @@ vtkMorphShapes::vtkMorphShapes()
   : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
@@ -269,6 +275,16 @@ int vtkMorphShapes::FillInputPortInformation(int port, vtkInformation* info)
   return done;
 }
 
+int vtkMorphShapes::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  const int done = this->Superclass::FillOutputPortInformation(port, info);
+  if (port == 2)
+  {
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  }
+  return done;
+}
+
 int vtkMorphShapes::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -322,7 +338,6 @@ int vtkMorphShapes::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
     [&]
@@ -334,7 +349,7 @@ int vtkMorphShapes::RequestData(
     [&](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
     {
       vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
-      kept.Morph(grid, inputVector[1], table, output, badCells, monitor);
+      kept.Morph(grid, inputVector[1], table, outputVector, monitor);
     },
     [&](vtkDataObject* input, const char* status)
     {
@@ -345,8 +360,9 @@ int vtkMorphShapes::RequestData(
       filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
     } };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
-  for (vtkUnstructuredGrid* data : { output, badCells })
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
+    vtkDataObject* data = vtkDataObject::GetData(outputVector, port);
     data->GetInformation()->Remove(vtkDataObject::DATA_TIME_STEP());
     if (kept.Rows > 0)
     {
@@ -441,10 +457,16 @@ std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
 }
 
 void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  vtkInformationVector* boundaries, vtkDataObject* table, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
+  morph::Monitor& monitor)
 {
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputs);
   this->Modes.SetGrid(grid, monitor);
+  if (this->SurfaceOf != this->Modes.GetMeshCount())
+  {
+    this->Surface.Make(grid, this->Modes.GetMesh(), this->Modes.GetOuterFaces());
+    this->SurfaceOf = this->Modes.GetMeshCount();
+  }
   this->Results.SetInteger("MirroredBodies", this->Modes.GetMirroredBodies());
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
@@ -462,22 +484,43 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   {
     this->FindRanges(weights, monitor);
   }
-  this->Measure(output, badCells, monitor);
+  this->Measure(
+    output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
   this->WriteShapes(weights, output);
   this->Weights = weights;
 }
 
-void vtkMorphShapes::vtkInternals::Measure(
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
+  const bool all = this->Filter->Quality == QUALITY_ALL;
+  const std::vector<std::uint8_t>& inner = this->Surface.InnerCells();
+  const morph::Mesh& mesh = this->Modes.GetMesh();
+  const std::vector<std::int8_t>& orientation = this->Modes.GetOrientation();
   const morph::Quality quality =
-    filters::Quality::Measure(this->Modes.GetMesh(), output, this->Modes.GetOrientation(), monitor);
-  filters::Quality::Write(quality, output);
+    all ? filters::Quality::Measure(mesh, output, orientation, monitor)
+        : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
+  this->Surface.Write(output->GetPoints(), quality.scaledJacobian, surface);
+  vtkIdType bad = 0;
+  for (const morph::Index cell : morph::invertedCells(quality))
+  {
+    bad += inner[cell] == 0;
+  }
+  this->Results.SetInteger("SurfaceInvertedCells", bad);
   filters::Quality::RemoveCertificate(output);
-  filters::BadCells::Extract(quality, output, badCells);
-  this->Results.Set(quality);
-  this->Results.SetText(
-    "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
+  if (all)
+  {
+    filters::Quality::Write(quality, output);
+    filters::BadCells::Extract(quality, output, badCells);
+    this->Results.Set(quality);
+    this->Results.SetText(
+      "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
+  }
+  else
+  {
+    output->GetCellData()->RemoveArray("ScaledJacobian"); // of the input
+    this->Results.SetText("MorphStatus", "Unmeasured");
+  }
   this->Results.Write(output);
 }
 
@@ -616,6 +659,7 @@ void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "FindValidRanges: " << this->FindValidRanges << "\n";
   os << indent << "CheckDesigns: " << this->CheckDesigns << "\n";
+  os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   this->Internals->Results.Print(os, indent);

@@ -15,6 +15,11 @@
  * degenerate cells, both as vtkMorphAlgorithm has them. The field data of output 0 also has the
  * arrays ShapeNames and ShapeWeights.
  *
+ * Output 2 (vtkPolyData) is the outer boundary of the morphed mesh, to be shown in place of it. Its
+ * polygons are the same object from execution to execution, so that only points and colors change.
+ * It has the point array MorphPointId and the cell arrays MorphCellId and ScaledJacobian, that of
+ * the cell behind each face.
+ *
  * The method is linear: each shape has one displacement field of the whole mesh, solved once and
  * kept. Adding or removing a shape solves only that one; changing a weight solves nothing and costs
  * one pass over the nodes. See SolveCount. A shape that changes the set of prescribed nodes
@@ -195,6 +200,24 @@ public:
   vtkBooleanMacro(HoldUnnamedBoundary, bool);
   ///@}
 
+  enum QualityType
+  {
+    QUALITY_ALL = 0,
+    QUALITY_SURFACE = 1
+  };
+  ///@{
+  /**
+   * The cells that are measured: all, or those behind the outer faces alone, which is faster while
+   * weights are dragged. With the latter output 0 has no ScaledJacobian, output 1 is empty,
+   * MorphStatus is "Unmeasured", and of the measures there is SurfaceInvertedCells alone. Default
+   * QUALITY_ALL.
+   */
+  vtkSetClampMacro(Quality, int, QUALITY_ALL, QUALITY_SURFACE);
+  vtkGetMacro(Quality, int);
+  void SetQualityToAll() { this->SetQuality(QUALITY_ALL); }
+  void SetQualityToSurface() { this->SetQuality(QUALITY_SURFACE); }
+  ///@}
+
   ///@{
   /**
    * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
@@ -217,8 +240,10 @@ public:
   ///@{
   /**
    * Results of the last execution, as vtkMorphAlgorithm has them; MorphStatus is "Valid",
-   * "Inverted", "Cancelled", "Failed" or "None".
+   * "Inverted", "Unmeasured", "Cancelled", "Failed" or "None". SurfaceInvertedCells are the
+   * inverted and degenerate cells behind the outer faces.
    */
+  vtkIdType GetSurfaceInvertedCells() const { return this->GetInteger("SurfaceInvertedCells"); }
   double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
   vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
@@ -281,6 +306,7 @@ protected:
   ~vtkMorphShapes() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -317,6 +343,7 @@ private:
   bool HoldUnnamedBoundary = true;
   bool FindValidRanges = true;
   bool CheckDesigns = true;
+  int Quality = QUALITY_ALL;
   int NumberOfThreads = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
 };

@@ -5,12 +5,16 @@
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphShapes.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -463,4 +467,52 @@ TEST(MorphShapes, AdjointIsTheDerivativeByTheWeights)
   adjoint->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("has no result"), std::string::npos) << listener.Errors[0];
+}
+
+TEST(MorphShapes, TheSurfaceKeepsItsPolygons)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { turnedTop(1.2) });
+  filter->Update();
+  auto* surface = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(2));
+  vtkCellArray* polygons = surface->GetPolys();
+  EXPECT_EQ(surface->GetNumberOfCells(), 6 * 16);
+  filter->SetWeight(0, 3);
+  for (int quality : { vtkMorphShapes::QUALITY_ALL, vtkMorphShapes::QUALITY_SURFACE })
+  {
+    filter->SetQuality(quality);
+    filter->Update();
+    EXPECT_EQ(surface->GetPolys(), polygons);
+    const Points moved = grids::points(filter->GetOutput()), outer = grids::points(surface);
+    vtkDataArray* nodes = surface->GetPointData()->GetArray("MorphPointId");
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      EXPECT_EQ(outer.row(i), moved.row(static_cast<morph::Index>(nodes->GetComponent(i, 0))));
+    }
+    // As the measure of all cells has it.
+    auto all = shapesOf(grid, { turnedTop(1.2) });
+    all->SetWeight(0, 3);
+    all->Update();
+    vtkDataArray* expected = all->GetOutput()->GetCellData()->GetArray("ScaledJacobian");
+    vtkDataArray* owners = surface->GetCellData()->GetArray("MorphCellId");
+    vtkDataArray* found = surface->GetCellData()->GetArray("ScaledJacobian");
+    for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
+    {
+      const auto owner = static_cast<vtkIdType>(owners->GetComponent(i, 0));
+      EXPECT_EQ(found->GetComponent(i, 0), expected->GetComponent(owner, 0));
+    }
+    EXPECT_GT(filter->GetSurfaceInvertedCells(), 0);
+    EXPECT_LE(filter->GetSurfaceInvertedCells(), all->GetInvertedCells());
+  }
+  EXPECT_STREQ(filter->GetMorphStatus(), "Unmeasured");
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
+  EXPECT_FALSE(filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian"));
+  auto* bad = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_EQ(bad->GetNumberOfCells(), 0);
+
+  filter->SetInputDataObject(grids::hexes(3));
+  filter->RemoveAllShapes();
+  filter->AddShapeData(grids::boundary(grids::hexes(3), bulged));
+  filter->Update();
+  EXPECT_EQ(surface->GetNumberOfCells(), 6 * 9);
 }

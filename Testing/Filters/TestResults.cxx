@@ -103,6 +103,7 @@ Getters gettersOf(vtkMorphShapes* f)
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
+    { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
     { "ValidRanges", [f] { return f->GetValidRanges(); } },
     { "LargestFactor", [f] { return f->GetLargestFactor(); } },
     { "InvertingDesigns", [f] { return f->GetInvertingDesigns(); } },

@@ -83,6 +83,12 @@ bool isPositiveUntil(const double* a, int degree, double last)
   {
     return a[0] > 0 && std::all_of(a, a + degree + 1, [](double c) { return c >= 0; });
   }
+  if (degree == 3)
+  {
+    const double a1 = a[1] * last / 3, a2 = a[2] * last * last / 3;
+    const double a3 = a[3] * last * last * last;
+    return a[0] > 0 && a[0] + a1 > 0 && a[0] + 2 * a1 + a2 > 0 && a[0] + 3 * (a1 + a2) + a3 > 0;
+  }
   double scaled[Size];
   double power = 1;
   for (int k = 0; k <= degree; ++k, power *= last)

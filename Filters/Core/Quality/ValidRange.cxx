@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -81,6 +82,7 @@ Path<D> pathOf(const NodeMotion& motion, Index node)
 struct End
 {
   double distance = Infinity; ///< in s, or half the angle of a rotation
+  double known = Infinity;    ///< another thread found a root there
   Index cell = -1;
 
   void add(double other, Index otherCell)
@@ -139,7 +141,7 @@ void addEnd(const Determinant<D>& a, Index cell, End& end)
 {
   // Most cells do not shorten the range: a polynomial that is positive up to its end needs no root.
   // The margin keeps the result independent of the order of the cells.
-  const double last = end.distance * (1 + 1e-9);
+  const double last = std::min(end.distance, end.known) * (1 + 1e-9);
   if constexpr (D == 1)
   {
     if (!isPositiveUntil(a.data(), 3, last))
@@ -325,15 +327,29 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
 {
   Ends result;
   std::mutex mutex;
+  // A range that starts with the best ends so far needs fewer roots. See addEnd() for why the
+  // result does not depend on it.
+  std::atomic<double> low = Infinity, high = Infinity;
+  const auto lower = [](std::atomic<double>& shared, double value)
+  {
+    double before = shared.load();
+    while (value < before && !shared.compare_exchange_weak(before, value))
+    {
+    }
+  };
   monitor.parallelFor(mesh.numberOfCells(), Grain,
     [&](Index first, Index last)
     {
       Ends ends;
       for (Index c = first; c < last; ++c)
       {
+        ends.low.known = low.load(std::memory_order_relaxed);
+        ends.high.known = high.load(std::memory_order_relaxed);
         if (const CellShape* shape = cellShape(mesh.types[c]); shape && shape->dimension == 3)
         {
           addCell<D>(mesh, motion, c, orientation.empty() ? 1 : orientation[c], ends);
+          lower(low, ends.low.distance);
+          lower(high, ends.high.distance);
         }
       }
       const std::lock_guard<std::mutex> lock(mutex);

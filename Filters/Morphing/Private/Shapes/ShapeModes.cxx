@@ -132,6 +132,7 @@ void ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   this->Orientation = std::move(orientation);
   this->Size = GridMesh::Size(mesh);
   this->Mesh = std::move(mesh);
+  ++this->MeshCount;
 }
 
 std::vector<BoundaryMatch::Result> ShapeModes::Match(

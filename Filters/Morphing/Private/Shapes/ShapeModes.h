@@ -50,6 +50,9 @@ public:
   /// Copies the grid, unless it is the same as the kept one.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
   const morph::Mesh& GetMesh() const { return this->Mesh; }
+  const morph::BoundaryFaces& GetOuterFaces() const { return this->Outer; }
+  /// How many grids were copied: another number tells of another mesh.
+  int GetMeshCount() const { return this->MeshCount; }
   /// #cells; see Topology.h.
   const std::vector<std::int8_t>& GetOrientation() const { return this->Orientation; }
   morph::Index GetMirroredBodies() const { return this->Mirrored; }
@@ -95,6 +98,7 @@ private:
     morph::Monitor& monitor);
 
   morph::Mesh Mesh;
+  int MeshCount = 0;
   morph::BoundaryFaces Outer;                   ///< of Mesh's cells
   double Size = 0;                              ///< of Mesh; see GridMesh::Size
   std::vector<std::int8_t> Orientation;         ///< of Mesh

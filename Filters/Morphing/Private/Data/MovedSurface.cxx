@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Data/MovedSurface.h"
+
+#include "Private/Data/Surface.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace morph::filters
+{
+void MovedSurface::Make(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
+{
+  vtkNew<vtkPolyData> surface;
+  Surface::Write(grid, mesh, faces, surface);
+  this->Polygons = surface->GetPolys();
+  this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
+  this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
+  this->Inner.assign(mesh.numberOfCells(), 1);
+  for (const morph::Index cell : faces.cells)
+  {
+    this->Inner[cell] = 0;
+  }
+}
+
+void MovedSurface::Write(
+  vtkPoints* moved, const std::vector<double>& quality, vtkPolyData* output) const
+{
+  output->Initialize();
+  const vtkIdType count = this->Nodes->GetNumberOfValues();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(moved->GetDataType());
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
+  }
+  output->SetPoints(points);
+  output->SetPolys(this->Polygons);
+  output->GetPointData()->AddArray(this->Nodes);
+  vtkNew<vtkDoubleArray> scaledJacobian;
+  scaledJacobian->SetName("ScaledJacobian");
+  scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
+  for (vtkIdType i = 0; i < this->Owners->GetNumberOfValues(); ++i)
+  {
+    scaledJacobian->SetValue(i, quality[this->Owners->GetValue(i)]);
+  }
+  output->GetCellData()->AddArray(this->Owners);
+  output->GetCellData()->SetScalars(scaledJacobian);
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <vector>
+
+class vtkCellArray;
+class vtkIdTypeArray;
+class vtkPoints;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph::filters
+{
+/// The outer boundary of a mesh as polygons that are made once: only the points move. A view that
+/// shows it needs neither extract the surface nor sort the polygons again.
+class MovedSurface
+{
+public:
+  /// Makes the polygons. `mesh`, `faces`: of `grid`. Cost: a pass over the faces.
+  void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
+  /// #cells: 0 for the cells behind the faces, 1 for all others.
+  const std::vector<std::uint8_t>& InnerCells() const { return this->Inner; }
+
+  /// Fills `output`: the polygons and the arrays MorphPointId and MorphCellId are the same objects
+  /// each time. `moved`: the points of all nodes. `quality`: #cells, becomes the cell array
+  /// ScaledJacobian (active scalars) of the cell behind each face.
+  void Write(vtkPoints* moved, const std::vector<double>& quality, vtkPolyData* output) const;
+
+private:
+  std::vector<std::uint8_t> Inner;
+  vtkSmartPointer<vtkCellArray> Polygons;
+  vtkSmartPointer<vtkIdTypeArray> Nodes;  ///< MorphPointId
+  vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId
+};
+}
