@@ -384,6 +384,36 @@ TEST(InversionFree, RepairsAnotherMethodsMesh)
   }
 }
 
+TEST(InversionFree, RepairMovesOnlyNodesNearTheInvertedCells)
+{
+  const Mesh mesh = meshes::hexes(40, 4, 4);
+  meshes::ThreadedMonitor monitor;
+  InversionFree method;
+  method.prepare(mesh, motions::outerPartition(mesh), monitor);
+  Points moved = mesh.points;
+  for (Index node : method.partition().free)
+  {
+    moved(node, 0) += mesh.points(node, 0) < 2.5 ? 1.5 : 0;
+  }
+  const Points before = moved;
+  const std::vector<std::int8_t> orientation(mesh.numberOfCells(), 1);
+  ASSERT_FALSE(morph::invertedCells(mesh, moved, orientation, monitor).empty());
+  const morph::EvaluateReport report = method.repair(moved, monitor);
+  EXPECT_EQ(count(report, "Untangled"), 1);
+  EXPECT_GT(count(report, "NewtonSteps"), 0);
+  EXPECT_TRUE(morph::invertedCells(mesh, moved, orientation, monitor).empty());
+  Index far = 0;
+  for (Index node : method.partition().free)
+  {
+    if (mesh.points(node, 0) > 25)
+    {
+      EXPECT_EQ(moved.row(node), before.row(node));
+      ++far;
+    }
+  }
+  EXPECT_GT(far, 100);
+}
+
 TEST(InversionFree, CancelLeavesTheResultUntouched)
 {
   const Mesh mesh = meshes::hexes(5, 5, 5);

@@ -169,30 +169,60 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
     }
     monitor.progress(0.95);
   }
+  stages.include(outcome.effort);
   outcome.effort = stages.effort();
   return untangling.valid;
 }
 
-InversionFree::Outcome InversionFree::improve(
-  Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const
+bool InversionFree::untangleNear(
+  const Points& guide, Points& points, MinimizerEffort& effort, Monitor& monitor) const
+{
+  MeshEnergy nothing(this->referenceMesh_, {});
+  FoldoverContinuation stages(nothing, this->minimizer_);
+  const bool done = Untangling(
+    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
+                      .runNear(targetMatrices(this->referenceMesh_, this->orientation_, guide,
+                                 this->target_, monitor),
+                        stages, points, monitor);
+  effort = stages.effort();
+  return done;
+}
+
+InversionFree::Outcome InversionFree::improve(Points& points, const Points& guide,
+  const Points& alternative, double enough, Monitor& monitor) const
 {
   monitor.check();
   const MovableQuality quality = this->movableQuality();
   const double goal = this->goal(quality, points);
   MovableQuality::Result best = quality.measure(alternative, monitor);
-  const bool isValid = best.inverted == 0;
+  bool isValid = best.inverted == 0;
   Outcome outcome;
-  outcome.untangled = isValid;
   Points raised;
-  // Raising the minimum of a valid mesh costs far less than minimising the energy.
-  if (isValid && this->raisesMinimum() && this->target_ == TargetConstruction::Stretched)
+  const bool raisesFirst = this->raisesMinimum() && this->target_ == TargetConstruction::Stretched;
+  if (raisesFirst && !isValid && this->validAtRest_)
+  {
+    ProgressRange near(monitor, 0.1, 0.3);
+    raised = alternative;
+    isValid = this->untangleNear(guide, raised, outcome.effort, near);
+    if (isValid)
+    {
+      best = quality.measure(raised, monitor);
+      isValid = best.inverted == 0;
+    }
+  }
+  else
   {
     raised = alternative;
+  }
+  outcome.untangled = isValid;
+  // Raising the minimum of a valid mesh costs far less than minimising the energy.
+  if (isValid && raisesFirst)
+  {
     if (raiseMinimumQuality(quality, goal, raised, monitor) > 0)
     {
       best = quality.measure(raised, monitor);
     }
-    if (hasReached(best.minimum, goal) || best.minimum >= Enough * this->minimumAtRest_)
+    if (hasReached(best.minimum, goal) || best.minimum >= enough * this->minimumAtRest_)
     {
       points = std::move(raised);
       return outcome;
@@ -207,7 +237,7 @@ InversionFree::Outcome InversionFree::improve(
                       isValid;
   if (isValid && quality.measure(points, monitor) < best)
   {
-    points = raised.rows() > 0 ? raised : alternative;
+    points = raised;
     outcome.onFolds.clear();
   }
   outcome.kept =
@@ -283,7 +313,7 @@ EvaluateReport InversionFree::displace(
   {
     points = alternative;
   }
-  const Outcome outcome = this->improve(points, alternative, alternative, monitor);
+  const Outcome outcome = this->improve(points, alternative, alternative, Enough, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];
@@ -313,7 +343,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   const Points before = moved * this->scale_;
   Points points = before;
-  const Outcome outcome = this->improve(points, warped, before, monitor);
+  // A mesh that is valid again is enough: the rest of it stays as its method made it.
+  const Outcome outcome = this->improve(points, warped, before, 0, monitor);
   const std::vector<Index> determined =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 

@@ -17,9 +17,10 @@ namespace morph
 /// The inversion-free morph: it removes inverted cells by a foldover-free energy, and raises the
 /// minimum scaled Jacobian. It starts from the better of FEMWARP's and the simplex-linear mesh, or
 /// from another first guess. If that mesh is valid, its minimum is raised at once
-/// (MinQualityAscent.h), up to what the boundary allows (MovableQuality.h). The energy is minimised
-/// only where a cell is inverted, or where the minimum stays below three quarters of the
-/// undeformed mesh's and of that bound.
+/// (MinQualityAscent.h), up to what the boundary allows (MovableQuality.h). Inverted cells are
+/// first untangled by the energy of the cells near them. The energy of the whole mesh is minimised
+/// only where a cell stays inverted, or the minimum below that bound and three quarters of the
+/// undeformed mesh's.
 ///
 /// The energy (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is a mean over
 /// the averaged simplicial decompositions of all cells. So a valid minimum passes the scaled
@@ -73,8 +74,9 @@ public:
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
-  /// prescribed nodes in place. A valid mesh whose minimum scaled Jacobian is higher than the
-  /// repaired one's stays.
+  /// prescribed nodes in place. Where its inverted cells can be untangled by the nodes near them,
+  /// and the minimum raised near the worst cells, no other node moves. A valid mesh whose minimum
+  /// scaled Jacobian is higher than the repaired one's stays.
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:
@@ -90,9 +92,10 @@ private:
     MinimizerEffort effort;
   };
   /// Improves `points` in coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a
-  /// mesh that the result must not be worse than.
-  Outcome improve(
-    Points& points, const Points& guide, const Points& alternative, Monitor& monitor) const;
+  /// mesh that the result must not be worse than; `enough`: the part of the undeformed mesh's
+  /// minimum with which a valid mesh is the result, without the energy of the whole mesh.
+  Outcome improve(Points& points, const Points& guide, const Points& alternative, double enough,
+    Monitor& monitor) const;
   /// Returns FEMWARP's mesh `warped`, or simplex-linear's if that is better.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   MovableQuality movableQuality() const;
@@ -103,6 +106,9 @@ private:
   {
     return this->raising_ && this->target_ != TargetConstruction::Initial;
   }
+  /// Untangles `points` near its inverted cells alone. Returns whether the mesh is valid.
+  bool untangleNear(
+    const Points& guide, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
   /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
   /// minimum of the best mesh so far, 0 without a valid one.
   bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Points& guide,

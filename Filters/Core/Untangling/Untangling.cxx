@@ -18,6 +18,8 @@ constexpr int Rings = 5; // of cells
 // Maximum numbers of stages with folds. The whole mesh needs few: then only single places are
 // tangled. Cells near folded faces become valid soon or never.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
+constexpr int StagesOfPatch = 15;   // without folds
+constexpr double MostTangled = 0.1; // of all cells: a patch then spans the mesh
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
@@ -71,11 +73,12 @@ Untangling::InvertedCounts Untangling::countInverted(
   return result;
 }
 
-bool Untangling::untanglePatch(const std::vector<Index>& cells, const TargetMatrices& targets,
-  FoldoverContinuation& stages, int most, Points& points, Monitor& monitor) const
+bool Untangling::untanglePatch(const std::vector<Index>& cells, int rings,
+  const TargetMatrices& targets, FoldoverContinuation& stages, int most, Points& points,
+  Monitor& monitor) const
 {
   MeshEnergy energy(this->mesh_,
-    kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, Rings).nodes);
+    kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, rings).nodes);
   energy.setTargets(targets);
   FoldoverContinuation near(energy, stages.minimizer());
   const bool done = near.untangle(points, monitor, most);
@@ -96,10 +99,31 @@ bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& ener
     {
       return false;
     }
-    if (this->untanglePatch(tangled, targets, stages, StagesNear, points, own))
+    if (this->untanglePatch(tangled, Rings, targets, stages, StagesNear, points, own))
     {
       energy.setTargets(targets);
       return stages.untangle(points, whole);
+    }
+  }
+  return false;
+}
+
+bool Untangling::runNear(const TargetMatrices& targets, FoldoverContinuation& stages,
+  Points& points, Monitor& monitor) const
+{
+  const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
+  if (tangled.empty() || static_cast<double>(tangled.size()) >
+                           MostTangled * static_cast<double>(this->mesh_.numberOfCells()))
+  {
+    return false;
+  }
+  for (const int rings : { Rings, 3 * Rings })
+  {
+    Points trial = points;
+    if (this->untanglePatch(tangled, rings, targets, stages, StagesOfPatch, trial, monitor))
+    {
+      points.swap(trial);
+      return true;
     }
   }
   return false;
@@ -136,7 +160,7 @@ Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& en
       this->untangleAwayFromFolds(others, energy, stages, besides, second);
     }
     points = besides;
-    if (this->untanglePatch(cellsBehind, targets, stages, StagesWithFolds, points, third))
+    if (this->untanglePatch(cellsBehind, Rings, targets, stages, StagesWithFolds, points, third))
     {
       energy.setTargets(targets);
       if (stages.untangle(points, last))

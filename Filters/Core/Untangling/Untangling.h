@@ -37,6 +37,12 @@ public:
   Result run(const TargetMatrices& targets, MeshEnergy& energy, FoldoverContinuation& stages,
     Points& points, Monitor& monitor) const;
 
+  /// Untangles `points` by moving only the nodes within 5, then within 15 rings of tangled cells.
+  /// Returns whether all tetrahedra are positive; otherwise `points` stay. Gives up at once if
+  /// more than a tenth of all cells is tangled. Cost: passes over the cells.
+  bool runNear(const TargetMatrices& targets, FoldoverContinuation& stages, Points& points,
+    Monitor& monitor) const;
+
 private:
   struct InvertedCounts
   {
@@ -54,7 +60,7 @@ private:
   bool untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& energy,
     FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
   /// Moves only the nodes near these cells. Returns whether the tetrahedra there are positive.
-  bool untanglePatch(const std::vector<Index>& cells, const TargetMatrices& targets,
+  bool untanglePatch(const std::vector<Index>& cells, int rings, const TargetMatrices& targets,
     FoldoverContinuation& stages, int most, Points& points, Monitor& monitor) const;
 
   const Mesh& mesh_;
