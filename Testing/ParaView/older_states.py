@@ -83,9 +83,13 @@ class OlderStates(unittest.TestCase):
                 found = numbers()
                 for morph, values in expected.items():
                     for number, value, here in zip(NUMBERS, values, found[morph]):
-                        # Other compilers round differently, and a minimisation magnifies that.
-                        delta = 5e-4 if morph == "Inversion-free" else 1e-9
-                        self.assertAlmostEqual(here, value, delta=delta, msg=f"{morph} {number}")
+                        message = f"{morph} {number}"
+                        if morph != "Inversion-free":
+                            self.assertAlmostEqual(here, value, delta=1e-9, msg=message)
+                        elif number != "MeanScaledJacobian":
+                            # A minimisation that is improved stops elsewhere, and no lower.
+                            self.assertGreater(here, value - 5e-4, message)
+                    self.assertEqual(found[morph][-1], 0)
                 view = simple.GetActiveView()
                 names = {source.SMProxy: name for (name, _), source in simple.GetSources().items()}
                 shown = {names[representation.Input.SMProxy]

@@ -54,6 +54,10 @@ def build():
                 setattr(proxy, name, OPTIONS[name])
         if xml.get("name") == "CompareMorphMethods":
             proxy.NumberOfSteps, proxy.InversionFree, proxy.Smoothing = 2, 0, 0
+        elif xml.get("name") == "MorphMesh":
+            # The top of the cube goes through the bottom.
+            proxy.Surfaces, proxy.Validity = ["Surface 5"], "Report"
+            proxy.Displacement, proxy.Vector = "Vector", [0, 0, -9]
     adjoint = simple.FindSource("MorphAdjoint")
     adjoint.Gradient = simple.FindSource("MorphLBWARP")
     adjoint.Gradient.UpdatePipeline()
