@@ -60,12 +60,14 @@ def canister_view(path):
     simple.ColorBy(display, ("CELLS", "ScaledJacobian"))
     display.SetRepresentationType("Surface With Edges")
     display.SetScalarBarVisibility(view, False)
+    display.EdgeColor, display.Specular = [0.13, 0.14, 0.16], 0
+    display.Ambient, display.Diffuse = 0.4, 0.65
     for i, name in enumerate(SHAPES):
         text = simple.Show(simple.Text(Text=name), view)
         text.WindowLocation = "Any Location"
         text.Position = [(LEFT + STEP * i - 55) / SIZE[0], 13 / SIZE[1]]
         text.Color, text.FontSize = [0.13, 0.14, 0.16], 15
-    view.CameraPosition, view.CameraFocalPoint = [3.2, -5.6, 3.4], [0.25, 0, 0.9]
+    view.CameraPosition, view.CameraFocalPoint = [2.6, -4.6, 5.0], [0.1, 0, 0.95]
     view.CameraViewUp = [0, 0, 1]
     return blend, view
 
