@@ -12,11 +12,11 @@
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
@@ -27,7 +27,6 @@
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
-#include <vtkTrivialProducer.h>
 
 #include <algorithm>
 
@@ -78,18 +77,6 @@ double size(const filters::BoundaryModel& model)
     high = high.cwiseMax(model.Points().row(node));
   }
   return (high - low).norm();
-}
-
-/// The data on a port if an update would not change them, else null.
-vtkDataObject* upToDateInput(vtkAlgorithm* filter, vtkInformationVector** inputVector)
-{
-  vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
-  if (vtkTrivialProducer::SafeDownCast(filter->GetInputAlgorithm(0, 0)))
-  {
-    return data;
-  }
-  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
-  return data && upstream && data->GetUpdateTime() > upstream->GetPipelineMTime() ? data : nullptr;
 }
 }
 
@@ -272,7 +259,7 @@ int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
   // A user who is about to choose patches wants to see their names before the first execution.
-  auto* input = vtkPointSet::SafeDownCast(upToDateInput(this, inputVector));
+  auto* input = vtkPointSet::SafeDownCast(morph::filters::upToDateInput(this, inputVector));
   if (!input || input->GetNumberOfCells() == 0)
   {
     return 1;

@@ -14,6 +14,7 @@
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
 #include "Private/Pipeline/Time.h"
+#include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "vtkBoundaryDisplacement.h"
@@ -27,7 +28,6 @@
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
@@ -40,7 +40,6 @@
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkTrivialProducer.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -98,18 +97,6 @@ void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
     }
     passed = names;
   }
-}
-
-/// The data on port 0 if an update would not change them, else null.
-vtkUnstructuredGrid* upToDateGrid(vtkAlgorithm* filter, vtkInformationVector** inputVector)
-{
-  auto* grid = vtkUnstructuredGrid::GetData(inputVector[0]);
-  if (vtkTrivialProducer::SafeDownCast(filter->GetInputAlgorithm(0, 0)))
-  {
-    return grid;
-  }
-  auto* upstream = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
-  return grid && upstream && grid->GetUpdateTime() > upstream->GetPipelineMTime() ? grid : nullptr;
 }
 
 /// An error or warning of vtkBoundaryDisplacement with the names of this class's properties.
@@ -542,7 +529,7 @@ int vtkMorphMesh::RequestInformation(
     steps.Write(output);
   }
   // A user who is about to choose surfaces wants to see their names before the first execution.
-  vtkUnstructuredGrid* grid = upToDateGrid(this, inputVector);
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(filters::upToDateInput(this, inputVector));
   if (grid && grid->GetNumberOfCells() > 0)
   {
     this->Internals->TakeGrid(grid);
