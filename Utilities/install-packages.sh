@@ -33,7 +33,8 @@ case "$release" in
     packages+=(
       qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
       libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
-  "debian 13") packages+=("${qt6[@]}" mount) ;;
+  "debian 13") # xmlpatterns, which makes the plugin's help pages, ended with Qt 5.
+    packages+=("${qt6[@]}" mount qtxmlpatterns5-dev-tools) ;;
   *) # The paraview-dev of Debian's unstable suite stands on the system's VTK.
     packages+=("${qt6[@]}" mount libvtk9-dev xsltproc)
     if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then

@@ -81,6 +81,7 @@ inside() {
   # shellcheck disable=SC2016 # expanded inside
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -euc '
     root=$1; shift
+    mount --bind "$root" "$root" # a mount of its own, so that what runs there may unshare mounts
     mount --rbind /dev "$root/dev"
     mount -t proc proc "$root/proc"
     mount --rbind /sys "$root/sys"

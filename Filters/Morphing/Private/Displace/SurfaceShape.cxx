@@ -113,7 +113,9 @@ bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas)
       this->How = Kind::Cylinder;
       return true;
     }
-    const Eigen::Matrix<double, 5, 1> step = normal.completeOrthogonalDecomposition().solve(right);
+    // Of dynamic size: GCC 16 warns of the bounds of a fixed one.
+    const Eigen::MatrixXd matrix = normal;
+    const Eigen::VectorXd step = matrix.completeOrthogonalDecomposition().solve(right);
     this->Center += step[0] * u + step[1] * v;
     this->Direction = (this->Direction + step[2] * u + step[3] * v).normalized();
     this->Radius += step[4];
