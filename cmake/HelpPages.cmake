@@ -30,7 +30,7 @@ function (paraview_client_documentation)
     XMLS       ${copies})
 endfunction ()
 
-# ParaView 5.12 to 6.0 leave the help of plugins out where Qt is newer than 5, though their functions
+# ParaView 5.12 to 6.0 leave the help of plugins out where Qt is newer than 5. Their own functions
 # can make it. morph_separate_help(<variable>) tells whether this is such a ParaView: the pages are
 # then a file beside the plugin, and MorphHelp registers it in the window.
 function (morph_separate_help result)
