@@ -11,7 +11,7 @@ debian13_budget=18
 usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
-               [--no-debian13] [-j N]
+               [--no-debian13] [--labels REGEX] [-j N]
 From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
@@ -21,7 +21,8 @@ From a bare Debian 12 or 13 to tested builds: installs the packages, then
   vtk91), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
 - on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
-  other-debian.sh). Where none can be made, the summary says so.
+  other-debian.sh), without the labels fuzz and programs. Where none can be made, the summary says
+  so.
 The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a
 stage that takes longer than its budget is named, but is no failure.
   --no-install    leave the packages alone
@@ -30,6 +31,7 @@ stage that takes longer than its budget is named, but is no failure.
   --no-plain-vtk  leave VTK 9.1 out
   --no-package    leave the Debian package out
   --no-debian13   leave Debian 13 out
+  --labels REGEX  of the preset paraview run the tests with these labels alone
   -j N            processes to build and to test with (default: all cores)
 END
 }
@@ -39,6 +41,7 @@ package=yes
 asan_filters=no
 presets=(paraview asan vtk91)
 debian13=yes
+labels=()
 jobs=$(nproc)
 leave_out() {
   for i in "${!presets[@]}"; do
@@ -54,6 +57,7 @@ while [ $# -gt 0 ]; do
     --no-plain-vtk) leave_out vtk91 ;;
     --no-package) package=no ;;
     --no-debian13) debian13=no ;;
+    --labels) shift; labels=(-L "${1:?"--labels needs a regular expression"}") ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -126,7 +130,9 @@ for preset in "${presets[@]}"; do
     sanitized
   else
     stage debian "build $preset" build "$preset"
-    stage debian "tests $preset" tests "$preset" || status=1
+    chosen=()
+    if [ "$preset" = paraview ]; then chosen=(${labels[@]+"${labels[@]}"}); fi
+    stage debian "tests $preset" tests "$preset" ${chosen[@]+"${chosen[@]}"} || status=1
   fi
 done
 package_summary="left out"
@@ -141,8 +147,8 @@ fi
 
 if [ "$debian13" = yes ]; then
   debian13_status=0
-  stage debian13 "Debian 13" Utilities/other-debian.sh trixie test -j "$jobs" ||
-    debian13_status=$?
+  stage debian13 "Debian 13" Utilities/other-debian.sh trixie test -j "$jobs" \
+    --labels '^(core|filters|install|paraview)$' || debian13_status=$?
   if [ "$debian13_status" -eq 77 ]; then
     left_out+=("Debian 13: no root file system can be made, or the registry does not answer")
     debian13=no
