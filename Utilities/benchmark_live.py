@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter
 upstream to the finished picture, and where the time goes. Median of several drags after the first,
-which prepares the method. With --shapes: from a changed weight of Morph Shapes to the picture of
-its output Surface, beside the floor: the same view of a surface of that size whose points change.
+which prepares the method. With --surface: with the output Surface in place of the mesh, beside the
+floor, the same view of a surface of that size whose points change. With --shapes: from a changed
+weight of Morph Shapes to the picture of its output Surface, beside the floor.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
          pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\
-         [--methods FEMWARP,LBWARP] [--upstream Transform] [--shapes]
+         [--methods FEMWARP,LBWARP] [--upstream Transform] [--surface] [--shapes]
 """
 import argparse
 import os
@@ -27,6 +28,8 @@ simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 METHODS = "FEMWARP", "LBWARP", "WeightedResidual", "SimplexLinear"
 COLUMNS = ("boundary", "prepare", "evaluate", "rest of filter", "surface", "render",
            "drag to picture")
+
+SURFACE_COLUMNS = ("boundary", "evaluate", "rest of filter", "render", "drag to picture", "floor")
 
 
 def cube(cells):
@@ -102,6 +105,27 @@ def measure(method, part, drag, drags):
     return [statistics.median(column) for column in zip(*rows)], count, first, prepare
 
 
+def measure_surface(method, part, drag, drags):
+    """Medians of the columns of --surface."""
+    morph = globals()["Morph" + method](Input=part, Boundary=drag.moved)
+    view = simple.CreateRenderView(ViewSize=[1000, 800])
+    simple.Show(simple.OutputPort(morph, "Surface"), view)
+    drag.move(-1)
+    simple.Render(view)
+    rows = []
+    for step in range(drags):
+        drag.move(step)
+        boundary = seconds(drag.moved.UpdatePipeline)
+        whole = seconds(morph.UpdatePipeline)
+        picture = seconds(lambda: simple.Render(view))
+        rows.append((boundary, morph.EvaluateSeconds, whole - morph.EvaluateSeconds, picture,
+                     boundary + whole + picture))
+    surface = morph.GetClientSideObject().GetOutputDataObject(2)
+    medians = [statistics.median(column) for column in zip(*rows)]
+    simple.Delete(view)
+    return medians + [measure_floor(surface, drags)]
+
+
 def measure_floor(surface, drags):
     """The median time of a picture of a surface whose points change each time."""
     moving = vtkPolyData()
@@ -156,6 +180,7 @@ def main():
     parser.add_argument("--methods", default=",".join(METHODS))
     parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"),
                         default="Transform")
+    parser.add_argument("--surface", action="store_true", help="show Surface, not the mesh")
     parser.add_argument("--shapes", action="store_true")
     options = parser.parse_args()
     grid = cube(options.cells)
@@ -168,6 +193,12 @@ def main():
         names = ("blend", "rest of filter", "render", "weight to picture", "floor", "first")
         print("".join(f"{name:>20}" for name in names))
         print("".join(f"{1e3 * m:20.1f}" for m in measure_shapes(part, options.drags)))
+        return
+    if options.surface:
+        print(f"{'':24}" + "".join(f"{name:>16}" for name in SURFACE_COLUMNS))
+        for method in options.methods.split(","):
+            medians = measure_surface(method, part, Drag(part, options.upstream), options.drags)
+            print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians), flush=True)
         return
     print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS)
           + f"{'prepared':>10}{'first':>10}")

@@ -26,6 +26,7 @@
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -56,9 +57,10 @@ public:
   filters::Session::Options Options() const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   /// Makes `output` the undeformed mesh, where that can be read, without a result.
-  void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
+  void WriteUndeformed(
+    vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface);
 
 private:
   vtkMorphAlgorithm* Filter;
@@ -76,7 +78,7 @@ morphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
   : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
@@ -99,6 +101,11 @@ void vtkMorphAlgorithm::SetBoundaryData(vtkDataObject* boundary)
 int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   return filters::Ports::FillInformation(port, info);
+}
+
+int vtkMorphAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  return filters::Ports::FillOutputInformation(port, info);
 }
 
 int vtkMorphAlgorithm::RequestInformation(
@@ -150,6 +157,7 @@ int vtkMorphAlgorithm::RequestData(
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
+  vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
   vtkInternals& kept = *this->Internals;
   std::string partial;
   // A process without cells has no series, and would not know which step to ask the boundary for.
@@ -158,7 +166,7 @@ int vtkMorphAlgorithm::RequestData(
     kept.Results.Reset();
     vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
                   "Run on one, or set Stepping to Absolute.");
-    kept.WriteUndeformed(nullptr, "Failed", output);
+    kept.WriteUndeformed(nullptr, "Failed", output, surface);
     return 1;
   }
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
@@ -167,7 +175,7 @@ int vtkMorphAlgorithm::RequestData(
     {
       try
       {
-        partial = kept.Morph(grid, boundary, output, badCells, monitor);
+        partial = kept.Morph(grid, boundary, output, badCells, surface, monitor);
       }
       catch (const filters::Validity::Infeasible& infeasible)
       {
@@ -176,13 +184,14 @@ int vtkMorphAlgorithm::RequestData(
       }
     },
     [&](vtkDataObject* input, const char* status)
-    { kept.WriteUndeformed(input, status, output); } };
+    { kept.WriteUndeformed(input, status, output, surface); } };
   kept.BoundaryInverted = 0;
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   if (kept.Steps.Any() && !kept.Steps.FromBoundary())
   {
-    for (vtkUnstructuredGrid* data : { output, badCells })
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {
+      vtkDataObject* data = vtkDataObject::GetData(outputVector, port);
       data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), kept.Steps.Time(kept.Step));
     }
   }
@@ -194,7 +203,7 @@ int vtkMorphAlgorithm::RequestData(
 }
 
 void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
-  vtkDataObject* input, const char* status, vtkUnstructuredGrid* output)
+  vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface)
 {
   // Who stops a drag midway, or makes a mistake, wants to see the mesh it began with.
   if (filters::Version::AbortRequested(this->Filter))
@@ -203,6 +212,7 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
   }
   filters::MorphOutput::WriteUndeformed(
     input, status, this->BoundaryInverted, this->Results, output);
+  this->Session.GetKept().WriteUndeformedSurface(output, surface);
 }
 
 filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options() const
@@ -229,7 +239,7 @@ filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options() const
 
 std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
-  morph::Monitor& monitor)
+  vtkPolyData* surface, morph::Monitor& monitor)
 {
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   this->Session.SetGrid(grid, monitor);
@@ -245,7 +255,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   }
   morph::ProgressRange writing(monitor, 0.9, 1);
   filters::MorphOutput::Write(this->Session, *result, this->Filter->OutputPointsPrecision,
-    this->Filter->Certify, grid, this->Results, output, badCells, writing);
+    this->Filter->Certify, grid, this->Results, output, badCells, surface, writing);
   return result->Valid.Error;
 }
 

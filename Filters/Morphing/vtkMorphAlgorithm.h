@@ -39,6 +39,12 @@
  * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are
  * added, ids in output 0. It is empty if there are no such cells.
  *
+ * Output 2 (vtkPolyData) is the outer boundary of output 0, to be shown in place of it: a view of
+ * the mesh has to find its surface after each motion. Its polygons are the same object as long as
+ * the mesh has the same cells, so that only points and colors change. It has the point array
+ * MorphPointId and the cell arrays MorphCellId and ScaledJacobian, that of the cell behind each
+ * face. After an error it is the undeformed boundary, or empty if there is none.
+ *
  * What the method prepares (a matrix and its preconditioner, weights, ...) is kept. It is reused
  * while the undeformed points, the cells, the set of prescribed nodes and the method's options have
  * the same content, whatever their modification times. Moving the same boundary again then costs
@@ -447,6 +453,7 @@ protected:
   vtkIdType GetCount(const char* name) const;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,

@@ -141,7 +141,7 @@ public:
   void List();
   /// Returns an error that comes with a result, or nothing.
   std::string Run(vtkSelection* selection, vtkInformation* asked, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   /// Makes `output` the undeformed mesh, where that can be read, without a result.
   void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
 
@@ -157,7 +157,7 @@ private:
   void ConfigureMorph();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   void TakeResults();
 };
 
@@ -264,7 +264,7 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
 }
 
 std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   this->ConfigureMorph();
   const filters::Follower follower(this->Morph, monitor);
@@ -290,6 +290,7 @@ std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstru
   monitor.check();
   output->ShallowCopy(this->Morph->GetOutput(0));
   badCells->ShallowCopy(this->Morph->GetOutput(1));
+  surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
   this->TakeResults();
   return follower.Errors().empty() ? std::string() : follower.Errors().front();
 }
@@ -320,7 +321,8 @@ void vtkMorphMesh::vtkInternals::TakeResults()
 }
 
 std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformation* asked,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
+  morph::Monitor& monitor)
 {
   this->ConfigureDisplacement(selection);
   morph::ProgressRange displacing(monitor, 0, 0.3);
@@ -328,11 +330,12 @@ std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformat
   if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVE_NOTHING)
   {
     filters::SurfaceGrid::Write(this->Rest, this->Displacement->GetOutput(), output);
+    filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);
     this->Results.Write(output);
     return {};
   }
   morph::ProgressRange morphing(monitor, 0.3, 1);
-  return this->Morphed(asked, output, badCells, morphing);
+  return this->Morphed(asked, output, badCells, surface, morphing);
 }
 
 void vtkMorphMesh::vtkInternals::WriteUndeformed(
@@ -349,7 +352,7 @@ vtkMorphMesh::vtkMorphMesh()
   : Internals(new vtkInternals(this))
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
@@ -517,6 +520,11 @@ int vtkMorphMesh::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+int vtkMorphMesh::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  return filters::Ports::FillOutputInformation(port, info);
+}
+
 int vtkMorphMesh::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -553,6 +561,7 @@ int vtkMorphMesh::RequestData(
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
+  vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
   filters::Monitor monitor(this, this->NumberOfThreads);
   std::string partial;
   own.Results.Reset();
@@ -568,13 +577,14 @@ int vtkMorphMesh::RequestData(
       filters::Input::RequireGrid(input, "The input"); // has the message
     }
     own.TakeGrid(grid);
-    partial =
-      own.Run(selection, filters::Ports::Asked(request, outputVector), output, badCells, monitor);
+    partial = own.Run(
+      selection, filters::Ports::Asked(request, outputVector), output, badCells, surface, monitor);
   };
   const auto clear = [&]
   {
     output->Initialize();
     badCells->Initialize();
+    surface->Initialize();
     own.Results.Reset();
   };
   const filters::Execution::Outcome outcome =

@@ -5,7 +5,8 @@
  *
  * It is vtkBoundaryDisplacement and a morph filter in one. Port 0 takes the mesh
  * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection. Output 0 is the morphed mesh and
- * output 1 its inverted cells, both with the arrays of vtkMorphAlgorithm.
+ * output 1 its inverted cells, both with the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is
+ * the outer boundary, which a view can show in less time; see vtkMorphAlgorithm.
  *
  * - Moving defines what moves: surfaces, a selection, the inside of a region, everything, or the
  *   nodes that an array marks.
@@ -400,6 +401,7 @@ protected:
   ~vtkMorphMesh() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,

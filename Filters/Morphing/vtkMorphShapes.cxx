@@ -8,7 +8,6 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Gradient.h"
-#include "Private/Data/MovedSurface.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
@@ -118,8 +117,6 @@ public:
   filters::WeightRanges Ranges; ///< of the last execution
   std::vector<double> Weights;  ///< of the last execution; empty where it had no result
   filters::Designs Designs;
-  filters::MovedSurface Surface;
-  int SurfaceOf = 0;   ///< the mesh of Surface, by its number
   vtkIdType Rows = 0;  ///< of the table, as of the last update of the information
   vtkIdType Row = 0;   ///< that the outputs are asked for
   morph::Points Moved; ///< kept for its memory: its content has no effect
@@ -277,12 +274,7 @@ int vtkMorphShapes::FillInputPortInformation(int port, vtkInformation* info)
 
 int vtkMorphShapes::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  const int done = this->Superclass::FillOutputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  }
-  return done;
+  return filters::Ports::FillOutputInformation(port, info);
 }
 
 int vtkMorphShapes::RequestInformation(
@@ -358,6 +350,7 @@ int vtkMorphShapes::RequestData(
         filters::Version::KeepAbortedOutput(this);
       }
       filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
+      kept.Modes.GetKept().WriteUndeformedSurface(output, vtkPolyData::GetData(outputVector, 2));
     } };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
@@ -462,12 +455,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
 {
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputs);
   this->Modes.SetGrid(grid, monitor);
-  if (this->SurfaceOf != this->Modes.GetMeshCount())
-  {
-    this->Surface.Make(grid, this->Modes.GetMesh(), this->Modes.GetOuterFaces());
-    this->SurfaceOf = this->Modes.GetMeshCount();
-  }
-  this->Results.SetInteger("MirroredBodies", this->Modes.GetMirroredBodies());
+  this->Results.SetInteger("MirroredBodies", this->Modes.GetKept().MirroredBodies());
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
   morph::ProgressRange checking(monitor, 0.6, 0.8);
@@ -475,7 +463,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
 
   const auto start = std::chrono::steady_clock::now();
-  const morph::Points& rest = this->Modes.GetMesh().points;
+  const morph::Points& rest = this->Modes.GetKept().Mesh().points;
   morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
   this->Results.SetNumber("EvaluateSeconds",
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -494,13 +482,13 @@ void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
-  const std::vector<std::uint8_t>& inner = this->Surface.InnerCells();
-  const morph::Mesh& mesh = this->Modes.GetMesh();
-  const std::vector<std::int8_t>& orientation = this->Modes.GetOrientation();
+  const std::vector<std::uint8_t>& inner = this->Modes.GetKept().Surface().InnerCells();
+  const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
+  const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
   const morph::Quality quality =
     all ? filters::Quality::Measure(mesh, output, orientation, monitor)
         : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
-  this->Surface.Write(output->GetPoints(), quality.scaledJacobian, surface);
+  this->Modes.GetKept().Surface().Write(output->GetPoints(), quality.scaledJacobian, surface);
   vtkIdType bad = 0;
   for (const morph::Index cell : morph::invertedCells(quality))
   {
@@ -611,7 +599,7 @@ void vtkMorphShapes::Differentiate(
     throw morph::Error("Morph Shapes has no result: update it before its derivatives.");
   }
   const morph::Points nodes =
-    filters::Gradient::Require(gradient, kept.Modes.GetMesh().numberOfNodes());
+    filters::Gradient::Require(gradient, kept.Modes.GetKept().Mesh().numberOfNodes());
   derivatives->Initialize();
   for (const double value : kept.Modes.Derivatives(kept.Weights, nodes, monitor))
   {

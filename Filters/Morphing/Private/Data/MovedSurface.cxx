@@ -45,6 +45,11 @@ void MovedSurface::Write(
   output->SetPoints(points);
   output->SetPolys(this->Polygons);
   output->GetPointData()->AddArray(this->Nodes);
+  output->GetCellData()->AddArray(this->Owners);
+  if (quality.empty())
+  {
+    return;
+  }
   vtkNew<vtkDoubleArray> scaledJacobian;
   scaledJacobian->SetName("ScaledJacobian");
   scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
@@ -52,7 +57,6 @@ void MovedSurface::Write(
   {
     scaledJacobian->SetValue(i, quality[this->Owners->GetValue(i)]);
   }
-  output->GetCellData()->AddArray(this->Owners);
   output->GetCellData()->SetScalars(scaledJacobian);
 }
 }

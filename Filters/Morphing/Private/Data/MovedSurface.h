@@ -29,7 +29,8 @@ public:
 
   /// Fills `output`: the polygons and the arrays MorphPointId and MorphCellId are the same objects
   /// each time. `moved`: the points of all nodes. `quality`: #cells, becomes the cell array
-  /// ScaledJacobian (active scalars) of the cell behind each face.
+  /// ScaledJacobian (active scalars) of the cell behind each face; without one there is no such
+  /// array.
   void Write(vtkPoints* moved, const std::vector<double>& quality, vtkPolyData* output) const;
 
 private:

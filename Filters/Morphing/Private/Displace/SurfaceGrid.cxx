@@ -24,6 +24,19 @@ int typeOf(vtkIdType corners)
 {
   return corners == 3 ? VTK_TRIANGLE : corners == 4 ? VTK_QUAD : VTK_POLYGON;
 }
+
+/// The number of each face's surface as active scalars of `output`.
+void addNumbers(vtkPolyData* boundary, vtkDataSet* output)
+{
+  if (vtkDataArray* surfaces = boundary->GetCellData()->GetArray(Geometry::IdName))
+  {
+    auto named = vtkSmartPointer<vtkDataArray>::Take(surfaces->NewInstance());
+    named->DeepCopy(surfaces);
+    named->SetName(SurfaceGrid::SurfaceName);
+    output->GetCellData()->AddArray(named);
+    output->GetCellData()->SetActiveScalars(SurfaceGrid::SurfaceName);
+  }
+}
 }
 
 void SurfaceGrid::Write(
@@ -34,7 +47,6 @@ void SurfaceGrid::Write(
   output->GetPointData()->ShallowCopy(grid->GetPointData());
   output->GetFieldData()->ShallowCopy(grid->GetFieldData());
   vtkDataArray* ids = boundary->GetPointData()->GetArray(Surface::IdName);
-  vtkDataArray* surfaces = boundary->GetCellData()->GetArray(Geometry::IdName);
   output->AllocateExact(boundary->GetNumberOfPolys(), 4 * boundary->GetNumberOfPolys());
   vtkNew<vtkIdList> corners;
   vtkCellArray* faces = boundary->GetPolys();
@@ -47,13 +59,12 @@ void SurfaceGrid::Write(
     }
     output->InsertNextCell(typeOf(corners->GetNumberOfIds()), corners);
   }
-  if (surfaces)
-  {
-    auto named = vtkSmartPointer<vtkDataArray>::Take(surfaces->NewInstance());
-    named->DeepCopy(surfaces);
-    named->SetName(SurfaceName);
-    output->GetCellData()->AddArray(named);
-    output->GetCellData()->SetActiveScalars(SurfaceName);
-  }
+  addNumbers(boundary, output);
+}
+
+void SurfaceGrid::Write(vtkPolyData* boundary, vtkPolyData* output)
+{
+  output->ShallowCopy(boundary);
+  addNumbers(boundary, output);
 }
 }

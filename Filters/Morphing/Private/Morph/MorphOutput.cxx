@@ -9,6 +9,7 @@
 #include "Private/Pipeline/Input.h"
 
 #include <vtkDataObject.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <limits>
@@ -19,10 +20,10 @@ namespace morph::filters::MorphOutput
 {
 void Write(const Session& session, const StepResult& step, int precision, bool certify,
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, morph::Monitor& monitor)
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  const morph::Mesh& mesh = session.GetMesh();
-  const std::vector<std::int8_t>& orientation = session.GetOrientation();
+  const morph::Mesh& mesh = session.GetKept().Mesh();
+  const std::vector<std::int8_t>& orientation = session.GetKept().Orientation();
   Output::Write(grid, mesh.points, step.Moved, precision, output);
   const bool known =
     !step.Valid.Measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
@@ -50,6 +51,7 @@ void Write(const Session& session, const StepResult& step, int precision, bool c
     results.Set(report);
   }
   BadCells::Extract(quality, output, badCells);
+  session.GetKept().Surface().Write(output->GetPoints(), quality.scaledJacobian, surface);
 
   results.SetText("MorphStatus", status);
   results.SetNumber("LargestValidStep", largestValidStep);

@@ -4,6 +4,7 @@
 #include "Mesh/Mesh.h"
 
 class vtkDataObject;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace morph
@@ -20,12 +21,12 @@ struct StepResult;
 /// Writes the outputs of vtkMorphAlgorithm and their results.
 namespace MorphOutput
 {
-/// Writes a step's mesh and its inverted cells. `precision`: of the points, as
+/// Writes a step's mesh, its inverted cells and its surface. `precision`: of the points, as
 /// vtkAlgorithm::DEFAULT_PRECISION. `certify`: see vtkMorphAlgorithm::SetCertify(). Throws
 /// morph::Error where that precision does not hold the points.
 void Write(const Session& session, const StepResult& step, int precision, bool certify,
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, morph::Monitor& monitor);
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
 
 /// Writes the undeformed mesh, if `input` is a readable mesh, without a result.
 /// `boundaryInverted`: the number of cells that the boundary itself inverts, if that is the reason.

@@ -47,37 +47,24 @@ morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::in
 
 void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  const bool sameCells = GridMesh::SameCells(grid, this->Mesh);
-  if (sameCells && GridMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  if (this->Kept.Take(grid, monitor))
   {
-    return;
+    this->Method.reset();
+    this->Steps.Clear();
   }
-  morph::Mesh mesh = GridMesh::FromGrid(grid);
-  Input::RequireVolumeCells(mesh);
-  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
-  std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
-  if (!sameCells)
-  {
-    this->Outer = morph::boundaryFaces(mesh, monitor);
-  }
-  this->Method.reset();
-  this->Steps.Clear();
-  this->Mirrored = Quality::MirroredBodies(bodies, orientation);
-  this->Orientation = std::move(orientation);
-  this->Size = GridMesh::Size(mesh);
-  this->Mesh = std::move(mesh);
 }
 
 void Session::ReportMirroredBodies(morph::Monitor& monitor)
 {
-  this->Results.SetInteger("MirroredBodies", static_cast<vtkIdType>(this->Mirrored));
-  if (this->Mirrored > 0)
+  this->Results.SetInteger("MirroredBodies", static_cast<vtkIdType>(this->Kept.MirroredBodies()));
+  if (this->Kept.MirroredBodies() > 0)
   {
-    const auto first = std::find(this->Orientation.begin(), this->Orientation.end(), -1);
-    monitor.warn(std::to_string(this->Mirrored) +
+    const auto first =
+      std::find(this->Kept.Orientation().begin(), this->Kept.Orientation().end(), -1);
+    monitor.warn(std::to_string(this->Kept.MirroredBodies()) +
                  " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
                  "type are inverted, the first is cell " +
-                 std::to_string(first - this->Orientation.begin()) +
+                 std::to_string(first - this->Kept.Orientation().begin()) +
                  ". They are morphed and measured as if they were not. Reverse their order of "
                  "nodes if a solver expects VTK's.");
   }
@@ -88,8 +75,8 @@ BoundaryMatch::Result Session::Match(
 {
   BoundaryMatch::Options matching = options.Matching;
   matching.ScaleFactor *= fraction;
-  BoundaryMatch::Result match =
-    BoundaryMatch::Match(boundary, this->Mesh, this->Outer, this->Size, matching);
+  BoundaryMatch::Result match = BoundaryMatch::Match(
+    boundary, this->Kept.Mesh(), this->Kept.OuterFaces(), this->Kept.Size(), matching);
   for (const std::string& warning : match.Warnings)
   {
     monitor.warn(warning);
@@ -101,8 +88,8 @@ BoundaryMatch::Result Session::Match(
 std::shared_ptr<const StepResult> Session::Morph(
   vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor)
 {
-  return std::make_shared<StepResult>(this->MorphStep(
-    this->Mesh, this->Match(boundary, fraction, options, monitor), options, 0, 0.9, monitor));
+  return std::make_shared<StepResult>(this->MorphStep(this->Kept.Mesh(),
+    this->Match(boundary, fraction, options, monitor), options, 0, 0.9, monitor));
 }
 
 std::shared_ptr<const StepResult> Session::MorphSeries(
@@ -128,7 +115,7 @@ std::shared_ptr<const StepResult> Session::MorphSeries(
   {
     ++step;
     vtkPointSet* boundary = motion.Boundary(step);
-    morph::Mesh from = this->Mesh;
+    morph::Mesh from = this->Kept.Mesh();
     if (result)
     {
       from.points = result->Moved;
@@ -170,8 +157,9 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   const auto part = [&](double a, double b)
   { return morph::ProgressRange(monitor, first + a * (last - first), first + b * (last - first)); };
   const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
-  const Validity validity{ options.Validity, options.MaximumSubSteps, from, this->Mesh.points,
-    partition, this->Orientation, match.Targets, this->Outer,
+  const Validity validity{ options.Validity, options.MaximumSubSteps, from,
+    this->Kept.Mesh().points, partition, this->Kept.Orientation(), match.Targets,
+    this->Kept.OuterFaces(),
     dynamic_cast<morph::InversionFree*>(options.CreateMorpher().get()) != nullptr,
     [&options]
     {
@@ -203,7 +191,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   {
     auto smoothing = part(0.75, 0.85);
     result.Statistics.push_back(
-      { "PostSmoothSteps", smoothAfterwards(this->Mesh, this->Orientation, partition,
+      { "PostSmoothSteps", smoothAfterwards(this->Kept.Mesh(), this->Kept.Orientation(), partition,
                              options.PostSmoothIterations, result.Moved, smoothing) });
   }
   auto checking = part(options.PostSmooth ? 0.85 : 0.75, 1);
@@ -212,7 +200,8 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (result.Valid.Status == "Inverted")
   {
     result.BoundaryInverted = static_cast<morph::Index>(
-      morph::boundaryDeterminedInversions(from, partition, this->Orientation, result.Moved).size());
+      morph::boundaryDeterminedInversions(from, partition, this->Kept.Orientation(), result.Moved)
+        .size());
   }
   result.Iterations = report.iterations;
   result.Prescribed = static_cast<morph::Index>(match.Ids.size());
@@ -233,9 +222,9 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   const auto start = Clock::now();
   this->Method.reset();
   std::unique_ptr<morph::Morpher> morpher = options.CreateMorpher();
-  if (from.points != this->Mesh.points)
+  if (from.points != this->Kept.Mesh().points)
   {
-    morpher->setReference(this->Mesh.points);
+    morpher->setReference(this->Kept.Mesh().points);
   }
   morpher->prepare(from, partition, monitor);
   this->Method = std::move(morpher);
@@ -252,7 +241,8 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
   this->SetGrid(rest, monitor);
   const BoundaryMatch::Result match = this->Match(displaced, 1, options, monitor);
   morph::ProgressRange preparing(monitor, 0.05, 0.5);
-  this->Prepare(this->Mesh, morph::partitionNodes(this->Mesh, match.Ids), options, preparing);
+  this->Prepare(
+    this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), match.Ids), options, preparing);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Method.get());
   if (!linear)
   {

@@ -3,15 +3,14 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
 #include "Private/Data/Results.h"
 #include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/Series.h"
 
 #include <vtkType.h>
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -64,9 +63,7 @@ public:
 
   /// Copies the grid, unless it is the same as the kept one.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
-  const morph::Mesh& GetMesh() const { return this->Mesh; }
-  /// #cells; see Topology.h.
-  const std::vector<std::int8_t>& GetOrientation() const { return this->Orientation; }
+  const KeptMesh& GetKept() const { return this->Kept; }
   /// Warns of bodies that are mirrored.
   void ReportMirroredBodies(morph::Monitor& monitor);
 
@@ -98,12 +95,8 @@ private:
     const Options& options, morph::Monitor& monitor);
 
   filters::Results& Results;
-  morph::Mesh Mesh;
-  morph::BoundaryFaces Outer;             ///< of Mesh's cells
-  double Size = 0;                        ///< of Mesh; see GridMesh::Size
-  std::vector<std::int8_t> Orientation;   ///< of Mesh
-  morph::Index Mirrored = 0;              ///< bodies of Mesh
-  std::unique_ptr<morph::Morpher> Method; ///< prepared for Mesh under MethodOptions, or null
+  KeptMesh Kept;
+  std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   std::string MethodOptions;
 
   Series Steps;

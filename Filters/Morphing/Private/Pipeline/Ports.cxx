@@ -38,6 +38,12 @@ int Ports::FillInformation(int port, vtkInformation* info)
   return 1;
 }
 
+int Ports::FillOutputInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPolyData" : "vtkUnstructuredGrid");
+  return 1;
+}
+
 int Ports::RequestInformation(
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

@@ -27,6 +27,8 @@ public:
   }
 
   static int FillInformation(int port, vtkInformation* info);
+  /// The mesh, its bad cells, and its surface, which is polygonal data.
+  static int FillOutputInformation(int port, vtkInformation* info);
   static int RequestInformation(
     vtkInformationVector** inputVector, vtkInformationVector* outputVector);
   /// For RequestUpdateExtent: the information of the output port that `request` comes from.

@@ -86,8 +86,9 @@ const std::vector<std::size_t>& Designs::Inverted(const ShapeModes& modes, morph
   {
     monitor.check();
     monitor.progress(static_cast<double>(row) / static_cast<double>(this->Rows.size()));
-    morph::blend(modes.GetMesh().points, modes.Weighted(this->Rows[row]), moved, monitor);
-    if (!morph::invertedCells(modes.GetMesh(), moved, modes.GetOrientation(), monitor).empty())
+    morph::blend(modes.GetKept().Mesh().points, modes.Weighted(this->Rows[row]), moved, monitor);
+    if (!morph::invertedCells(modes.GetKept().Mesh(), moved, modes.GetKept().Orientation(), monitor)
+           .empty())
     {
       this->Bad.push_back(row);
     }

@@ -113,26 +113,11 @@ std::pair<morph::AxisRotation, std::vector<Index>> rotationOf(const Points& disp
 
 void ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  const bool sameCells = GridMesh::SameCells(grid, this->Mesh);
-  if (sameCells && GridMesh::SamePoints(grid, this->Mesh) && this->Mesh.numberOfCells() > 0)
+  if (this->Kept.Take(grid, monitor))
   {
-    return;
+    this->Method.reset();
+    this->Modes.clear();
   }
-  morph::Mesh mesh = GridMesh::FromGrid(grid);
-  Input::RequireVolumeCells(mesh);
-  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
-  std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
-  if (!sameCells)
-  {
-    this->Outer = morph::boundaryFaces(mesh, monitor);
-  }
-  this->Method.reset();
-  this->Modes.clear();
-  this->Mirrored = Quality::MirroredBodies(bodies, orientation);
-  this->Orientation = std::move(orientation);
-  this->Size = GridMesh::Size(mesh);
-  this->Mesh = std::move(mesh);
-  ++this->MeshCount;
 }
 
 std::vector<BoundaryMatch::Result> ShapeModes::Match(
@@ -145,8 +130,8 @@ std::vector<BoundaryMatch::Result> ShapeModes::Match(
     matches.push_back(named(shape.Name,
       [&]
       {
-        return BoundaryMatch::Match(
-          shape.Boundary, this->Mesh, this->Outer, this->Size, options.Matching);
+        return BoundaryMatch::Match(shape.Boundary, this->Kept.Mesh(), this->Kept.OuterFaces(),
+          this->Kept.Size(), options.Matching);
       }));
     for (const std::string& warning : matches.back().Warnings)
     {
@@ -159,7 +144,7 @@ std::vector<BoundaryMatch::Result> ShapeModes::Match(
 ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch::Result& match,
   const std::vector<Index>& prescribed, double tolerance, std::vector<Mode>& modes) const
 {
-  Points displacement = displacementOf(match, prescribed, this->Mesh.points);
+  Points displacement = displacementOf(match, prescribed, this->Kept.Mesh().points);
   Solved solved;
   if (!shape.IsRotation)
   {
@@ -167,13 +152,13 @@ ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch:
     modes.push_back({ std::move(displacement), {} });
     return solved;
   }
-  const auto [rotation, moving] = named(
-    shape.Name, [&] { return rotationOf(displacement, prescribed, this->Mesh.points, tolerance); });
+  const auto [rotation, moving] = named(shape.Name,
+    [&] { return rotationOf(displacement, prescribed, this->Kept.Mesh().points, tolerance); });
   Points first = Points::Zero(displacement.rows(), 3), second = first;
   for (Index i : moving)
   {
-    first.row(i) = rotation.first(this->Mesh.points.row(prescribed[i]));
-    second.row(i) = rotation.second(this->Mesh.points.row(prescribed[i]));
+    first.row(i) = rotation.first(this->Kept.Mesh().points.row(prescribed[i]));
+    second.row(i) = rotation.second(this->Kept.Mesh().points.row(prescribed[i]));
   }
   solved.Modes = { modes.size(), modes.size() + 1 };
   solved.Angle = rotation.angle;
@@ -193,7 +178,7 @@ void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& op
   this->Method.reset();
   this->Modes.clear();
   auto method = options.CreateMorpher();
-  method->prepare(this->Mesh, morph::partitionNodes(this->Mesh, prescribed), monitor);
+  method->prepare(this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), prescribed), monitor);
   this->Method = std::move(method);
   this->MethodOptions = options.Method;
   ++effort.Preparations;
@@ -203,13 +188,13 @@ ShapeModes::Effort ShapeModes::Solve(
   const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
 {
   const std::vector<BoundaryMatch::Result> matches = this->Match(shapes, options, monitor);
-  const std::vector<Index> prescribed = prescribedNodes(matches, this->Mesh.numberOfNodes());
+  const std::vector<Index> prescribed = prescribedNodes(matches, this->Kept.Mesh().numberOfNodes());
   std::vector<Mode> modes;
   std::vector<Solved> solved;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
-    solved.push_back(this->Describe(
-      shapes[i], matches[i], prescribed, options.Matching.MatchTolerance * this->Size, modes));
+    solved.push_back(this->Describe(shapes[i], matches[i], prescribed,
+      options.Matching.MatchTolerance * this->Kept.Size(), modes));
   }
 
   Effort effort;

@@ -6,6 +6,7 @@
 #include "Morpher/Blend.h"
 #include "Morpher/Morpher.h"
 #include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/KeptMesh.h"
 #include "Quality/ValidRange.h"
 
 #include <cstdint>
@@ -49,13 +50,7 @@ public:
 
   /// Copies the grid, unless it is the same as the kept one.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
-  const morph::Mesh& GetMesh() const { return this->Mesh; }
-  const morph::BoundaryFaces& GetOuterFaces() const { return this->Outer; }
-  /// How many grids were copied: another number tells of another mesh.
-  int GetMeshCount() const { return this->MeshCount; }
-  /// #cells; see Topology.h.
-  const std::vector<std::int8_t>& GetOrientation() const { return this->Orientation; }
-  morph::Index GetMirroredBodies() const { return this->Mirrored; }
+  const KeptMesh& GetKept() const { return this->Kept; }
 
   /// Solves for the displacement fields of shapes that are not kept, and forgets others. A node
   /// that any shape names is prescribed; in shapes that do not name it, it stays. Throws
@@ -97,13 +92,8 @@ private:
   void Prepare(const std::vector<morph::Index>& prescribed, const Options& options, Effort& effort,
     morph::Monitor& monitor);
 
-  morph::Mesh Mesh;
-  int MeshCount = 0;
-  morph::BoundaryFaces Outer;                   ///< of Mesh's cells
-  double Size = 0;                              ///< of Mesh; see GridMesh::Size
-  std::vector<std::int8_t> Orientation;         ///< of Mesh
-  morph::Index Mirrored = 0;                    ///< bodies of Mesh
-  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared for Mesh under MethodOptions, or null
+  KeptMesh Kept;
+  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared for Kept under MethodOptions, or null
   std::string MethodOptions;
   std::vector<Mode> Modes;    ///< of Method
   std::vector<Solved> Shapes; ///< of the last Solve()

@@ -22,9 +22,10 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
       return std::numeric_limits<double>::quiet_NaN();
     }
   }
-  const morph::Points motion = moved - modes.GetMesh().points;
-  const morph::NodeMotion whole = { &modes.GetMesh().points, &motion };
-  return morph::validRange(modes.GetMesh(), whole, modes.GetOrientation(), monitor).highest;
+  const morph::Points motion = moved - modes.GetKept().Mesh().points;
+  const morph::NodeMotion whole = { &modes.GetKept().Mesh().points, &motion };
+  return morph::validRange(modes.GetKept().Mesh(), whole, modes.GetKept().Orientation(), monitor)
+    .highest;
 }
 
 std::string endText(double end)
@@ -50,9 +51,9 @@ WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<doubl
     monitor.check();
     std::vector<double> others = weights;
     others[i] = 0;
-    morph::blend(modes.GetMesh().points, modes.Weighted(others), base, monitor);
-    result.Shapes.push_back(
-      morph::validRange(modes.GetMesh(), modes.MotionOf(i, base), modes.GetOrientation(), monitor));
+    morph::blend(modes.GetKept().Mesh().points, modes.Weighted(others), base, monitor);
+    result.Shapes.push_back(morph::validRange(
+      modes.GetKept().Mesh(), modes.MotionOf(i, base), modes.GetKept().Orientation(), monitor));
   }
   result.LargestFactor = largestFactor(modes, weights, moved, monitor);
   return result;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Private/Data/MovedSurface.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+/// The undeformed mesh of a filter, kept from one execution to the next, with what follows from it.
+class KeptMesh
+{
+public:
+  /// Copies the grid, unless it is the same as the kept one; returns whether it was copied. Throws
+  /// morph::Error for a grid that cannot be morphed; the kept one stays. Cost: a comparison, or the
+  /// search of the outer faces.
+  bool Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
+
+  const morph::Mesh& Mesh() const { return this->Copy; }
+  const morph::BoundaryFaces& OuterFaces() const { return this->Outer; }
+  /// See GridMesh::Size.
+  double Size() const { return this->Diameter; }
+  /// #cells; see Topology.h.
+  const std::vector<std::int8_t>& Orientation() const { return this->Signs; }
+  morph::Index MirroredBodies() const { return this->Mirrored; }
+  /// The outer faces as polygons that are made once.
+  const MovedSurface& Surface() const { return this->Polygons; }
+  /// Fills `surface` with the outer faces of `grid`, without quality, whether it is the kept mesh or
+  /// another. It is empty for a grid that cannot be morphed.
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
+
+private:
+  morph::Mesh Copy;
+  morph::BoundaryFaces Outer;
+  MovedSurface Polygons;
+  double Diameter = 0;
+  std::vector<std::int8_t> Signs;
+  morph::Index Mirrored = 0;
+};
+}

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The third output of the morphing filters: the outer boundary of the mesh, whose polygons stay.
+#include "MorphFilters.h"
+#include "TestGrids.h"
+
+#include "vtkMorphMesh.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+/// A motion of part of a 4 x 4 x 4 cube's boundary that grows with `size`.
+auto bulge(double size)
+{
+  return [size](const grids::Row& x) -> grids::Row {
+    return { x[0], x[1] + 0.02 * size * x[0] * x[2], x[2] };
+  };
+}
+
+vtkPolyData* surfaceOf(vtkAlgorithm* filter)
+{
+  return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(2));
+}
+
+/// That the surface has the points and the quality of the mesh, node by node and cell by cell.
+void expectSurfaceOf(vtkUnstructuredGrid* mesh, vtkPolyData* surface)
+{
+  const morph::Points nodes = grids::points(mesh), outer = grids::points(surface);
+  vtkDataArray* ids = surface->GetPointData()->GetArray("MorphPointId");
+  ASSERT_NE(ids, nullptr);
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(outer.row(i), nodes.row(static_cast<morph::Index>(ids->GetComponent(i, 0))));
+  }
+  vtkDataArray* owners = surface->GetCellData()->GetArray("MorphCellId");
+  vtkDataArray* quality = surface->GetCellData()->GetScalars();
+  ASSERT_NE(owners, nullptr);
+  ASSERT_NE(quality, nullptr);
+  EXPECT_STREQ(quality->GetName(), "ScaledJacobian");
+  vtkDataArray* expected = mesh->GetCellData()->GetArray("ScaledJacobian");
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
+  {
+    const auto owner = static_cast<vtkIdType>(owners->GetComponent(i, 0));
+    EXPECT_EQ(quality->GetComponent(i, 0), expected->GetComponent(owner, 0));
+  }
+}
+
+void expectUndeformed(vtkUnstructuredGrid* grid, vtkPolyData* surface)
+{
+  ASSERT_EQ(surface->GetNumberOfCells(), 6 * 16);
+  EXPECT_EQ(surface->GetCellData()->GetArray("ScaledJacobian"), nullptr);
+  const morph::Points outer = grids::points(surface), rest = grids::points(grid);
+  vtkDataArray* ids = surface->GetPointData()->GetArray("MorphPointId");
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(outer.row(i), rest.row(static_cast<morph::Index>(ids->GetComponent(i, 0))));
+  }
+}
+
+class MorphSurface : public testing::TestWithParam<grids::MorphFilter>
+{
+};
+}
+
+TEST_P(MorphSurface, FollowsTheMeshAndKeepsItsPolygons)
+{
+  auto grid = grids::hexes(4);
+  auto filter = GetParam().make();
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, bulge(1)));
+  filter->Update();
+  vtkCellArray* polygons = surfaceOf(filter)->GetPolys();
+  EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 16);
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+
+  filter->SetBoundaryData(grids::boundary(grid, bulge(2)));
+  filter->Update();
+  EXPECT_EQ(surfaceOf(filter)->GetPolys(), polygons);
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+
+  auto other = grids::hexes(3);
+  filter->SetInputData(other);
+  filter->SetBoundaryData(grids::boundary(other, bulge(1)));
+  filter->Update();
+  EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 9);
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+}
+
+TEST_P(MorphSurface, IsTheUndeformedOneAfterAnError)
+{
+  auto grid = grids::hexes(4);
+  auto filter = GetParam().make();
+  filter->SetInputData(grid);
+  auto boundary = grids::boundary(grid, bulge(1));
+  boundary->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  filter->SetBoundaryData(boundary);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  expectUndeformed(grid, surfaceOf(filter));
+  // Also where the mesh was not looked at.
+  filter->SetInputConnection(1, nullptr);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 2u);
+  expectUndeformed(grid, surfaceOf(filter));
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, MorphSurface, testing::ValuesIn(grids::morphFilters()),
+  [](const auto& info) { return info.param.name; });
+
+TEST(MorphMeshSurface, IsThatOfTheMethodOrTheBoundaryThatIsChosenFrom)
+{
+  auto grid = grids::hexes(4);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 16);
+  EXPECT_NE(surfaceOf(filter)->GetCellData()->GetArray("SurfaceId"), nullptr);
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToVector();
+  filter->SetVector(1, 2, 3);
+  filter->Update();
+  vtkCellArray* polygons = surfaceOf(filter)->GetPolys();
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+  filter->SetVector(1, 2, 4);
+  filter->Update();
+  EXPECT_EQ(surfaceOf(filter)->GetPolys(), polygons);
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+}
