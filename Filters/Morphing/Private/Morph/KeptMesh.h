@@ -36,8 +36,8 @@ public:
   morph::Index MirroredBodies() const { return this->Mirrored; }
   /// The outer faces as polygons that are made once.
   const MovedSurface& Surface() const { return this->Polygons; }
-  /// Fills `surface` with the outer faces of `grid`, without quality, whether it is the kept mesh or
-  /// another. It is empty for a grid that cannot be morphed.
+  /// Fills `surface` with the outer faces of `grid`, which may be the kept mesh or another, without
+  /// quality. It is empty for a grid that cannot be morphed.
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
 
 private:
