@@ -2,6 +2,7 @@
 #include "ServerManagerClasses.h"
 
 #include "vtkSMConnectedArrayListDomain.h"
+#include "vtkSMKeptArraySelectionDomain.h"
 #include "vtkSMReportingSourceProxy.h"
 
 #include <vtkClientServerInterpreter.h>
@@ -23,6 +24,8 @@ void MeshMorphingRegisterServerManagerClasses()
     {
       interpreter->AddNewInstanceFunction(
         "vtkSMConnectedArrayListDomain", make<vtkSMConnectedArrayListDomain>);
+      interpreter->AddNewInstanceFunction(
+        "vtkSMKeptArraySelectionDomain", make<vtkSMKeptArraySelectionDomain>);
       interpreter->AddNewInstanceFunction(
         "vtkSMReportingSourceProxy", make<vtkSMReportingSourceProxy>);
     });

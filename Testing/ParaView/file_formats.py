@@ -15,7 +15,7 @@ import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from versions import number_points
+from versions import blocks_for_exodus, number_points
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -82,10 +82,10 @@ class FileFormats(unittest.TestCase):
         cls.vectors = values(fetched(cls.morph).GetPointData(), "FinalDisplacement")
         cells = ids.GetDataInformation().GetNumberOfCells()
         # Two blocks, each with nodes of its own between them.
-        cls.blocks = simple.GroupDatasets(Input=[
+        cls.blocks = blocks_for_exodus(simple.GroupDatasets(Input=[
             simple.Threshold(Input=ids, Scalars=["CELLS", "Element"], LowerThreshold=first,
                              UpperThreshold=last)
-            for first, last in ((0, cells // 2 - 1), (cells // 2, cells))])
+            for first, last in ((0, cells // 2 - 1), (cells // 2, cells))]))
 
     def path(self, name):
         return str(Path(self.folder.name, name))

@@ -12,5 +12,13 @@ number_points = simple.PointAndCellIds if MAJOR >= 6 else simple.GenerateIds
 #: The window's settings, in the user's folder .config/ParaView.
 SETTINGS = "ParaView.ini" if MAJOR >= 6 else f"ParaView{MAJOR}.{MINOR}.{PATCH}.ini"
 
+#: The fields of the box that can be dragged, as test scripts name them.
+BOX_FIELDS = "" if MAJOR < 6 else "tabWidget/qt_tabwidget_stackedwidget/fieldsPage/"
+
 #: The file dialog of the plugin manager, as test scripts name it.
 PLUGIN_FILE_DIALOG = "pqFileDialog" if (MAJOR, MINOR) < (5, 12) else "1pqFileDialog0"
+
+
+def blocks_for_exodus(blocks):
+    """A multi-block as the writer of Exodus files takes it."""
+    return simple.ConvertToPartitionedDataSetCollection(Input=blocks) if MAJOR >= 6 else blocks

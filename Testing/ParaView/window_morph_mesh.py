@@ -13,6 +13,7 @@ from pathlib import Path
 
 from paraview import simple
 
+from versions import BOX_FIELDS
 from window_events import PANEL, Events
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
@@ -22,7 +23,7 @@ MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.v
 SURFACE, UP = "Surface 1", "0.2"
 NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId",
            "LargestValidStep")
-BOX = "Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/"
+BOX = f"Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
 
 
 class Clicks(Events):
