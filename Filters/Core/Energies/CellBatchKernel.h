@@ -93,7 +93,6 @@ MORPH_SIMD_INLINE void parametersOf(const FoldoverDensity& density,
   const CellBatches::Tetrahedra& tetrahedra, Parameters<SimdDouble4>& parameters)
 {
   parameters.theta = load(tetrahedra.theta);
-  parameters.stiffness = density.stiffness * load(tetrahedra.stiffened);
   parameters.epsilon = density.epsilon;
 }
 }

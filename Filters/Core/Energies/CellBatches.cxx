@@ -122,7 +122,6 @@ void CellBatches::setTargets(const TargetMatrices& targets)
         }
         to.weight[lane] = from.weight;
         to.theta[lane] = from.theta;
-        to.stiffened[lane] = from.stiffened ? 1 : 0;
       }
     }
   }

@@ -21,7 +21,6 @@ public:
   {
     double inverse[9][SimdWidth]; ///< of the target matrix, by columns
     double weight[SimdWidth], theta[SimdWidth];
-    double stiffened[SimdWidth]; ///< 1 or 0
   };
 
   /// `free`: ids of the nodes that move, in the order of the rows. An order that keeps neighbors

@@ -26,21 +26,14 @@ Eigen::Map<const Eigen::Matrix3d> toEigen(const Matrix& A)
 
 foldover::Parameters<double> parametersOf(const FoldoverDensity& density)
 {
-  return { density.theta, density.stiffness, density.epsilon };
+  return { density.theta, density.epsilon };
 }
-}
-
-double FoldoverDensity::distortion(const Eigen::Matrix3d& J) const
-{
-  double phi;
-  foldover::distortion(parametersOf(*this), J.squaredNorm(), J.determinant(), phi);
-  return phi;
 }
 
 double FoldoverDensity::value(const Eigen::Matrix3d& J) const
 {
   double result;
-  foldover::stiffen(this->stiffness, this->distortion(J), result);
+  foldover::density(parametersOf(*this), J.squaredNorm(), J.determinant(), result);
   return result;
 }
 

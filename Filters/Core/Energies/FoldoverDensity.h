@@ -14,19 +14,14 @@ namespace morph
 ///   chi = (det + sqrt(epsilon^2 + det^2)) / 2.
 ///
 /// It is finite for inverted maps while epsilon > 0, and steep enough there to remove inversions.
-/// For epsilon towards 0 it becomes a barrier at det = 0. With stiffness t > 0 the density is phi /
-/// (1 - t phi), a barrier at phi = 1 / t, which lowers the worst value instead of the mean. Source:
-/// Garanzha et al., ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112.
+/// For epsilon towards 0 it becomes a barrier at det = 0.
 struct FoldoverDensity
 {
   double theta = 0.1;     ///< weight of the change of volume against that of shape, in [0, 1]
   double epsilon = 1e-10; ///< regularisation, above 0
-  double stiffness = 0;   ///< t, at least 0
 
-  /// Returns the density at J; infinite where stiffness times phi is 1 or more.
+  /// Returns the density at J; infinite where it cannot be computed.
   double value(const Eigen::Matrix3d& J) const;
-  /// Returns phi, without the stiffness.
-  double distortion(const Eigen::Matrix3d& J) const;
   /// Returns the density and computes d(density)/dJ.
   double gradient(const Eigen::Matrix3d& J, Eigen::Matrix3d& derivative) const;
 

@@ -83,7 +83,7 @@ MORPH_SIMD_INLINE void squaredNorm(const Matrix3<T>& J, T& result)
 template <typename T>
 struct Parameters
 {
-  T theta, stiffness;
+  T theta;
   double epsilon;
 };
 
@@ -104,28 +104,29 @@ struct Regularised
   }
 };
 
-/// Computes phi, without the stiffness. `I`: squared norm of J; `D`: its determinant.
+/// Where the density is not finite, it is infinite, so that no step may end there.
 template <typename T>
-MORPH_SIMD_INLINE void distortion(const Parameters<T>& p, const T& I, const T& D, T& phi)
+MORPH_SIMD_INLINE void makeInfinite(T& value)
+{
+  const T infinity = T{} + std::numeric_limits<double>::infinity();
+  value = value < infinity ? value : infinity;
+}
+
+/// Computes the density. `I`: squared norm of J; `D`: its determinant.
+template <typename T>
+MORPH_SIMD_INLINE void density(const Parameters<T>& p, const T& I, const T& D, T& phi)
 {
   const Regularised<T> r(D, p.epsilon);
   const T root = inverseCubeRoot(r.chi);
   phi = (1. - p.theta) / 3. * I * (root * root) + p.theta / 2. * (1. + D * D) / r.chi;
-}
-
-template <typename T>
-MORPH_SIMD_INLINE void stiffen(const T& stiffness, const T& phi, T& value)
-{
-  const T gap = 1. - stiffness * phi;
-  const T infinity = T{} + std::numeric_limits<double>::infinity();
-  value = gap > 0. ? phi / gap : infinity;
+  makeInfinite(phi);
 }
 
 /// The density and its derivatives by I and D, which are undefined where it is infinite.
 template <typename T>
 struct Derivatives
 {
-  T value, I, D, II, ID, DD;
+  T value, I, D, ID, DD; ///< it is linear in I
 };
 
 template <typename T>
@@ -139,23 +140,13 @@ MORPH_SIMD_INLINE void derivatives(
   const T square = (1. + D * D) * inverse;
   const T shape = a * I * p;
 
-  const T phi = shape + b * square;
-  const T byI = a * p;
-  const T byD = -2. / 3 * shape * u + b * (2. * D * inverse - square * u);
-  const T byID = -2. / 3 * a * p * u;
-  const T byDD = shape * (10. / 9 * u * u - 2. / 3 * v) +
-                 b * (2. * inverse - 4. * D * inverse * u - square * v + 2. * square * u * u);
-
-  const T gap = 1. - parameters.stiffness * phi;
-  const T one = T{} + 1.;
-  const T gain = gap > 0. ? 1. / gap : one;
-  const T once = gain * gain, twice = 2. * parameters.stiffness * once * gain;
-  d.II = twice * byI * byI;
-  d.ID = once * byID + twice * byI * byD;
-  d.DD = once * byDD + twice * byD * byD;
-  d.I = once * byI;
-  d.D = once * byD;
-  stiffen(parameters.stiffness, phi, d.value);
+  d.value = shape + b * square;
+  d.I = a * p;
+  d.D = -2. / 3 * shape * u + b * (2. * D * inverse - square * u);
+  d.ID = -2. / 3 * a * p * u;
+  d.DD = shape * (10. / 9 * u * u - 2. / 3 * v) +
+         b * (2. * inverse - 4. * D * inverse * u - square * v + 2. * square * u * u);
+  makeInfinite(d.value);
 }
 
 /// One Jacobi rotation for eigenvalues, of axes p and q; r is the third axis.
@@ -353,8 +344,7 @@ MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>
     for (int j = 0; j <= i; ++j)
     {
       const T own = i == j ? 2. * d.I : d.D * s[3 - i - j];
-      A[j][i] = A[i][j] = 4. * d.II * s[i] * s[j] + 2. * d.ID * (s[i] * c[j] + s[j] * c[i]) +
-                          d.DD * c[i] * c[j] + own;
+      A[j][i] = A[i][j] = 2. * d.ID * (s[i] * c[j] + s[j] * c[i]) + d.DD * c[i] * c[j] + own;
     }
   }
   makeSemiDefinite(A);

@@ -21,12 +21,11 @@ struct Sum
 {
   double energy = 0;
   double least = std::numeric_limits<double>::infinity();
-  double most = 0, inverted = 0;
+  double inverted = 0;
   Sum& operator+=(const Sum& other)
   {
     this->energy += other.energy;
     this->least = std::min(this->least, other.least);
-    this->most = std::max(this->most, other.most);
     this->inverted += other.inverted;
     return *this;
   }
@@ -43,8 +42,7 @@ struct BatchEnergy
     const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
     const SimdDouble4 zero = {};
     const SimdDouble4 one = zero + 1.;
-    SimdDouble4 energy = {}, most = {}, inverted = {},
-                least = zero + std::numeric_limits<double>::infinity();
+    SimdDouble4 energy = {}, inverted = {}, least = zero + std::numeric_limits<double>::infinity();
     for (int t = 0; t < parts.count; ++t, ++tetrahedra)
     {
       SimdMatrix inverse, J;
@@ -52,22 +50,20 @@ struct BatchEnergy
       jacobian(x, parts.tets[t].corner, *tetrahedra, inverse, J);
       SimdVector normal;
       cross(J[1], J[2], normal);
-      SimdDouble4 determinant, square, phi, value;
+      SimdDouble4 determinant, square, value;
       dot(J[0], normal, determinant);
       squaredNorm(J, square);
       Parameters<SimdDouble4> parameters;
       parametersOf(density, *tetrahedra, parameters);
-      distortion(parameters, square, determinant, phi);
-      stiffen(parameters.stiffness, phi, value);
-      const SimdDouble4 weight = load(tetrahedra->weight), stiffened = load(tetrahedra->stiffened);
+      foldover::density(parameters, square, determinant, value);
+      const SimdDouble4 weight = load(tetrahedra->weight);
       energy += weight * value;
       least = ((weight > 0.) & (determinant < least)) ? determinant : least;
       inverted += ((weight > 0.) & (determinant <= 0.)) ? one : zero;
-      most = ((stiffened > 0.) & (phi > most)) ? phi : most;
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
     {
-      sum += { energy[lane], least[lane], most[lane], inverted[lane] };
+      sum += { energy[lane], least[lane], inverted[lane] };
     }
   }
 };
@@ -130,7 +126,7 @@ MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) c
 {
   const auto sum =
     sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
-  return { sum.energy, sum.least, static_cast<Index>(sum.inverted), sum.most };
+  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const

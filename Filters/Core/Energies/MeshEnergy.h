@@ -20,10 +20,10 @@ public:
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
 
   /// Sets the tetrahedra's target matrices, weights and theta; required before the functions below.
-  /// Tetrahedra of weight 0 are left out. Memory: 96 bytes a tetrahedron.
+  /// Tetrahedra of weight 0 are left out. Memory: 88 bytes a tetrahedron.
   void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
-  /// Sets the regularisation and the stiffness; theta is that of the targets. With a regularisation
-  /// below 1e-9 no step may end with an inverted tetrahedron.
+  /// Sets the regularisation; theta is that of the targets. With a regularisation below 1e-9 no
+  /// step may end with an inverted tetrahedron.
   void setDensity(const FoldoverDensity& density) { this->density_ = density; }
   const FoldoverDensity& density() const { return this->density_; }
 
@@ -32,8 +32,7 @@ public:
     double energy = 0;
     /// minimum, relative to the targets; positive: no tetrahedron is inverted
     double minimumDeterminant = 0;
-    Index inverted = 0;           ///< tetrahedra whose determinant is not positive
-    double maximumDistortion = 0; ///< maximum of phi over stiffened tetrahedra
+    Index inverted = 0; ///< tetrahedra whose determinant is not positive
   };
   State evaluate(const Points& points, Monitor& monitor) const;
 

@@ -70,7 +70,6 @@ TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& or
       Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
       tetrahedron.weight = 1. / corners;
       tetrahedron.theta = 0;
-      tetrahedron.stiffened = false;
       result.tetrahedra.push_back(tetrahedron);
     }
     result.start.push_back(static_cast<Index>(result.tetrahedra.size()));

@@ -303,7 +303,6 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
           }
           Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
           tetrahedron.theta = theta;
-          tetrahedron.stiffened = shape != Shape::Tet;
           tetrahedron.weight = parts.tets[t].weight * volume;
         }
       }

@@ -36,7 +36,6 @@ struct TargetMatrices
   /// simplicialDecomposition(). A cell has the first of these tetrahedra or all.
   struct Tetrahedron
   {
-    bool stiffened;    ///< not in tetrahedral cells, whose scaled Jacobian it lowers
     double inverse[9]; ///< column major
     double weight;     ///< decomposition weight times target volume; the mean over all is 1
     double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
