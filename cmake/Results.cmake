@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The results of the filters, as Filters/Morphing/Results.txt lists them.
-set(morph_result_groups Result Effort Solver Method Quality)
+set(morph_result_groups Result Fit Effort Solver Method Quality)
 set(morph_result_row
   "([A-Za-z]+) +" # CMAKE_MATCH_1: name
   "(double|int|id|text|counts?) +"

@@ -5,6 +5,7 @@
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
 #include "Private/Displace/DisplacedSurface.h"
+#include "Private/Displace/FitToTarget.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Surroundings.h"
@@ -13,6 +14,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/UpToDateInput.h"
+#include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractTransform.h>
@@ -65,19 +67,6 @@ bool setStatus(std::set<std::string>& names, const std::string& name, bool statu
 {
   return status ? names.insert(name).second : names.erase(name) > 0;
 }
-
-/// Diagonal of the bounding box of the boundary's nodes.
-double size(const filters::BoundaryModel& model)
-{
-  const std::vector<morph::Index>& nodes = model.Faces().nodes;
-  Eigen::RowVector3d low = model.Points().row(nodes.front()), high = low;
-  for (morph::Index node : nodes)
-  {
-    low = low.cwiseMin(model.Points().row(node));
-    high = high.cwiseMax(model.Points().row(node));
-  }
-  return (high - low).norm();
-}
 }
 
 struct vtkBoundaryDisplacement::vtkInternals
@@ -93,18 +82,26 @@ struct vtkBoundaryDisplacement::vtkInternals
   ChoiceKey ChosenFrom;
   filters::Choice::Result Choice;
   filters::Surroundings Spread;
+  filters::FitToTarget Fit;
 
   /// Finds the boundary and its geometry, and its patches' names.
   void Classify(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor);
+  /// `target`: of MOTION_TARGET, or null.
   void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* output, filters::Monitor& monitor);
+    vtkPolyData* target, vtkPolyData* output, filters::Monitor& monitor);
+
+private:
+  /// The positions of what moves, on the target. Chooses what moves, too.
+  morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
+    vtkPolyData* target, filters::Monitor& monitor);
+  void WriteDistances(const filters::Surroundings::Result& result, vtkPolyData* output);
 };
 
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->ResetResults();
 }
 
@@ -123,6 +120,21 @@ void vtkBoundaryDisplacement::SetSelectionConnection(vtkAlgorithmOutput* output)
 void vtkBoundaryDisplacement::SetSelectionData(vtkSelection* selection)
 {
   this->SetInputDataObject(1, selection);
+}
+
+void vtkBoundaryDisplacement::SetTargetConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkBoundaryDisplacement::SetTargetData(vtkDataObject* target)
+{
+  this->SetInputDataObject(2, target);
+}
+
+vtkPolyData* vtkBoundaryDisplacement::GetFittedTarget()
+{
+  return this->Motion == MOTION_TARGET ? this->Internals->Fit.Surface() : nullptr;
 }
 
 void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extractor)
@@ -247,8 +259,8 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
 int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataObject" : "vtkSelection");
-  if (port == 1)
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkSelection" : "vtkDataObject");
+  if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -283,6 +295,7 @@ int vtkBoundaryDisplacement::RequestData(
 {
   vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
+  vtkDataObject* given = vtkDataObject::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
   filters::Monitor monitor(this, this->NumberOfThreads);
@@ -292,7 +305,15 @@ int vtkBoundaryDisplacement::RequestData(
     vtkPointSet* input = filters::Input::RequireGridOrPolyData(data, "The input");
     if (ranks == 0 || input->GetNumberOfCells() > 0)
     {
-      this->Internals->Displace(this, input, selection, output, monitor);
+      const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
+      vtkPolyData* target =
+        fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
+      if (fits && !target)
+      {
+        throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
+                           "from an STL file for instance.");
+      }
+      this->Internals->Displace(this, input, selection, target, output, monitor);
     }
   };
   const auto clear = [&]
@@ -352,7 +373,8 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   }
   else if (this->Moving == MOVE_PATCHES)
   {
-    key.Patches = options.Patches = own.Patches;
+    const bool byTarget = own.Patches.empty() && this->Motion == MOTION_TARGET;
+    key.Patches = options.Patches = byTarget ? own.Fit.NearestSurfaces(own.Model) : own.Patches;
   }
   else if (this->Moving == MOVE_REGION)
   {
@@ -372,8 +394,47 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   }
 }
 
+morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, filters::Monitor& monitor)
+{
+  filters::FitToTarget::Options options;
+  options.Align = filter->AlignTarget;
+  options.FeatureAngle = filter->FeatureAngle;
+  options.Angle = filter->TargetAngle;
+  options.Reach = filter->TargetReach * this->Model.Size();
+  if (filter->Moving == MOVE_PATCHES && this->Patches.empty())
+  {
+    this->Fit.Update(target, this->Model, nullptr, options, monitor);
+    filter->Choose(input, selection);
+  }
+  else
+  {
+    filter->Choose(input, selection);
+    this->Fit.Update(target, this->Model, &this->Choice, options, monitor);
+  }
+  return this->Fit.Targets(this->Model, this->Choice, monitor);
+}
+
+void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
+  const filters::Surroundings::Result& result, vtkPolyData* output)
+{
+  std::vector<morph::Index> points, nodes;
+  for (std::size_t i = 0; i < this->Model.NodeOfPoint().size(); ++i)
+  {
+    const morph::Index node = this->Model.NodeOfPoint()[i];
+    if (result.Roles[node] == filters::Surroundings::Moves)
+    {
+      points.push_back(static_cast<morph::Index>(i));
+      nodes.push_back(node);
+    }
+  }
+  filters::TargetDistance::Write(this->Fit.Surface(), points,
+    this->Model.Points()(nodes, morph::allColumns), result.Moved(nodes, morph::allColumns), output);
+}
+
 void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* output, filters::Monitor& monitor)
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkPolyData* output,
+  filters::Monitor& monitor)
 {
   try
   {
@@ -395,10 +456,20 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   {
     return;
   }
-  filter->Choose(input, selection);
+  morph::Points fitted;
+  if (target)
+  {
+    monitor.SetRange(0.5, 0.7);
+    fitted = this->Fitted(filter, input, selection, target, monitor);
+  }
+  else
+  {
+    filter->Choose(input, selection);
+  }
   monitor.check();
 
   filters::Motion::Options motion;
+  motion.Fitted = &fitted;
   motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
   motion.Transform = this->Transform;
   motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
@@ -419,8 +490,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
   rest.Sliding =
     filters::Patches::Surfaces(this->Model.Geometry(), this->SlidingPatches, "SlidingPatches");
-  rest.Radius = filter->FalloffRadius * size(this->Model);
-  monitor.SetRange(0.5, 0.9);
+  rest.Radius = filter->FalloffRadius * this->Model.Size();
+  monitor.SetRange(target ? 0.7 : 0.5, 0.9);
   const filters::Surroundings::Result result =
     this->Spread.Spread(this->Model, this->Choice, targets, rest, monitor);
   const std::vector<morph::Index> collapsed =
@@ -434,6 +505,10 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->OutputPointsPrecision, output);
+  if (target)
+  {
+    this->WriteDistances(result, output);
+  }
   const auto count = [&result](filters::Surroundings::Role role)
   { return std::count(result.Roles.begin(), result.Roles.end(), role); };
   filter->MovingPoints = count(filters::Surroundings::Moves);
@@ -479,6 +554,9 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutoCenter: " << this->AutoCenter << "\n";
   triple("Center", this->Center);
   os << indent << "RadiusChange: " << this->RadiusChange << "\n";
+  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
+  os << indent << "TargetReach: " << this->TargetReach << "\n";
+  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
@@ -501,11 +579,13 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
 morphSetNumberMacro(vtkBoundaryDisplacement, Distance)
   morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
     morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange)
-      morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
-        morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
-          morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
-            morphSetVectorMacro(vtkBoundaryDisplacement, Vector)
-              morphSetVectorMacro(vtkBoundaryDisplacement, Translation)
-                morphSetVectorMacro(vtkBoundaryDisplacement, Rotation)
-                  morphSetVectorMacro(vtkBoundaryDisplacement, Scale)
-                    morphSetVectorMacro(vtkBoundaryDisplacement, Center)
+      morphSetNumberMacro(vtkBoundaryDisplacement, TargetReach, 0.0, 10.0)
+        morphSetNumberMacro(vtkBoundaryDisplacement, TargetAngle, 0.0, 180.0)
+          morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
+            morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
+              morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
+                morphSetVectorMacro(vtkBoundaryDisplacement, Vector)
+                  morphSetVectorMacro(vtkBoundaryDisplacement, Translation)
+                    morphSetVectorMacro(vtkBoundaryDisplacement, Rotation)
+                      morphSetVectorMacro(vtkBoundaryDisplacement, Scale)
+                        morphSetVectorMacro(vtkBoundaryDisplacement, Center)

@@ -9,8 +9,8 @@
  * - Moving defines what moves: all of the boundary, a selection of points or cells, patches (the
  *   surfaces and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a
  *   box for instance.
- * - Motion defines how: by a transform, by a vector, along the normals, or by a point vector array
- *   of the input; each times ScaleFactor.
+ * - Motion defines how: by a transform, by a vector, along the normals, by a point vector array of
+ *   the input, or onto a target surface; each times ScaleFactor.
  * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
  *   HeldPatches stay in any case, except for the nodes that they share with what moves.
@@ -20,7 +20,8 @@
  * in a row move several parts, each in its own way. Such a boundary moves from its current
  * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
  * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
- * move all of their nodes that are on the boundary.
+ * move all of their nodes that are on the boundary. Port 2, optional, takes the target of
+ * MOTION_TARGET (vtkPolyData, an STL file for instance).
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:
@@ -36,14 +37,15 @@
  * patches, so that a window can list their names before the first execution, and keeps what it
  * finds for that execution. On a large mesh this takes as long as the first execution would.
  *
- * Warnings: faces that the motion leaves without area (a scale of zero, for instance), surfaces
- * that it would reflect, and a mesh without any outer face, whose boundary is empty. Errors: those
- * of vtkClassifyBoundary; a surface without polygons, MorphPointId or RestPosition; nothing chosen,
- * or nothing on the boundary; patches or arrays that do not exist; positions that are not finite,
- * beyond 1e50, or in single precision beyond 3.4e38; nodes without a normal. The output is then
- * empty: a morph would take an unchanged boundary for a motion of zero. An execution that is
- * aborted gives an empty output and no message. With several MPI processes an execution is
- * collective. Cost, where everything is kept: a few passes over the boundary.
+ * Warnings: nodes that do not reach the target, faces that the motion leaves without area (a scale
+ * of zero, for instance), surfaces that it would reflect, and a mesh without any outer face, whose
+ * boundary is empty. Errors: those of vtkClassifyBoundary; a surface without polygons, MorphPointId
+ * or RestPosition; nothing chosen, or nothing on the boundary; a target without polygons, with
+ * coordinates that are not finite, or that no node reaches; patches or arrays that do not exist;
+ * positions that are not finite, beyond 1e50, or in single precision beyond 3.4e38; nodes without a
+ * normal. The output is then empty: a morph would take an unchanged boundary for a motion of zero.
+ * An execution that is aborted gives an empty output and no message. With several MPI processes an
+ * execution is collective. Cost, where everything is kept: a few passes over the boundary.
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
  *
@@ -60,6 +62,7 @@
 
 class vtkAbstractTransform;
 class vtkDataArraySelection;
+class vtkDataObject;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkPointSet;
@@ -79,6 +82,15 @@ public:
    */
   void SetSelectionConnection(vtkAlgorithmOutput* output);
   void SetSelectionData(vtkSelection* selection);
+  ///@}
+
+  ///@{
+  /**
+   * The target surface (port 2) of MOTION_TARGET: the same as SetInputConnection() and
+   * SetInputData() on that port. A null target removes it.
+   */
+  void SetTargetConnection(vtkAlgorithmOutput* output);
+  void SetTargetData(vtkDataObject* target);
   ///@}
 
   /**
@@ -173,6 +185,7 @@ public:
     MOTION_ARRAY = 3,
     MOTION_PLACEMENT = 4,
     MOTION_RADIUS = 5,
+    MOTION_TARGET = 6,
     // The old names, until version 0.2.
     TRANSFORM = MOTION_TRANSFORM,
     VECTOR = MOTION_VECTOR,
@@ -182,10 +195,16 @@ public:
   ///@{
   /**
    * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray, by
-   * Translation, Rotation and Scale, or by RadiusChange.
-   * Default MOTION_TRANSFORM.
+   * Translation, Rotation and Scale, by RadiusChange, or onto the target.
+   *
+   * MOTION_TARGET: vertices go to the target's vertices, then curves to its feature edges, then
+   * surfaces follow and go to the target, as with vtkMorphBoundary. What has no such place within
+   * TargetReach goes to the nearest place of the target. A warning names nodes that reach none. The
+   * output has the point arrays `TargetDistanceBefore` and `TargetDistance`, NaN where nodes do not
+   * move. With MOVE_PATCHES and no patch, the surfaces move that the target belongs to: each is
+   * the nearest one for an area of the target of at least half its own. Default MOTION_TRANSFORM.
    */
-  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_RADIUS);
+  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_TARGET);
   vtkGetMacro(Motion, int);
   void SetMotionToTransform() { this->SetMotion(MOTION_TRANSFORM); }
   void SetMotionToVector() { this->SetMotion(MOTION_VECTOR); }
@@ -193,6 +212,7 @@ public:
   void SetMotionToArray() { this->SetMotion(MOTION_ARRAY); }
   void SetMotionToPlacement() { this->SetMotion(MOTION_PLACEMENT); }
   void SetMotionToRadius() { this->SetMotion(MOTION_RADIUS); }
+  void SetMotionToTarget() { this->SetMotion(MOTION_TARGET); }
   ///@}
 
   ///@{
@@ -271,6 +291,40 @@ public:
   virtual void SetRadiusChange(double value);
   vtkGetMacro(RadiusChange, double);
   ///@}
+
+  ///@{
+  /**
+   * Whether the target is first rotated and shifted onto what moves, or onto the whole boundary
+   * where the target says what moves. The mesh is not. See vtkIterativeClosestPointTransform; the
+   * starts are the target's place, equal centres and equal principal axes. Default off.
+   */
+  vtkSetMacro(AlignTarget, bool);
+  vtkGetMacro(AlignTarget, bool);
+  vtkBooleanMacro(AlignTarget, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How far a node may go to the target, in units of the diagonal of the boundary's bounding box.
+   * Default 0.2, range [0, 10].
+   */
+  virtual void SetTargetReach(double value);
+  vtkGetMacro(TargetReach, double);
+  ///@}
+
+  ///@{
+  /**
+   * The largest angle between the normals of the target and of the surface that goes there. The
+   * target's normals may all point inwards. Degrees, default 60, range [0, 180].
+   */
+  virtual void SetTargetAngle(double value);
+  vtkGetMacro(TargetAngle, double);
+  ///@}
+
+  /**
+   * The target of the last execution in triangles, as aligned; null without MOTION_TARGET.
+   */
+  vtkPolyData* GetFittedTarget();
 
   ///@{
   /**
@@ -445,6 +499,9 @@ private:
   bool AutoCenter = true;
   double Center[3] = { 0, 0, 0 };
   double RadiusChange = 0;
+  bool AlignTarget = false;
+  double TargetReach = 0.2;
+  double TargetAngle = 60;
   double ScaleFactor = 1;
   int Surroundings = SURROUNDINGS_FOLLOW;
   double FalloffRadius = 0.1;

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphMesh.h"
 
-#include "Private/Data/Results.h"
-#include "Private/Data/Version.h"
-#include "Private/Displace/SurfaceGrid.h"
-#include "Private/Morph/MorphOutput.h"
+#include "Private/MorphMesh/Internals.h"
 #include "Private/Pipeline/Execution.h"
-#include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
@@ -16,8 +12,6 @@
 #include "Private/Pipeline/Time.h"
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
-#include "vtkBoundaryDisplacement.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
@@ -34,7 +28,6 @@
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
@@ -43,10 +36,8 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 namespace filters = morph::filters;
 
@@ -56,8 +47,6 @@ vtkStandardNewMacro(vtkMorphMesh);
 
 namespace
 {
-using Names = std::set<std::string>;
-
 vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
 {
   switch (method)
@@ -79,279 +68,16 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
   }
 }
 
-bool setStatus(Names& names, const char* name, int status)
+bool setStatus(std::set<std::string>& names, const char* name, int status)
 {
   return name && (status != 0 ? names.insert(name).second : names.erase(name) > 0);
 }
-
-/// Passes names to the filter inside, unless it has them.
-void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
-  void (vtkBoundaryDisplacement::*clear)(), void (vtkBoundaryDisplacement::*add)(const char*))
-{
-  if (names != passed)
-  {
-    (to->*clear)();
-    for (const std::string& name : names)
-    {
-      (to->*add)(name.c_str());
-    }
-    passed = names;
-  }
-}
-
-/// An error or warning of vtkBoundaryDisplacement with the names of this class's properties.
-std::string inOwnWords(std::string text)
-{
-  const std::pair<const char*, const char*> names[] = { { "SlidingPatches names",
-                                                          "SlidingSurfaces names" },
-    { "HeldPatches names", "FixedSurfaces names" }, { "Patches names", "Surfaces names" } };
-  for (const auto& [theirs, ours] : names)
-  {
-    const auto at = text.find(theirs);
-    if (at != std::string::npos)
-    {
-      return text.replace(at, std::string(theirs).size(), ours);
-    }
-  }
-  return text;
-}
-}
-
-class vtkMorphMesh::vtkInternals
-{
-public:
-  Names Surfaces, FixedSurfaces, SlidingSurfaces;
-  vtkSmartPointer<vtkImplicitFunction> Region;
-  vtkSmartPointer<vtkAbstractTransform> Transform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
-  vtkNew<vtkBoundaryDisplacement> Displacement;
-  vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
-  vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
-  filters::Results Results{ filters::ResultTables::vtkMorphAlgorithm() };
-  filters::Time Time;
-
-  explicit vtkInternals(vtkMorphMesh* filter)
-    : Filter(filter)
-  {
-  }
-
-  /// Gives the filters inside the mesh, unless they have it.
-  void TakeGrid(vtkUnstructuredGrid* grid);
-  /// Lists the surfaces of the mesh that was taken.
-  void List();
-  /// Returns an error that comes with a result, or nothing.
-  std::string Run(vtkSelection* selection, vtkInformation* asked, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
-  /// Makes `output` the undeformed mesh, where that can be read, without a result.
-  void WriteUndeformed(vtkDataObject* input, const char* status, vtkUnstructuredGrid* output);
-
-private:
-  vtkMorphMesh* Filter;
-  vtkNew<vtkUnstructuredGrid> Rest;
-  const vtkUnstructuredGrid* Input = nullptr; ///< that Rest was made from; compared, never used
-  vtkMTimeType InputTime = 0;
-  Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces;
-  std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
-
-  void ConfigureDisplacement(vtkSelection* selection);
-  void ConfigureMorph();
-  void Displace(morph::Monitor& monitor);
-  std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
-  void TakeResults();
-};
-
-void vtkMorphMesh::vtkInternals::TakeGrid(vtkUnstructuredGrid* grid)
-{
-  // A new copy would have all of its points and cells compared with those that are kept.
-  if (this->Input != grid || this->InputTime != grid->GetMTime())
-  {
-    this->Rest->ShallowCopy(grid);
-    this->Input = grid;
-    this->InputTime = grid->GetMTime();
-  }
-  this->Displacement->SetInputDataObject(0, this->Rest);
-}
-
-void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
-{
-  const vtkMorphMesh* from = this->Filter;
-  vtkBoundaryDisplacement* to = this->Displacement;
-  const bool anySelection = selection && selection->GetNumberOfNodes() > 0;
-  const bool nothing = from->Moving == MOVE_SURFACES
-                         ? this->Surfaces.empty() && !anySelection
-                         : from->Moving == MOVE_SELECTION && !anySelection;
-  const int moving[] = { this->Surfaces.empty() ? vtkBoundaryDisplacement::MOVE_SELECTION
-                                                : vtkBoundaryDisplacement::MOVE_PATCHES,
-    vtkBoundaryDisplacement::MOVE_SELECTION, vtkBoundaryDisplacement::MOVE_REGION,
-    vtkBoundaryDisplacement::MOVE_EVERYTHING, vtkBoundaryDisplacement::MOVE_ARRAY };
-  to->SetMoving(nothing ? vtkBoundaryDisplacement::MOVE_NOTHING : moving[from->Moving]);
-  to->SetSelectionData(anySelection ? selection : nullptr);
-  to->SetSelectionExtractor(this->Extractor);
-  using Filter = vtkBoundaryDisplacement;
-  pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
-  pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
-    &Filter::AddHeldPatch);
-  pass(this->SlidingSurfaces, this->PassedSlidingSurfaces, to, &Filter::RemoveAllSlidingPatches,
-    &Filter::AddSlidingPatch);
-  to->SetRegion(this->Region);
-  to->SetMovingArray(from->MovingArray);
-  to->SetMotion(from->Displacement);
-  to->SetTransform(this->Transform);
-  to->SetVector(from->Vector);
-  to->SetDistance(from->Distance);
-  to->SetDisplacementArray(from->DisplacementArray);
-  to->SetTranslation(from->Translation);
-  to->SetRotation(from->Rotation);
-  to->SetScale(from->Scale);
-  to->SetAutoCenter(from->AutoCenter);
-  to->SetCenter(from->Center);
-  to->SetRadiusChange(from->RadiusChange);
-  to->SetScaleFactor(from->ScaleFactor);
-  to->SetSurroundings(from->Surroundings);
-  to->SetFalloffRadius(from->FalloffRadius);
-  to->SetFeatureAngle(from->FeatureAngle);
-  to->SetCornerAngle(from->CornerAngle);
-  to->SetSurfaceIdArray(from->SurfaceIdArray);
-  to->SetUseGeometryArrays(from->UseGeometryArrays);
-  // The boundary in the precision of the computation: the output alone is rounded.
-  to->SetOutputPointsPrecision(DOUBLE_PRECISION);
-  to->SetNumberOfThreads(from->NumberOfThreads);
-}
-
-void vtkMorphMesh::vtkInternals::ConfigureMorph()
-{
-  const vtkMorphMesh* from = this->Filter;
-  vtkMorphAlgorithm* to = this->Filter->GetMethodFilter();
-  to->SetInputDataObject(0, this->Rest);
-  to->SetBoundaryData(this->Displacement->GetOutput());
-  to->SetBoundaryIdArray(nullptr);
-  to->SetDisplacementArray(nullptr);
-  to->SetScaleFactor(1);
-  to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
-  to->SetNumberOfSteps(from->NumberOfSteps);
-  to->SetStepping(from->Stepping);
-  to->SetOutputPointsPrecision(from->OutputPointsPrecision);
-  to->SetNumberOfThreads(from->NumberOfThreads);
-}
-
-void vtkMorphMesh::vtkInternals::List()
-{
-  this->ConfigureDisplacement(nullptr);
-  this->Displacement->UpdateInformation();
-}
-
-void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
-{
-  const filters::Follower follower(this->Displacement, monitor);
-  const vtkMTimeType before = this->Displacement->GetOutput()->GetMTime();
-  this->Displacement->Update();
-  if (this->Displacement->GetOutput()->GetMTime() != before)
-  {
-    this->BoundaryWarnings = follower.Warnings();
-  }
-  for (const std::string& warning : this->BoundaryWarnings)
-  {
-    monitor.warn(inOwnWords(warning));
-  }
-  monitor.check();
-  if (!follower.Errors().empty())
-  {
-    // Otherwise the next update would find nothing to do, and no error.
-    this->Displacement->Modified();
-    throw morph::Error(inOwnWords(follower.Errors().front()));
-  }
-}
-
-std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
-{
-  this->ConfigureMorph();
-  const filters::Follower follower(this->Morph, monitor);
-  const std::optional<double> time = filters::Ports::AskedTime(asked);
-  if (time && this->Filter->NumberOfSteps > 0)
-  {
-    this->Morph->UpdateTimeStep(*time);
-  }
-  else
-  {
-    this->Morph->UpdateInformation();
-    this->Morph->GetOutputInformation(0)->Remove(Pipeline::UPDATE_TIME_STEP());
-    this->Morph->Update();
-  }
-  for (const std::string& warning : follower.Warnings())
-  {
-    monitor.warn(warning);
-  }
-  if (monitor.cancelled() || !follower.Errors().empty())
-  {
-    this->Morph->Modified(); // as in Displace()
-  }
-  monitor.check();
-  output->ShallowCopy(this->Morph->GetOutput(0));
-  badCells->ShallowCopy(this->Morph->GetOutput(1));
-  surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
-  this->TakeResults();
-  return follower.Errors().empty() ? std::string() : follower.Errors().front();
-}
-
-void vtkMorphMesh::vtkInternals::TakeResults()
-{
-  vtkMorphAlgorithm* from = this->Morph;
-  filters::Results& to = this->Results;
-  to.SetText("MorphStatus", from->GetMorphStatus());
-  to.SetNumber("MinScaledJacobian", from->GetMinScaledJacobian());
-  to.SetNumber("MeanScaledJacobian", from->GetMeanScaledJacobian());
-  to.SetInteger("InvertedCells", from->GetInvertedCells());
-  to.SetInteger("DegenerateCells", from->GetDegenerateCells());
-  to.SetInteger("WorstCellId", from->GetWorstCellId());
-  to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());
-  to.SetInteger("MirroredBodies", from->GetMirroredBodies());
-  to.SetInteger("CertifiedCells", from->GetCertifiedCells());
-  to.SetInteger("UncertifiedCells", from->GetUncertifiedCells());
-  to.SetInteger("UndecidedCells", from->GetUndecidedCells());
-  to.SetNumber("LargestValidStep", from->GetLargestValidStep());
-  to.SetNumber("PrepareSeconds", from->GetPrepareSeconds());
-  to.SetNumber("EvaluateSeconds", from->GetEvaluateSeconds());
-  to.SetInteger("SubSteps", from->GetSubSteps());
-  to.SetInteger("PrepareCount", from->GetPrepareCount());
-  to.SetInteger("PrescribedPoints", from->GetPrescribedPoints());
-  to.SetInteger("UnmatchedPoints", from->GetUnmatchedPoints());
-  to.SetInteger("SolverIterations", from->GetSolverIterations());
-}
-
-std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformation* asked,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
-  morph::Monitor& monitor)
-{
-  this->ConfigureDisplacement(selection);
-  morph::ProgressRange displacing(monitor, 0, 0.3);
-  this->Displace(displacing);
-  if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVE_NOTHING)
-  {
-    filters::SurfaceGrid::Write(this->Rest, this->Displacement->GetOutput(), output);
-    filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);
-    this->Results.Write(output);
-    return {};
-  }
-  morph::ProgressRange morphing(monitor, 0.3, 1);
-  return this->Morphed(asked, output, badCells, surface, morphing);
-}
-
-void vtkMorphMesh::vtkInternals::WriteUndeformed(
-  vtkDataObject* input, const char* status, vtkUnstructuredGrid* output)
-{
-  if (filters::Version::AbortRequested(this->Filter))
-  {
-    filters::Version::KeepAbortedOutput(this->Filter);
-  }
-  filters::MorphOutput::WriteUndeformed(input, status, 0, this->Results, output);
 }
 
 vtkMorphMesh::vtkMorphMesh()
   : Internals(new vtkInternals(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
@@ -371,6 +97,16 @@ void vtkMorphMesh::SetSelectionConnection(vtkAlgorithmOutput* output)
 void vtkMorphMesh::SetSelectionData(vtkSelection* selection)
 {
   this->SetInputDataObject(1, selection);
+}
+
+void vtkMorphMesh::SetTargetConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkMorphMesh::SetTargetData(vtkDataObject* target)
+{
+  this->SetInputDataObject(2, target);
 }
 
 void vtkMorphMesh::SetSelectionExtractor(vtkExtractSelection* extractor)
@@ -512,8 +248,8 @@ vtkMTimeType vtkMorphMesh::GetMTime()
 int vtkMorphMesh::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataObject" : "vtkSelection");
-  if (port == 1)
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkSelection" : "vtkDataObject");
+  if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -559,6 +295,7 @@ int vtkMorphMesh::RequestData(
   vtkInternals& own = *this->Internals;
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
+  vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
@@ -577,6 +314,7 @@ int vtkMorphMesh::RequestData(
       filters::Input::RequireGrid(input, "The input"); // has the message
     }
     own.TakeGrid(grid);
+    own.TakeTarget(target);
     partial = own.Run(
       selection, filters::Ports::Asked(request, outputVector), output, badCells, surface, monitor);
   };
@@ -595,8 +333,8 @@ int vtkMorphMesh::RequestData(
   }
   if (outcome != filters::Execution::Outcome::Done)
   {
-    own.WriteUndeformed(
-      input, outcome == filters::Execution::Outcome::Cancelled ? "Cancelled" : "Failed", output);
+    own.WriteUndeformed(input,
+      outcome == filters::Execution::Outcome::Cancelled ? "Cancelled" : "Failed", output, surface);
   }
   if (!partial.empty())
   {
@@ -619,30 +357,33 @@ const char* vtkMorphMesh::GetMorphStatus() const
   {                                                                 \
     return static_cast<type>(this->Internals->Results.kind(#name)); \
   }
-morphResultMacro(MinScaledJacobian, double, Number)
-  morphResultMacro(MeanScaledJacobian, double, Number)
-    morphResultMacro(InvertedCells, vtkIdType, Integer)
-      morphResultMacro(DegenerateCells, vtkIdType, Integer)
-        morphResultMacro(WorstCellId, vtkIdType, Integer)
-          morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
-            morphResultMacro(MirroredBodies, vtkIdType, Integer)
-              morphResultMacro(CertifiedCells, vtkIdType, Integer)
-                morphResultMacro(UncertifiedCells, vtkIdType, Integer)
-                  morphResultMacro(UndecidedCells, vtkIdType, Integer)
-                    morphResultMacro(LargestValidStep, double, Number)
-                      morphResultMacro(PrepareSeconds, double, Number)
-                        morphResultMacro(EvaluateSeconds, double, Number)
-                          morphResultMacro(SubSteps, vtkIdType, Integer)
-                            morphResultMacro(PrepareCount, int, Integer)
-                              morphResultMacro(PrescribedPoints, vtkIdType, Integer)
-                                morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
-                                  morphResultMacro(SolverIterations, int, Integer)
+morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
+  MeanScaledJacobian, double, Number) morphResultMacro(InvertedCells, vtkIdType, Integer)
+  morphResultMacro(DegenerateCells, vtkIdType, Integer)
+    morphResultMacro(WorstCellId, vtkIdType, Integer)
+      morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
+        morphResultMacro(MirroredBodies, vtkIdType, Integer)
+          morphResultMacro(CertifiedCells, vtkIdType, Integer)
+            morphResultMacro(UncertifiedCells, vtkIdType, Integer)
+              morphResultMacro(UndecidedCells, vtkIdType, Integer)
+                morphResultMacro(LargestValidStep, double, Number)
+                  morphResultMacro(PrepareSeconds, double, Number)
+                    morphResultMacro(EvaluateSeconds, double, Number)
+                      morphResultMacro(SubSteps, vtkIdType, Integer)
+                        morphResultMacro(PrepareCount, int, Integer)
+                          morphResultMacro(PrescribedPoints, vtkIdType, Integer)
+                            morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
+                              morphResultMacro(SolverIterations, int, Integer)
+                                morphResultMacro(MaxTargetDistanceBefore, double, Number)
+                                  morphResultMacro(MeanTargetDistanceBefore, double, Number)
+                                    morphResultMacro(MaxTargetDistance, double, Number)
+                                      morphResultMacro(MeanTargetDistance, double, Number)
 
-                                    void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
+                                        void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto text = [](const char* name) { return name ? name : "(none)"; };
-  const auto list = [&](const char* name, const Names& values)
+  const auto list = [&](const char* name, const std::set<std::string>& values)
   {
     os << indent << name << ": ";
     for (const std::string& value : values)
@@ -671,6 +412,9 @@ morphResultMacro(MinScaledJacobian, double, Number)
   os << indent << "AutoCenter: " << this->AutoCenter << "\n";
   triple("Center", this->Center);
   os << indent << "RadiusChange: " << this->RadiusChange << "\n";
+  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
+  os << indent << "TargetReach: " << this->TargetReach << "\n";
+  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
@@ -691,7 +435,8 @@ morphResultMacro(MinScaledJacobian, double, Number)
 
 morphSetNumberMacro(vtkMorphMesh, RestTime) morphSetNumberMacro(vtkMorphMesh, Distance)
   morphSetNumberMacro(vtkMorphMesh, ScaleFactor) morphSetNumberMacro(vtkMorphMesh, RadiusChange)
-    morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0)
+    morphSetNumberMacro(vtkMorphMesh, TargetReach, 0.0, 10.0) morphSetNumberMacro(vtkMorphMesh,
+      TargetAngle, 0.0, 180.0) morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0)
       morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0)
         morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0)
           morphSetVectorMacro(vtkMorphMesh, Vector) morphSetVectorMacro(vtkMorphMesh, Translation)

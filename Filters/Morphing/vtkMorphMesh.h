@@ -4,9 +4,10 @@
  * @brief   morphs a volume mesh in one step: what moves, how it moves, and by which method
  *
  * It is vtkBoundaryDisplacement and a morph filter in one. Port 0 takes the mesh
- * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection. Output 0 is the morphed mesh and
- * output 1 its inverted cells, both with the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is
- * the outer boundary, which a view can show in less time; see vtkMorphAlgorithm.
+ * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection, and port 2, optional, the target
+ * surface of DISPLACEMENT_TARGET. Output 0 is the morphed mesh and output 1 its inverted cells, both
+ * with the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is the outer boundary, which a view
+ * can show in less time; see vtkMorphAlgorithm.
  *
  * - Moving defines what moves: surfaces, a selection, the inside of a region, everything, or the
  *   nodes that an array marks.
@@ -48,6 +49,7 @@
 
 class vtkAbstractTransform;
 class vtkDataArraySelection;
+class vtkDataObject;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkMorphAlgorithm;
@@ -68,6 +70,15 @@ public:
    */
   void SetSelectionConnection(vtkAlgorithmOutput* output);
   void SetSelectionData(vtkSelection* selection);
+  ///@}
+
+  ///@{
+  /**
+   * The target surface (port 2, vtkPolyData) of DISPLACEMENT_TARGET: the same as
+   * SetInputConnection() and SetInputData() on that port. A null target removes it.
+   */
+  void SetTargetConnection(vtkAlgorithmOutput* output);
+  void SetTargetData(vtkDataObject* target);
   ///@}
 
   /**
@@ -158,15 +169,20 @@ public:
     DISPLACEMENT_NORMALS = 2,
     DISPLACEMENT_ARRAY = 3,
     DISPLACEMENT_PLACEMENT = 4,
-    DISPLACEMENT_RADIUS = 5
+    DISPLACEMENT_RADIUS = 5,
+    DISPLACEMENT_TARGET = 6
   };
   ///@{
   /**
    * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray,
-   * by Translation, Rotation and Scale, or by RadiusChange; each times ScaleFactor. See
-   * vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   * by Translation, Rotation and Scale, by RadiusChange, or onto the target; each times
+   * ScaleFactor. See vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   *
+   * DISPLACEMENT_TARGET with no surface chosen and no selection moves the surfaces that the target
+   * belongs to. The mesh then has the point arrays `TargetDistanceBefore` and
+   * `TargetDistance`, NaN where nodes do not move.
    */
-  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_RADIUS);
+  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_TARGET);
   vtkGetMacro(Displacement, int);
   void SetDisplacementToTransform() { this->SetDisplacement(DISPLACEMENT_TRANSFORM); }
   void SetDisplacementToVector() { this->SetDisplacement(DISPLACEMENT_VECTOR); }
@@ -174,6 +190,7 @@ public:
   void SetDisplacementToArray() { this->SetDisplacement(DISPLACEMENT_ARRAY); }
   void SetDisplacementToPlacement() { this->SetDisplacement(DISPLACEMENT_PLACEMENT); }
   void SetDisplacementToRadius() { this->SetDisplacement(DISPLACEMENT_RADIUS); }
+  void SetDisplacementToTarget() { this->SetDisplacement(DISPLACEMENT_TARGET); }
   ///@}
 
   ///@{
@@ -248,6 +265,22 @@ public:
    */
   virtual void SetRadiusChange(double value);
   vtkGetMacro(RadiusChange, double);
+  ///@}
+
+  ///@{
+  /**
+   * DISPLACEMENT_TARGET: whether the target is first rotated and shifted onto what moves; how far a
+   * node may go, in units of the diagonal of the boundary's bounding box; the largest angle between
+   * the normals of target and mesh, degrees. See vtkBoundaryDisplacement. Defaults off, 0.2, 60;
+   * ranges [0, 10], [0, 180].
+   */
+  vtkSetMacro(AlignTarget, bool);
+  vtkGetMacro(AlignTarget, bool);
+  vtkBooleanMacro(AlignTarget, bool);
+  virtual void SetTargetReach(double value);
+  vtkGetMacro(TargetReach, double);
+  virtual void SetTargetAngle(double value);
+  vtkGetMacro(TargetAngle, double);
   ///@}
 
   ///@{
@@ -396,6 +429,17 @@ public:
   int GetSolverIterations() const;
   ///@}
 
+  ///@{
+  /**
+   * The distance from the target (as aligned) of the nodes that move, before and after the motion,
+   * in the unit of the points; each node counts once. NaN without DISPLACEMENT_TARGET.
+   */
+  double GetMaxTargetDistanceBefore() const;
+  double GetMeanTargetDistanceBefore() const;
+  double GetMaxTargetDistance() const;
+  double GetMeanTargetDistance() const;
+  ///@}
+
 protected:
   vtkMorphMesh();
   ~vtkMorphMesh() override;
@@ -428,6 +472,9 @@ private:
   bool AutoCenter = true;
   double Center[3] = { 0, 0, 0 };
   double RadiusChange = 0;
+  bool AlignTarget = false;
+  double TargetReach = 0.2;
+  double TargetAngle = 60;
   double ScaleFactor = 1;
   int Surroundings = 1;
   double FalloffRadius = 0.1;

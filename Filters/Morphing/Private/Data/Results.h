@@ -41,6 +41,7 @@ namespace ResultTables
 {
 std::vector<ResultRow> vtkMorphAlgorithm();
 std::vector<ResultRow> vtkMorphBoundary();
+std::vector<ResultRow> vtkMorphMesh();
 std::vector<ResultRow> vtkMorphShapes();
 std::vector<ResultRow> vtkScaledJacobian();
 }

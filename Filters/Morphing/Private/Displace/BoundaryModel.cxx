@@ -249,6 +249,12 @@ morph::Points BoundaryModel::OutwardAreas(const morph::Points& points) const
   return areas;
 }
 
+double BoundaryModel::Size() const
+{
+  const morph::Points points = this->Points()(this->Faces().nodes, morph::allColumns);
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
 vtkPolyData* BoundaryModel::Surface() const
 {
   return this->Kept.Surface;

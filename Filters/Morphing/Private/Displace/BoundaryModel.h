@@ -37,6 +37,9 @@ public:
   /// The areas of morph::faceAreas(), but outwards where cells are wound inside out.
   morph::Points OutwardAreas(const morph::Points& points) const;
 
+  /// Diagonal of the bounding box of the boundary's nodes, of which there is one at least.
+  double Size() const;
+
   /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
   vtkPolyData* Surface() const;
   /// The node of each point of Surface(), ascending.

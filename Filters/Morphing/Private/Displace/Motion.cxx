@@ -168,6 +168,8 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
       return placed(from, options);
     case Motion::Kind::Radius:
       return withRadius(model, choice, from, options.RadiusChange);
+    case Motion::Kind::Target:
+      return *options.Fitted;
     case Motion::Kind::Transform:
       break;
   }
@@ -214,7 +216,7 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
   }
   Points targets = wholeMotion(input, model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
-    "RadiusChange" };
+    "RadiusChange", "Target" };
   requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
   if (options.ScaleFactor == 0)
   {

@@ -20,7 +20,8 @@ enum class Kind
   AlongNormals,
   Array,
   Placement,
-  Radius
+  Radius,
+  Target
 };
 
 struct Options
@@ -36,6 +37,7 @@ struct Options
   bool AutoCenter = true; ///< the centre of the bounding box of what moves, not Center
   std::array<double, 3> Center = { 0, 0, 0 };
   double RadiusChange = 0;
+  const morph::Points* Fitted = nullptr; ///< of Target: the positions, #Moving x 3
   double ScaleFactor = 1;
 };
 

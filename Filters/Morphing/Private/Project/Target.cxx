@@ -165,6 +165,8 @@ public:
     return nearest(this->Locator, x, radius, cell, y);
   }
 
+  vtkPolyData* Surface() const { return this->Data; }
+
   Row Normal(vtkIdType triangle) const { return this->Normals.row(triangle); }
 
   /// Whether there is a triangle within `radius` that `fits`; `y` is then the nearest place on
@@ -376,11 +378,35 @@ bool Target::HasFeatures() const
   return this->Internals->Features->GetNumberOfCells() > 0;
 }
 
+vtkPolyData* Target::Surface() const
+{
+  return this->Internals->All->Surface();
+}
+
+bool Target::ClosestOnVertices(const Row& x, Row& y) const
+{
+  const Implementation& own = *this->Internals;
+  double least = own.Reach;
+  bool found = false;
+  for (const morph::GeometryVertex& vertex : own.Geometry.vertices)
+  {
+    const double distance = (own.X.row(vertex.node) - x).norm();
+    if (distance < least || (!found && distance <= least))
+    {
+      least = distance;
+      y = own.X.row(vertex.node);
+      found = true;
+    }
+  }
+  return found;
+}
+
 bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const
 {
   const Implementation& own = *this->Internals;
+  const bool isAssigned = surface >= 0 && !own.OfSurface.empty();
   const Triangles* assigned =
-    own.OfSurface.empty() ? nullptr : own.OfSurface[static_cast<std::size_t>(surface)];
+    isAssigned ? own.OfSurface[static_cast<std::size_t>(surface)] : nullptr;
   const Triangles& place = assigned ? *assigned : *own.All;
   const auto fits = [&](vtkIdType triangle)
   { return normal.isZero(0) || own.Sign * place.Normal(triangle).dot(normal) >= own.Cosine; };

@@ -35,6 +35,12 @@ public:
 
   bool HasFeatures() const;
 
+  /// The triangles: points in one place are merged.
+  vtkPolyData* Surface() const;
+  /// Finds the nearest vertex of the target, where its feature edges meet or end. Returns false if
+  /// none is within reach.
+  bool ClosestOnVertices(const Row& x, Row& y) const;
+
   bool closestOnSurface(
     morph::Index surface, const Row& x, const Row& normal, Row& y) const override;
   bool closestOnFeatures(const Row& x, Row& y) const override;

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/MorphMesh/Internals.h"
+
+#include "Private/Data/Version.h"
+#include "Private/Displace/SurfaceGrid.h"
+#include "Private/Morph/KeptMesh.h"
+#include "Private/Morph/MorphOutput.h"
+#include "Private/Pipeline/Follower.h"
+#include "Private/Pipeline/Ports.h"
+#include "Private/Project/TargetDistance.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <vtkDataArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <optional>
+
+namespace filters = morph::filters;
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+using Names = std::set<std::string>;
+
+/// Passes names to the filter inside, unless it has them.
+void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
+  void (vtkBoundaryDisplacement::*clear)(), void (vtkBoundaryDisplacement::*add)(const char*))
+{
+  if (names != passed)
+  {
+    (to->*clear)();
+    for (const std::string& name : names)
+    {
+      (to->*add)(name.c_str());
+    }
+    passed = names;
+  }
+}
+
+/// An error or warning of vtkBoundaryDisplacement with the names of this class's properties.
+std::string inOwnWords(std::string text)
+{
+  const std::pair<const char*, const char*> names[] = { { "SlidingPatches names",
+                                                          "SlidingSurfaces names" },
+    { "HeldPatches names", "FixedSurfaces names" }, { "Patches names", "Surfaces names" } };
+  for (const auto& [theirs, ours] : names)
+  {
+    const auto at = text.find(theirs);
+    if (at != std::string::npos)
+    {
+      return text.replace(at, std::string(theirs).size(), ours);
+    }
+  }
+  return text;
+}
+}
+
+void vtkMorphMesh::vtkInternals::TakeGrid(vtkUnstructuredGrid* grid)
+{
+  // A new copy would have all of its points and cells compared with those that are kept.
+  if (this->Input != grid || this->InputTime != grid->GetMTime())
+  {
+    this->Rest->ShallowCopy(grid);
+    this->Input = grid;
+    this->InputTime = grid->GetMTime();
+  }
+  this->Displacement->SetInputDataObject(0, this->Rest);
+}
+
+void vtkMorphMesh::vtkInternals::TakeTarget(vtkDataObject* target)
+{
+  const vtkMTimeType time = target ? target->GetMTime() : 0;
+  if (this->GivenTarget != target || this->TargetTime != time)
+  {
+    this->Target.TakeReference(target ? target->NewInstance() : nullptr);
+    if (target)
+    {
+      this->Target->ShallowCopy(target);
+    }
+    this->GivenTarget = target;
+    this->TargetTime = time;
+  }
+  this->Displacement->SetTargetData(this->Target);
+}
+
+void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
+{
+  const vtkMorphMesh* from = this->Filter;
+  vtkBoundaryDisplacement* to = this->Displacement;
+  const bool anySelection = selection && selection->GetNumberOfNodes() > 0;
+  const bool byTarget = from->Displacement == DISPLACEMENT_TARGET && this->Target && !anySelection;
+  const bool nothing = from->Moving == MOVE_SURFACES
+                         ? this->Surfaces.empty() && !anySelection && !byTarget
+                         : from->Moving == MOVE_SELECTION && !anySelection;
+  const int moving[] = { this->Surfaces.empty() && !byTarget
+                           ? vtkBoundaryDisplacement::MOVE_SELECTION
+                           : vtkBoundaryDisplacement::MOVE_PATCHES,
+    vtkBoundaryDisplacement::MOVE_SELECTION, vtkBoundaryDisplacement::MOVE_REGION,
+    vtkBoundaryDisplacement::MOVE_EVERYTHING, vtkBoundaryDisplacement::MOVE_ARRAY };
+  to->SetMoving(nothing ? vtkBoundaryDisplacement::MOVE_NOTHING : moving[from->Moving]);
+  to->SetSelectionData(anySelection ? selection : nullptr);
+  to->SetSelectionExtractor(this->Extractor);
+  using Filter = vtkBoundaryDisplacement;
+  pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
+  pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
+    &Filter::AddHeldPatch);
+  pass(this->SlidingSurfaces, this->PassedSlidingSurfaces, to, &Filter::RemoveAllSlidingPatches,
+    &Filter::AddSlidingPatch);
+  to->SetRegion(this->Region);
+  to->SetMovingArray(from->MovingArray);
+  to->SetMotion(from->Displacement);
+  to->SetTransform(this->Transform);
+  to->SetVector(from->Vector);
+  to->SetDistance(from->Distance);
+  to->SetDisplacementArray(from->DisplacementArray);
+  to->SetTranslation(from->Translation);
+  to->SetRotation(from->Rotation);
+  to->SetScale(from->Scale);
+  to->SetAutoCenter(from->AutoCenter);
+  to->SetCenter(from->Center);
+  to->SetRadiusChange(from->RadiusChange);
+  to->SetAlignTarget(from->AlignTarget);
+  to->SetTargetReach(from->TargetReach);
+  to->SetTargetAngle(from->TargetAngle);
+  to->SetScaleFactor(from->ScaleFactor);
+  to->SetSurroundings(from->Surroundings);
+  to->SetFalloffRadius(from->FalloffRadius);
+  to->SetFeatureAngle(from->FeatureAngle);
+  to->SetCornerAngle(from->CornerAngle);
+  to->SetSurfaceIdArray(from->SurfaceIdArray);
+  to->SetUseGeometryArrays(from->UseGeometryArrays);
+  // The boundary in the precision of the computation: the output alone is rounded.
+  to->SetOutputPointsPrecision(DOUBLE_PRECISION);
+  to->SetNumberOfThreads(from->NumberOfThreads);
+}
+
+void vtkMorphMesh::vtkInternals::ConfigureMorph()
+{
+  const vtkMorphMesh* from = this->Filter;
+  vtkMorphAlgorithm* to = this->Filter->GetMethodFilter();
+  to->SetInputDataObject(0, this->Rest);
+  to->SetBoundaryData(this->Displacement->GetOutput());
+  to->SetBoundaryIdArray(nullptr);
+  to->SetDisplacementArray(nullptr);
+  to->SetScaleFactor(1);
+  to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
+  to->SetNumberOfSteps(from->NumberOfSteps);
+  to->SetStepping(from->Stepping);
+  to->SetOutputPointsPrecision(from->OutputPointsPrecision);
+  to->SetNumberOfThreads(from->NumberOfThreads);
+}
+
+void vtkMorphMesh::vtkInternals::List()
+{
+  this->ConfigureDisplacement(nullptr);
+  this->Displacement->UpdateInformation();
+}
+
+void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
+{
+  const filters::Follower follower(this->Displacement, monitor);
+  const vtkMTimeType before = this->Displacement->GetOutput()->GetMTime();
+  this->Displacement->Update();
+  if (this->Displacement->GetOutput()->GetMTime() != before)
+  {
+    this->BoundaryWarnings = follower.Warnings();
+  }
+  for (const std::string& warning : this->BoundaryWarnings)
+  {
+    monitor.warn(inOwnWords(warning));
+  }
+  monitor.check();
+  if (!follower.Errors().empty())
+  {
+    // Otherwise the next update would find nothing to do, and no error.
+    this->Displacement->Modified();
+    throw morph::Error(inOwnWords(follower.Errors().front()));
+  }
+}
+
+std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+{
+  this->ConfigureMorph();
+  const filters::Follower follower(this->Morph, monitor);
+  const std::optional<double> time = filters::Ports::AskedTime(asked);
+  if (time && this->Filter->NumberOfSteps > 0)
+  {
+    this->Morph->UpdateTimeStep(*time);
+  }
+  else
+  {
+    this->Morph->UpdateInformation();
+    this->Morph->GetOutputInformation(0)->Remove(Pipeline::UPDATE_TIME_STEP());
+    this->Morph->Update();
+  }
+  for (const std::string& warning : follower.Warnings())
+  {
+    monitor.warn(warning);
+  }
+  if (monitor.cancelled() || !follower.Errors().empty())
+  {
+    this->Morph->Modified(); // as in Displace()
+  }
+  monitor.check();
+  output->ShallowCopy(this->Morph->GetOutput(0));
+  badCells->ShallowCopy(this->Morph->GetOutput(1));
+  surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
+  this->TakeResults();
+  this->WriteDistances(output);
+  return follower.Errors().empty() ? std::string() : follower.Errors().front();
+}
+
+void vtkMorphMesh::vtkInternals::TakeResults()
+{
+  vtkMorphAlgorithm* from = this->Morph;
+  filters::Results& to = this->Results;
+  to.SetText("MorphStatus", from->GetMorphStatus());
+  to.SetNumber("MinScaledJacobian", from->GetMinScaledJacobian());
+  to.SetNumber("MeanScaledJacobian", from->GetMeanScaledJacobian());
+  to.SetInteger("InvertedCells", from->GetInvertedCells());
+  to.SetInteger("DegenerateCells", from->GetDegenerateCells());
+  to.SetInteger("WorstCellId", from->GetWorstCellId());
+  to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());
+  to.SetInteger("MirroredBodies", from->GetMirroredBodies());
+  to.SetInteger("CertifiedCells", from->GetCertifiedCells());
+  to.SetInteger("UncertifiedCells", from->GetUncertifiedCells());
+  to.SetInteger("UndecidedCells", from->GetUndecidedCells());
+  to.SetNumber("LargestValidStep", from->GetLargestValidStep());
+  to.SetNumber("PrepareSeconds", from->GetPrepareSeconds());
+  to.SetNumber("EvaluateSeconds", from->GetEvaluateSeconds());
+  to.SetInteger("SubSteps", from->GetSubSteps());
+  to.SetInteger("PrepareCount", from->GetPrepareCount());
+  to.SetInteger("PrescribedPoints", from->GetPrescribedPoints());
+  to.SetInteger("UnmatchedPoints", from->GetUnmatchedPoints());
+  to.SetInteger("SolverIterations", from->GetSolverIterations());
+}
+
+void vtkMorphMesh::vtkInternals::WriteDistances(vtkUnstructuredGrid* output)
+{
+  vtkPolyData* target = this->Displacement->GetFittedTarget();
+  vtkPolyData* boundary = this->Displacement->GetOutput();
+  vtkDataArray* ids = boundary->GetPointData()->GetArray("MorphPointId");
+  vtkDataArray* roles = boundary->GetPointData()->GetArray("Role");
+  if (!target || !ids || !roles || output->GetNumberOfPoints() != this->Rest->GetNumberOfPoints())
+  {
+    return;
+  }
+  std::vector<morph::Index> nodes;
+  for (vtkIdType i = 0; i < boundary->GetNumberOfPoints(); ++i)
+  {
+    if (roles->GetComponent(i, 0) == 1)
+    {
+      nodes.push_back(static_cast<morph::Index>(ids->GetComponent(i, 0)));
+    }
+  }
+  morph::Points before(static_cast<morph::Index>(nodes.size()), 3), after = before;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    this->Rest->GetPoint(nodes[i], before.row(static_cast<morph::Index>(i)).data());
+    output->GetPoint(nodes[i], after.row(static_cast<morph::Index>(i)).data());
+  }
+  const filters::TargetDistance::Summary distance =
+    filters::TargetDistance::Write(target, nodes, before, after, output);
+  this->Results.SetNumber("MaxTargetDistanceBefore", distance.MaxBefore);
+  this->Results.SetNumber("MeanTargetDistanceBefore", distance.MeanBefore);
+  this->Results.SetNumber("MaxTargetDistance", distance.Max);
+  this->Results.SetNumber("MeanTargetDistance", distance.Mean);
+}
+
+std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformation* asked,
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
+  morph::Monitor& monitor)
+{
+  this->ConfigureDisplacement(selection);
+  morph::ProgressRange displacing(monitor, 0, 0.3);
+  this->Displace(displacing);
+  if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVE_NOTHING)
+  {
+    filters::SurfaceGrid::Write(this->Rest, this->Displacement->GetOutput(), output);
+    filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);
+    this->Results.Write(output);
+    return {};
+  }
+  morph::ProgressRange morphing(monitor, 0.3, 1);
+  return this->Morphed(asked, output, badCells, surface, morphing);
+}
+
+void vtkMorphMesh::vtkInternals::WriteUndeformed(
+  vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface)
+{
+  if (filters::Version::AbortRequested(this->Filter))
+  {
+    filters::Version::KeepAbortedOutput(this->Filter);
+  }
+  filters::MorphOutput::WriteUndeformed(input, status, 0, this->Results, output);
+  filters::KeptMesh().WriteUndeformedSurface(output, surface);
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The filters inside vtkMorphMesh, and what is kept from one execution to the next.
+#pragma once
+
+#include "vtkMorphMesh.h"
+
+#include "Private/Data/Results.h"
+#include "Private/Pipeline/Time.h"
+#include "Support/Monitor.h"
+#include "vtkBoundaryDisplacement.h"
+#include "vtkMorphAlgorithm.h"
+
+#include <vtkAbstractTransform.h>
+#include <vtkExtractSelection.h>
+#include <vtkImplicitFunction.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+class vtkMorphMesh::vtkInternals
+{
+public:
+  std::set<std::string> Surfaces, FixedSurfaces, SlidingSurfaces;
+  vtkSmartPointer<vtkImplicitFunction> Region;
+  vtkSmartPointer<vtkAbstractTransform> Transform;
+  vtkSmartPointer<vtkExtractSelection> Extractor;
+  vtkNew<vtkBoundaryDisplacement> Displacement;
+  vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
+  vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
+  morph::filters::Results Results{ morph::filters::ResultTables::vtkMorphMesh() };
+  morph::filters::Time Time;
+
+  explicit vtkInternals(vtkMorphMesh* filter)
+    : Filter(filter)
+  {
+  }
+
+  /// Gives the filters inside the mesh, unless they have it.
+  void TakeGrid(vtkUnstructuredGrid* grid);
+  /// Gives the filter inside the target, a copy for its pipeline; null for none.
+  void TakeTarget(vtkDataObject* target);
+  /// Lists the surfaces of the mesh that was taken.
+  void List();
+  /// Returns an error that comes with a result, or nothing.
+  std::string Run(vtkSelection* selection, vtkInformation* asked, vtkUnstructuredGrid* output,
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+  /// Makes the outputs the undeformed mesh, where that can be read, without a result.
+  void WriteUndeformed(
+    vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface);
+
+private:
+  vtkMorphMesh* Filter;
+  vtkNew<vtkUnstructuredGrid> Rest;
+  const vtkUnstructuredGrid* Input = nullptr; ///< that Rest was made from; compared, never used
+  vtkMTimeType InputTime = 0;
+  vtkSmartPointer<vtkDataObject> Target;      ///< a copy of the one on port 2, or null
+  const vtkDataObject* GivenTarget = nullptr; ///< compared, never used
+  vtkMTimeType TargetTime = 0;
+  std::set<std::string> PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces;
+  std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
+
+  void ConfigureDisplacement(vtkSelection* selection);
+  void ConfigureMorph();
+  void Displace(morph::Monitor& monitor);
+  std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+  void TakeResults();
+  /// Adds the distances from the target, as they are on `output`.
+  void WriteDistances(vtkUnstructuredGrid* output);
+};

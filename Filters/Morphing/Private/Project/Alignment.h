@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+/// Rigid alignment of one surface with another.
+namespace morph::filters::Alignment
+{
+/// Returns `surface`, rotated and shifted so that it lies on `onto`, with points in double
+/// precision; cells and arrays are shared. Both have triangles or other polygons, and finite
+/// points. vtkIterativeClosestPointTransform runs from six starts: the current place, equal
+/// centres, and the four rotations that turn principal axes into each other. The start that ends
+/// with the least mean distance is taken; of nearly equal ones the first, which turns it less.
+/// A symmetric surface may so be turned about its symmetry. Cost: some 70,000 searches at most.
+vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto);
+}

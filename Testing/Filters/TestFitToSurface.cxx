@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkMorphMesh with a target surface.
+#include "DisplacedBoundaries.h"
+
+#include "vtkMorphMesh.h"
+
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSphereSource.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using grids::Row;
+
+namespace
+{
+/// A ball of radius 1 about the origin, of 6 x 6 x 6 hexahedra.
+vtkSmartPointer<vtkUnstructuredGrid> ball()
+{
+  morph::Mesh mesh = meshes::hexes(6, 6, 6);
+  meshes::transform(mesh,
+    [](const Row& x)
+    {
+      const Row y = (x - Row(3, 3, 3)) / 3;
+      return y.isZero(0) ? y : Row(y * y.cwiseAbs().maxCoeff() / y.norm());
+    });
+  return grids::make(mesh);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> brick()
+{
+  return grids::make(meshes::hexes(6, 4, 3));
+}
+
+vtkSmartPointer<vtkPolyData> moved(vtkPolyData* surface, vtkAbstractTransform* transform)
+{
+  vtkNew<vtkTransformPolyDataFilter> filter;
+  filter->SetInputData(surface);
+  filter->SetTransform(transform);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> ellipsoid()
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(1);
+  sphere->SetThetaResolution(48);
+  sphere->SetPhiResolution(24);
+  sphere->Update();
+  vtkNew<vtkTransform> scale;
+  scale->Scale(1.3, 1.1, 0.9);
+  return moved(sphere->GetOutput(), scale);
+}
+
+/// The brick's faces, larger by a fifth.
+vtkSmartPointer<vtkPolyData> largerBrick()
+{
+  auto surface = grids::boundary(brick(), [](const Row& x) { return x; });
+  vtkNew<vtkTransform> scale;
+  scale->Translate(3, 2, 1.5);
+  scale->Scale(1.2, 1.2, 1.2);
+  scale->Translate(-3, -2, -1.5);
+  return moved(surface, scale);
+}
+
+/// A rectangle of the brick's outline at a height, larger by `margin` on each side.
+vtkSmartPointer<vtkPolyData> lid(double height, double margin)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-margin, -margin, height);
+  plane->SetPoint1(6 + margin, -margin, height);
+  plane->SetPoint2(-margin, 4 + margin, height);
+  plane->SetResolution(5, 7);
+  plane->Update();
+  return plane->GetOutput();
+}
+
+vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
+{
+  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+  filter->SetInputData(grid);
+  filter->SetTargetData(target);
+  filter->SetDisplacementToTarget();
+  return filter;
+}
+
+/// Where the brick's eight corners are now: those of an upright box of these half sizes?
+double cornerError(vtkUnstructuredGrid* before, vtkUnstructuredGrid* after, const Row& half)
+{
+  const morph::Points x = grids::points(before), y = grids::points(after);
+  const Row middle(3, 2, 1.5);
+  double largest = 0;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const Row from = x.row(i) - middle;
+    if (std::abs(from[0]) == 3 && std::abs(from[1]) == 2 && std::abs(from[2]) == 1.5)
+    {
+      const Row to = y.row(i) - middle;
+      largest = std::max(largest, (to.cwiseAbs() - half).cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
+}
+}
+
+TEST(FitToSurface, ASphereBecomesAnEllipsoid)
+{
+  auto grid = ball();
+  auto filter = make(grid, ellipsoid());
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_NEAR(filter->GetMaxTargetDistanceBefore(), 0.3, 0.01);
+  EXPECT_GT(filter->GetMeanTargetDistanceBefore(), 0.05);
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
+  EXPECT_LE(filter->GetMeanTargetDistance(), filter->GetMaxTargetDistance());
+  vtkPointData* arrays = filter->GetOutput()->GetPointData();
+  vtkDataArray* before = arrays->GetArray("TargetDistanceBefore");
+  vtkDataArray* after = arrays->GetArray("TargetDistance");
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->GetNumberOfTuples(), grid->GetNumberOfPoints());
+  const morph::Points x = grids::points(grid);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const bool isOutside = x.row(i).norm() > 0.99;
+    EXPECT_EQ(std::isnan(after->GetComponent(i, 0)), !isOutside) << i;
+    EXPECT_EQ(std::isnan(before->GetComponent(i, 0)), !isOutside) << i;
+  }
+  // Half of the way, and back.
+  filter->SetScaleFactor(0.5);
+  filter->Update();
+  EXPECT_NEAR(filter->GetMaxTargetDistance(), 0.15, 0.02);
+  filter->SetDisplacementToVector();
+  filter->SetMovingToEverything();
+  filter->Update();
+  EXPECT_TRUE(std::isnan(filter->GetMaxTargetDistance()));
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->GetArray("TargetDistance"));
+}
+
+TEST(FitToSurface, ATargetWithItsOwnAxesIsAlignedFirst)
+{
+  vtkNew<vtkTransform> away;
+  away->Translate(50, -20, 7);
+  away->RotateWXYZ(130, 1, 2, 3);
+  auto grid = brick();
+  auto filter = make(grid, moved(largerBrick(), away));
+  filter->AlignTargetOn();
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  // The brick has another length along each axis, so that it has one place but for half turns.
+  EXPECT_LT(cornerError(grid, filter->GetOutput(), Row(3.6, 2.4, 1.8)), 1e-3);
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-10);
+  EXPECT_GT(filter->GetMeanTargetDistanceBefore(), 0.2);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+
+  auto sphere = make(ball(), moved(ellipsoid(), away));
+  sphere->AlignTargetOn();
+  sphere->Update();
+  EXPECT_LT(sphere->GetMaxTargetDistance(), 1e-10);
+  EXPECT_LT(sphere->GetMaxTargetDistanceBefore(), 0.4);
+}
+
+TEST(FitToSurface, CornersGoToCornersAndEdgesToEdges)
+{
+  auto grid = brick();
+  auto filter = make(grid, largerBrick());
+  filter->Update();
+  EXPECT_LT(cornerError(grid, filter->GetOutput(), Row(3.6, 2.4, 1.8)), 1e-6);
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6); // the target's points are in single precision
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+}
+
+TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)
+{
+  // A target with open edges: they serve the rim.
+  auto grid = brick();
+  auto filter = make(grid, lid(3.4, 0.2));
+  grids::Listener listener(filter);
+  filter->SetSurroundings(1);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x(i, 2) == 3)
+    {
+      EXPECT_NEAR(y(i, 2), 3.4, 1e-6) << i;
+    }
+    if (x(i, 2) == 0)
+    {
+      EXPECT_EQ(Row(y.row(i)), Row(x.row(i))) << i;
+    }
+    if (x(i, 2) == 3 && x(i, 0) == 0 && x(i, 1) == 0)
+    {
+      EXPECT_LT((y.row(i) - Row(-0.2, -0.2, 3.4)).norm(), 1e-6);
+    }
+  }
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6);
+
+  // The same where the surface is chosen.
+  vtkNew<vtkMorphMesh> chosen;
+  chosen->SetInputData(grid);
+  chosen->SetTargetData(lid(3.4, 0.2));
+  chosen->SetDisplacementToTarget();
+  auto displace = displaced::make(grid);
+  chosen->AddSurface(
+    displaced::surfaceName(displace, [](const Row& at) { return at[2] == 3; }).c_str());
+  chosen->Update();
+  EXPECT_EQ(grids::points(chosen->GetOutput()), y);
+}
+
+TEST(FitToSurface, ATargetThatCannotServeIsAnErrorAndKeepsTheMesh)
+{
+  auto grid = brick();
+  vtkNew<vtkTransform> away;
+  away->Translate(0, 0, 100);
+  auto notFinite = lid(3.4, 0);
+  notFinite->GetPoints()->SetPoint(3, std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  const std::pair<vtkSmartPointer<vtkPolyData>, const char*> cases[] = {
+    { vtkSmartPointer<vtkPolyData>::New(), "no polygons" }, { notFinite, "not finite" },
+    { moved(largerBrick(), away), "" }, { moved(lid(3.4, 0), away), "No node that moves reaches" }
+  };
+  for (const auto& [target, message] : cases)
+  {
+    SCOPED_TRACE(message);
+    auto filter = make(grid, target);
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find(message), std::string::npos) << listener.Errors[0];
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+    EXPECT_EQ(filter->GetInvertedCells(), -1);
+    EXPECT_TRUE(std::isnan(filter->GetMaxTargetDistance()));
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+    // And a good one after it.
+    filter->SetTargetData(largerBrick());
+    filter->Update();
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  }
+}
+
+TEST(FitToSurface, WithoutATargetTheBoundaryIsShown)
+{
+  auto grid = brick();
+  auto filter = make(grid, nullptr);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_STREQ(filter->GetMorphStatus(), "None");
+  filter->SetMovingToEverything();
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("There is no target"), std::string::npos) << listener.Errors[0];
+}
+
+TEST(FitToSurface, NodesOutOfReachAreNamedAndTheResultIsKeptUntilTheTargetChanges)
+{
+  auto grid = brick();
+  auto target = lid(3.4, 0);
+  auto filter = make(grid, target);
+  grids::Listener listener(filter);
+  filter->SetMovingToEverything();
+  filter->SetTargetReach(0.1);
+  filter->Update();
+  ASSERT_FALSE(listener.Warnings.empty());
+  EXPECT_NE(listener.Warnings[0].find("do not reach the target"), std::string::npos);
+  const double first = filter->GetMeanTargetDistance();
+  EXPECT_GT(first, 0.1);
+  filter->SetTargetData(lid(3.2, 0));
+  filter->Update();
+  EXPECT_LT(filter->GetMeanTargetDistance(), first);
+}
