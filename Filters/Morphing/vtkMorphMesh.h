@@ -5,9 +5,9 @@
  *
  * It is vtkBoundaryDisplacement and a morph filter in one. Port 0 takes the mesh
  * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection, and port 2, optional, the target
- * surface of DISPLACEMENT_TARGET. Output 0 is the morphed mesh and output 1 its inverted cells, both
- * with the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is the outer boundary, which a view
- * can show in less time; see vtkMorphAlgorithm.
+ * surface of DISPLACEMENT_TARGET. Output 0 is the morphed mesh, and output 1 its inverted cells.
+ * Both have the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is the outer boundary, which a
+ * view can show in less time; see vtkMorphAlgorithm.
  *
  * - Moving defines what moves: surfaces, a selection, the inside of a region, everything, or the
  *   nodes that an array marks.
@@ -432,7 +432,7 @@ public:
   ///@{
   /**
    * The distance from the target (as aligned) of the nodes that move, before and after the motion,
-   * in the unit of the points; each node counts once. NaN without DISPLACEMENT_TARGET.
+   * in the unit of the points; each node counts once. -1 without DISPLACEMENT_TARGET.
    */
   double GetMaxTargetDistanceBefore() const;
   double GetMeanTargetDistanceBefore() const;

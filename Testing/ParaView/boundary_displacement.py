@@ -224,6 +224,24 @@ class BoundaryDisplacementTests(unittest.TestCase):
         display = simple.Show(self.displacement, simple.CreateRenderView())
         self.assertEqual(list(display.ColorArrayName), ["POINTS", "Role"])
 
+    def test_fit_to_surface(self):
+        """The face at the end of z goes onto a plane 0.5 beyond it, alone or where it is ticked."""
+        high = CELLS + 0.5
+        plane = simple.Plane(Origin=[-1, -1, high], Point1=[CELLS + 1, -1, high],
+                             Point2=[-1, CELLS + 1, high])
+        by_name = MorphMesh(Input=self.mesh, Displacement="Target", Target=plane,
+                            Surfaces=["Surface 5"])
+        by_place = FittoSurface(Input=self.mesh, Target=plane, Surfaces=["Surface 5"])
+        for fit in (by_name, by_place):
+            self.assertEqual(number(fit, "MorphStatus"), "Valid")
+            self.assertAlmostEqual(fit.MaxTargetDistanceBefore, 0.5)
+            self.assertAlmostEqual(fit.MeanTargetDistanceBefore, 0.5)
+            self.assertLess(fit.MaxTargetDistance, 1e-6)
+            moved, top = points(fit), self.rest[:, 2] == CELLS
+            np.testing.assert_allclose(moved[top], self.rest[top] + [0, 0, 0.5], atol=1e-6)
+            np.testing.assert_allclose(array(fit, "TargetDistanceBefore")[top], 0.5, atol=1e-6)
+        np.testing.assert_array_equal(points(by_name), points(by_place))
+
 
 if __name__ == "__main__":
     unittest.main()

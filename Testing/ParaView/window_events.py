@@ -15,7 +15,7 @@ BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
 #: The filters of the menu Mesh Morphing; those for one step of a morph have a menu of their own.
-FIRST = ("MorphMesh", "MorphShapes", "ScaledJacobian", "CompareMorphMethods")
+FIRST = ("MorphMesh", "FitToSurface", "MorphShapes", "ScaledJacobian", "CompareMorphMethods")
 
 
 def category(name):
