@@ -225,10 +225,10 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assertEqual(list(display.ColorArrayName), ["POINTS", "Role"])
 
     def test_fit_to_surface(self):
-        """The face at the end of z goes onto a plane 0.5 beyond it, alone or where it is ticked."""
+        """The face at the end of z goes onto a square of its size, 0.5 beyond it."""
         high = CELLS + 0.5
-        plane = simple.Plane(Origin=[-1, -1, high], Point1=[CELLS + 1, -1, high],
-                             Point2=[-1, CELLS + 1, high])
+        plane = simple.Plane(Origin=[0, 0, high], Point1=[CELLS, 0, high],
+                             Point2=[0, CELLS, high])
         by_name = MorphMesh(Input=self.mesh, Displacement="Target", Target=plane,
                             Surfaces=["Surface 5"])
         by_place = FittoSurface(Input=self.mesh, Target=plane, Surfaces=["Surface 5"])
