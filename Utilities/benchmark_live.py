@@ -2,7 +2,9 @@
 """How fast the mesh follows a boundary that is dragged in ParaView: from the change of a parameter
 upstream to the finished picture, and where the time goes. Median of several drags after the first,
 which prepares the method. With --surface: with the output Surface in place of the mesh, beside the
-floor, the same view of a surface of that size whose points change. With --shapes: from a changed
+floor, the same view of a surface of that size whose points change. --fade: the boundary fades,
+so that the morph adds the modes of its affine motion. --outer: only the cells behind the surface
+are measured. With --shapes: from a changed
 weight of Morph Shapes to the picture of its output Surface, beside the floor.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
@@ -59,12 +61,12 @@ class Drag:
 
     `move` makes step i's motion, with the boundary's top turned and lifted a bit more."""
 
-    def __init__(self, part, upstream):
+    def __init__(self, part, upstream, surroundings="Follow"):
         if upstream == "Transform":
             self.moved = simple.Transform(Input=ExtractMorphBoundary(Input=part))
         else:
             self.moved = BoundaryDisplacement(Input=part, Moving="Inside Region", Region="Box",
-                                              Surroundings="Follow")
+                                              Surroundings=surroundings)
             self.moved.Region.Position = [-0.1, -0.1, 0.9]
             self.moved.Region.Length = [1.2, 1.2, 0.2]
         self.transform = self.moved.Transform
@@ -105,9 +107,9 @@ def measure(method, part, drag, drags):
     return [statistics.median(column) for column in zip(*rows)], count, first, prepare
 
 
-def measure_surface(method, part, drag, drags):
+def measure_surface(method, part, drag, drags, quality):
     """Medians of the columns of --surface."""
-    morph = globals()["Morph" + method](Input=part, Boundary=drag.moved)
+    morph = globals()["Morph" + method](Input=part, Boundary=drag.moved, Quality=quality)
     view = simple.CreateRenderView(ViewSize=[1000, 800])
     simple.Show(simple.OutputPort(morph, "Surface"), view)
     drag.move(-1)
@@ -181,6 +183,10 @@ def main():
     parser.add_argument("--upstream", choices=("Transform", "BoundaryDisplacement"),
                         default="Transform")
     parser.add_argument("--surface", action="store_true", help="show Surface, not the mesh")
+    parser.add_argument("--fade", action="store_true", help="with --surface and Boundary"
+                        "Displacement: the sides fade; they follow otherwise")
+    parser.add_argument("--outer", action="store_true",
+                        help="with --surface: measure the cells behind the surface alone")
     parser.add_argument("--shapes", action="store_true")
     options = parser.parse_args()
     grid = cube(options.cells)
@@ -197,7 +203,9 @@ def main():
     if options.surface:
         print(f"{'':24}" + "".join(f"{name:>16}" for name in SURFACE_COLUMNS))
         for method in options.methods.split(","):
-            medians = measure_surface(method, part, Drag(part, options.upstream), options.drags)
+            drag = Drag(part, options.upstream, "Fade" if options.fade else "Follow")
+            medians = measure_surface(method, part, drag, options.drags,
+                                      "Surface" if options.outer else "All")
             print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians), flush=True)
         return
     print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS)

@@ -2,6 +2,7 @@
 #include "vtkBoundaryDisplacement.h"
 
 #include "Private/Data/Surface.h"
+#include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
 #include "Private/Displace/DisplacedSurface.h"
@@ -82,6 +83,7 @@ struct vtkBoundaryDisplacement::vtkInternals
   ChoiceKey ChosenFrom;
   filters::Choice::Result Choice;
   filters::Surroundings Spread;
+  filters::BoundaryFields Fields;
   filters::FitToTarget Fit;
 
   /// Finds the boundary and its geometry, and its patches' names.
@@ -505,6 +507,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->OutputPointsPrecision, output);
+  this->Fields.Write(
+    this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
   if (target)
   {
     this->WriteDistances(result, output);

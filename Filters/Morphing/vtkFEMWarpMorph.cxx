@@ -6,6 +6,8 @@
 
 #include <vtkObjectFactory.h>
 
+#include <sstream>
+
 vtkStandardNewMacro(vtkFEMWarpMorph);
 
 morphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
@@ -21,6 +23,14 @@ std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
 void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
   static_cast<morph::FemWarp&>(morpher).setTolerance(this->Tolerance);
+}
+
+std::string vtkFEMWarpMorph::EvaluateOptions()
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << this->Tolerance;
+  return text.str();
 }
 
 void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)

@@ -52,6 +52,7 @@ protected:
 
   std::unique_ptr<morph::Morpher> CreateMorpher() override;
   void SetEvaluateOptions(morph::Morpher& morpher) override;
+  std::string EvaluateOptions() override;
 
 private:
   vtkFEMWarpMorph(const vtkFEMWarpMorph&) = delete;

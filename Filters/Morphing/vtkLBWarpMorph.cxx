@@ -6,6 +6,8 @@
 
 #include <vtkObjectFactory.h>
 
+#include <sstream>
+
 vtkStandardNewMacro(vtkLBWarpMorph);
 
 morphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
@@ -30,6 +32,14 @@ std::string vtkLBWarpMorph::PrepareOptions()
 void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
   static_cast<morph::LogBarrierWarp&>(morpher).setTolerance(this->Tolerance);
+}
+
+std::string vtkLBWarpMorph::EvaluateOptions()
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << this->Tolerance;
+  return text.str();
 }
 
 void vtkLBWarpMorph::PrintSelf(ostream& os, vtkIndent indent)

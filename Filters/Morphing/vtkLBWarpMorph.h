@@ -87,6 +87,7 @@ protected:
   std::unique_ptr<morph::Morpher> CreateMorpher() override;
   std::string PrepareOptions() override;
   void SetEvaluateOptions(morph::Morpher& morpher) override;
+  std::string EvaluateOptions() override;
 
 private:
   vtkLBWarpMorph(const vtkLBWarpMorph&) = delete;

@@ -2,6 +2,7 @@
 #include "vtkMorphAlgorithm.h"
 
 #include "Morpher/Morpher.h"
+#include "Private/Data/Output.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Morph/MorphOutput.h"
@@ -54,7 +55,12 @@ public:
   }
 
   bool IsSeries() const { return this->Filter->Stepping == STEPPING_RELATIVE && this->Steps.Any(); }
-  filters::Session::Options Options() const;
+  /// Whether all cells are measured. What a valid mesh needs comes before Quality.
+  bool MeasuresAll() const
+  {
+    return this->Filter->Quality == QUALITY_ALL || this->Filter->Validity >= VALIDITY_SUB_STEP;
+  }
+  filters::Session::Options Options(vtkUnstructuredGrid* grid) const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
@@ -66,7 +72,7 @@ private:
   vtkMorphAlgorithm* Filter;
 
   std::shared_ptr<const filters::StepResult> MorphSeries(
-    vtkPointSet* displaced, morph::Monitor& monitor);
+    vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor);
 };
 
 morphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
@@ -215,7 +221,7 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
   this->Session.GetKept().WriteUndeformedSurface(output, surface);
 }
 
-filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options() const
+filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(vtkUnstructuredGrid* grid) const
 {
   vtkMorphAlgorithm* filter = this->Filter;
   filters::Session::Options options;
@@ -226,12 +232,15 @@ filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options() const
   options.Matching.MatchTolerance = filter->MatchTolerance;
   options.Matching.HoldUnnamedBoundary = filter->HoldUnnamedBoundary;
   options.Validity = filter->Validity;
+  options.MeasureAll = this->MeasuresAll();
   options.MaximumSubSteps = filter->MaximumSubSteps;
   options.PostSmooth = filter->PostSmooth;
   options.PostSmoothIterations = filter->PostSmoothIterations;
   options.StepMemoryLimit = filter->StepMemoryLimit;
+  options.IsFloat = filters::Output::IsFloat(grid, filter->OutputPointsPrecision);
   options.PrepareOptions = filter->PrepareOptions();
   options.CreateMorpher = [filter] { return filter->CreateMorpher(); };
+  options.EvaluateOptions = filter->EvaluateOptions();
   options.SetEvaluateOptions = [filter](morph::Morpher& morpher)
   { filter->SetEvaluateOptions(morpher); };
   return options;
@@ -245,9 +254,10 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Session.SetGrid(grid, monitor);
   this->Session.ReportMirroredBodies(monitor);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
+  const filters::Session::Options options = this->Options(grid);
   const std::shared_ptr<const filters::StepResult> result =
-    this->IsSeries() ? this->MorphSeries(displaced, monitor)
-                     : this->Session.Morph(displaced, fraction, this->Options(), monitor);
+    this->IsSeries() ? this->MorphSeries(displaced, options, monitor)
+                     : this->Session.Morph(displaced, fraction, options, monitor);
   // Of a step that was kept, too; inverted cells on the way there are no news.
   if (!result->Valid.Warning.empty())
   {
@@ -255,12 +265,13 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   }
   morph::ProgressRange writing(monitor, 0.9, 1);
   filters::MorphOutput::Write(this->Session, *result, this->Filter->OutputPointsPrecision,
-    this->Filter->Certify, grid, this->Results, output, badCells, surface, writing);
+    { options.MeasureAll, this->Filter->Certify }, grid, this->Results, output, badCells, surface,
+    writing);
   return result->Valid.Error;
 }
 
 std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(
-  vtkPointSet* displaced, morph::Monitor& monitor)
+  vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor)
 {
   filters::Session::Motion motion;
   motion.Step = this->Step;
@@ -275,7 +286,7 @@ std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::Morp
     }
     return displaced;
   };
-  return this->Session.MorphSeries(motion, this->Options(), monitor);
+  return this->Session.MorphSeries(motion, options, monitor);
 }
 
 bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
@@ -306,7 +317,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
   }
-  kept.Session.Transpose(rest, boundary, gradient, kept.Options(), boundaryGradient, monitor);
+  kept.Session.Transpose(rest, boundary, gradient, kept.Options(rest), boundaryGradient, monitor);
 }
 
 double vtkMorphAlgorithm::GetNumber(const char* name) const
@@ -342,6 +353,7 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Certify: " << this->Certify << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "PostSmooth: " << this->PostSmooth << "\n";

@@ -248,6 +248,25 @@ public:
   void SetValidityToRefuse() { this->SetValidity(VALIDITY_REFUSE); }
   ///@}
 
+  enum QualityType
+  {
+    QUALITY_ALL = 0,
+    QUALITY_SURFACE = 1
+  };
+  ///@{
+  /**
+   * The cells that are measured: all, or those behind the outer faces alone, which is faster while
+   * a boundary is dragged. With the latter output 0 has neither ScaledJacobian nor certificates,
+   * output 1 is empty, MorphStatus is "Unmeasured", no cell is reported, and of the measures there
+   * is SurfaceInvertedCells alone. Where Validity is SubStep, Repair or Refuse all cells are
+   * measured always. Default QUALITY_ALL.
+   */
+  vtkSetClampMacro(Quality, int, QUALITY_ALL, QUALITY_SURFACE);
+  vtkGetMacro(Quality, int);
+  void SetQualityToAll() { this->SetQuality(QUALITY_ALL); }
+  void SetQualityToSurface() { this->SetQuality(QUALITY_SURFACE); }
+  ///@}
+
   ///@{
   /**
    * Whether to prove for each cell of the output that its Jacobian determinant is positive
@@ -340,6 +359,7 @@ public:
    * its corners are positive. Also set where an execution is refused because of them. Field data
    * BoundaryInvertedCells.
    */
+  vtkIdType GetSurfaceInvertedCells() const { return this->GetInteger("SurfaceInvertedCells"); }
   vtkIdType GetBoundaryInvertedCells() const { return this->GetInteger("BoundaryInvertedCells"); }
 
   /**
@@ -447,6 +467,12 @@ protected:
   virtual void SetEvaluateOptions(morph::Morpher& vtkNotUsed(morpher)) {}
 
   /**
+   * Text that tells apart any two settings of the options that a linear method's evaluate() reads.
+   * Empty for a method without such options.
+   */
+  virtual std::string EvaluateOptions() { return {}; }
+
+  /**
    * The number of that name in the method's report of the last execution (morph::Statistic), 0
    * where there is none. The output holds them as field data too.
    */
@@ -462,6 +488,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   int Validity = VALIDITY_REPORT;
+  int Quality = QUALITY_ALL;
   bool Certify = false;
 
 private:

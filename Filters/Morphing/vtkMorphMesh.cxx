@@ -359,27 +359,27 @@ const char* vtkMorphMesh::GetMorphStatus() const
   }
 morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   MeanScaledJacobian, double, Number) morphResultMacro(InvertedCells, vtkIdType, Integer)
-  morphResultMacro(DegenerateCells, vtkIdType, Integer)
-    morphResultMacro(WorstCellId, vtkIdType, Integer)
-      morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
-        morphResultMacro(MirroredBodies, vtkIdType, Integer)
-          morphResultMacro(CertifiedCells, vtkIdType, Integer)
-            morphResultMacro(UncertifiedCells, vtkIdType, Integer)
-              morphResultMacro(UndecidedCells, vtkIdType, Integer)
-                morphResultMacro(LargestValidStep, double, Number)
-                  morphResultMacro(PrepareSeconds, double, Number)
-                    morphResultMacro(EvaluateSeconds, double, Number)
-                      morphResultMacro(SubSteps, vtkIdType, Integer)
-                        morphResultMacro(PrepareCount, int, Integer)
-                          morphResultMacro(PrescribedPoints, vtkIdType, Integer)
-                            morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
-                              morphResultMacro(SolverIterations, int, Integer)
-                                morphResultMacro(MaxTargetDistanceBefore, double, Number)
-                                  morphResultMacro(MeanTargetDistanceBefore, double, Number)
-                                    morphResultMacro(MaxTargetDistance, double, Number)
-                                      morphResultMacro(MeanTargetDistance, double, Number)
+  morphResultMacro(DegenerateCells, vtkIdType, Integer) morphResultMacro(
+    WorstCellId, vtkIdType, Integer) morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer)
+    morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
+      morphResultMacro(MirroredBodies, vtkIdType, Integer)
+        morphResultMacro(CertifiedCells, vtkIdType, Integer)
+          morphResultMacro(UncertifiedCells, vtkIdType, Integer)
+            morphResultMacro(UndecidedCells, vtkIdType, Integer)
+              morphResultMacro(LargestValidStep, double, Number)
+                morphResultMacro(PrepareSeconds, double, Number)
+                  morphResultMacro(EvaluateSeconds, double, Number)
+                    morphResultMacro(SubSteps, vtkIdType, Integer)
+                      morphResultMacro(PrepareCount, int, Integer)
+                        morphResultMacro(PrescribedPoints, vtkIdType, Integer)
+                          morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
+                            morphResultMacro(SolverIterations, int, Integer)
+                              morphResultMacro(MaxTargetDistanceBefore, double, Number)
+                                morphResultMacro(MeanTargetDistanceBefore, double, Number)
+                                  morphResultMacro(MaxTargetDistance, double, Number)
+                                    morphResultMacro(MeanTargetDistance, double, Number)
 
-                                        void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
+                                      void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto text = [](const char* name) { return name ? name : "(none)"; };
@@ -420,6 +420,7 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
+  os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Live: " << this->Live << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Stepping: " << this->Stepping << "\n";

@@ -353,6 +353,21 @@ public:
   vtkBooleanMacro(Live, bool);
   ///@}
 
+  enum QualityType
+  {
+    QUALITY_ALL = 0,
+    QUALITY_SURFACE = 1
+  };
+  ///@{
+  /**
+   * The cells that are measured; see vtkMorphAlgorithm. Default QUALITY_ALL.
+   */
+  vtkSetClampMacro(Quality, int, QUALITY_ALL, QUALITY_SURFACE);
+  vtkGetMacro(Quality, int);
+  void SetQualityToAll() { this->SetQuality(QUALITY_ALL); }
+  void SetQualityToSurface() { this->SetQuality(QUALITY_SURFACE); }
+  ///@}
+
   ///@{
   /**
    * See vtkMorphAlgorithm. Defaults 0, Absolute.
@@ -414,6 +429,7 @@ public:
   vtkIdType GetInvertedCells() const;
   vtkIdType GetDegenerateCells() const;
   vtkIdType GetWorstCellId() const;
+  vtkIdType GetSurfaceInvertedCells() const;
   vtkIdType GetBoundaryInvertedCells() const;
   vtkIdType GetMirroredBodies() const;
   vtkIdType GetCertifiedCells() const;
@@ -480,6 +496,7 @@ private:
   double FalloffRadius = 0.1;
   int Method = METHOD_FEMWARP;
   int Validity = 3;
+  int Quality = QUALITY_ALL;
   bool Live = false;
   int NumberOfSteps = 0;
   int Stepping = 0;

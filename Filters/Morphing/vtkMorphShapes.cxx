@@ -488,14 +488,9 @@ void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
   const morph::Quality quality =
     all ? filters::Quality::Measure(mesh, output, orientation, monitor)
         : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
-  this->Modes.GetKept().Surface().Write(output->GetPoints(), quality.scaledJacobian, surface);
-  vtkIdType bad = 0;
-  for (const morph::Index cell : morph::invertedCells(quality))
-  {
-    bad += inner[cell] == 0;
-  }
-  this->Results.SetInteger("SurfaceInvertedCells", bad);
-  filters::Quality::RemoveCertificate(output);
+  this->Results.SetInteger("SurfaceInvertedCells",
+    this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
+  filters::Quality::Remove(output);
   if (all)
   {
     filters::Quality::Write(quality, output);
@@ -506,7 +501,6 @@ void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
   }
   else
   {
-    output->GetCellData()->RemoveArray("ScaledJacobian"); // of the input
     this->Results.SetText("MorphStatus", "Unmeasured");
   }
   this->Results.Write(output);

@@ -134,8 +134,8 @@ void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid*
   output->ShallowCopy(input);
   const morph::Quality quality =
     filters::Quality::Measure(mesh, output, orientation, skip, monitor);
+  filters::Quality::Remove(output);
   filters::Quality::Write(quality, output);
-  filters::Quality::RemoveCertificate(output);
   filters::Results& results = this->Internals->Results;
   results.Set(quality);
   results.SetInteger("MeasuredCells", quality.measured);

@@ -113,6 +113,42 @@ TEST_P(MorphSurface, IsTheUndeformedOneAfterAnError)
   expectUndeformed(grid, surfaceOf(filter));
 }
 
+TEST_P(MorphSurface, MeasuresItsCellsAloneIfAsked)
+{
+  auto grid = grids::hexes(4);
+  auto filter = GetParam().make(), all = GetParam().make();
+  for (vtkMorphAlgorithm* each : { filter.Get(), all.Get() })
+  {
+    each->SetInputData(grid);
+    each->SetBoundaryData(grids::boundary(grid, bulge(1)));
+    each->CertifyOn();
+  }
+  filter->SetQualityToSurface();
+  filter->Update();
+  all->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  EXPECT_EQ(grids::points(output), grids::points(all->GetOutput()));
+  EXPECT_FALSE(output->GetCellData()->HasArray("ScaledJacobian"));
+  EXPECT_FALSE(output->GetCellData()->HasArray("JacobianCertificate"));
+  EXPECT_STREQ(filter->GetMorphStatus(), "Unmeasured");
+  EXPECT_EQ(filter->GetMinScaledJacobian(), -1);
+  EXPECT_EQ(filter->GetInvertedCells(), -1);
+  EXPECT_EQ(filter->GetSurfaceInvertedCells(), 0);
+  EXPECT_EQ(all->GetSurfaceInvertedCells(), 0);
+  expectSurfaceOf(all->GetOutput(), surfaceOf(filter));
+
+  // What was measured before, and the input's own arrays, do not pass for this result's.
+  all->SetQualityToSurface();
+  all->Update();
+  EXPECT_FALSE(all->GetOutput()->GetCellData()->HasArray("ScaledJacobian"));
+  EXPECT_EQ(all->GetInvertedCells(), -1);
+  // A valid mesh that is asked for comes first.
+  filter->SetValidityToRefuse();
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Filters, MorphSurface, testing::ValuesIn(grids::morphFilters()),
   [](const auto& info) { return info.param.name; });
 

@@ -68,6 +68,7 @@ Getters gettersOf(vtkMorphAlgorithm* f)
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
+    { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
     { "BoundaryInvertedCells", [f] { return f->GetBoundaryInvertedCells(); } },
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
     { "CertifiedCells", [f] { return f->GetCertifiedCells(); } },

@@ -13,6 +13,8 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
+
 namespace morph::filters
 {
 void MovedSurface::Make(
@@ -30,8 +32,7 @@ void MovedSurface::Make(
   }
 }
 
-void MovedSurface::Write(
-  vtkPoints* moved, const std::vector<double>& quality, vtkPolyData* output) const
+void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
 {
   output->Initialize();
   const vtkIdType count = this->Nodes->GetNumberOfValues();
@@ -46,17 +47,22 @@ void MovedSurface::Write(
   output->SetPolys(this->Polygons);
   output->GetPointData()->AddArray(this->Nodes);
   output->GetCellData()->AddArray(this->Owners);
-  if (quality.empty())
-  {
-    return;
-  }
+}
+
+vtkIdType MovedSurface::Write(
+  vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const
+{
+  this->Write(moved, output);
   vtkNew<vtkDoubleArray> scaledJacobian;
   scaledJacobian->SetName("ScaledJacobian");
   scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
   for (vtkIdType i = 0; i < this->Owners->GetNumberOfValues(); ++i)
   {
-    scaledJacobian->SetValue(i, quality[this->Owners->GetValue(i)]);
+    scaledJacobian->SetValue(i, quality.scaledJacobian[this->Owners->GetValue(i)]);
   }
   output->GetCellData()->SetScalars(scaledJacobian);
+  const std::vector<morph::Index> bad = morph::invertedCells(quality);
+  return std::count_if(
+    bad.begin(), bad.end(), [this](morph::Index cell) { return this->Inner[cell] == 0; });
 }
 }

@@ -3,8 +3,10 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <cstdint>
 #include <vector>
@@ -28,10 +30,12 @@ public:
   const std::vector<std::uint8_t>& InnerCells() const { return this->Inner; }
 
   /// Fills `output`: the polygons and the arrays MorphPointId and MorphCellId are the same objects
-  /// each time. `moved`: the points of all nodes. `quality`: #cells, becomes the cell array
-  /// ScaledJacobian (active scalars) of the cell behind each face; without one there is no such
-  /// array.
-  void Write(vtkPoints* moved, const std::vector<double>& quality, vtkPolyData* output) const;
+  /// each time. `moved`: the points of all nodes.
+  void Write(vtkPoints* moved, vtkPolyData* output) const;
+  /// As above, with the cell array ScaledJacobian (active scalars) of the cell behind each face.
+  /// `quality`: of all cells, or those behind the faces at least. Returns the number of cells
+  /// behind the faces without a positive value.
+  vtkIdType Write(vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const;
 
 private:
   std::vector<std::uint8_t> Inner;

@@ -120,8 +120,9 @@ void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
   output->GetCellData()->AddArray(values);
 }
 
-void RemoveCertificate(vtkUnstructuredGrid* output)
+void Remove(vtkUnstructuredGrid* output)
 {
+  output->GetCellData()->RemoveArray("ScaledJacobian");
   output->GetCellData()->RemoveArray("JacobianCertificate");
   for (const char* name : { "CertifiedCells", "UncertifiedCells", "UndecidedCells" })
   {

@@ -47,6 +47,7 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
 /// not examined, -1 inverted).
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
 
-/// Removes the certificate and its counts, so that those of an input do not pass for the output's.
-void RemoveCertificate(vtkUnstructuredGrid* output);
+/// Removes the scaled Jacobian, the certificate and its counts, so that those of an input do not
+/// pass for the output's.
+void Remove(vtkUnstructuredGrid* output);
 }

@@ -8,10 +8,12 @@
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArray.h>
+#include <vtkLinearTransform.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
 #include <vtkTransform.h>
 
 #include <algorithm>
@@ -80,15 +82,21 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
   return rows;
 }
 
-/// Scales and turns about the centre, and translates.
-Points placed(const Points& from, const Motion::Options& options)
+/// The middle of the box around these points.
+Eigen::RowVector3d centreOf(const Points& points)
+{
+  return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
+}
+
+/// Scales and turns about the centre, and translates. `from`: what moves.
+vtkSmartPointer<vtkTransform> placement(const Points& from, const Motion::Options& options)
 {
   Eigen::RowVector3d center(options.Center[0], options.Center[1], options.Center[2]);
   if (options.AutoCenter)
   {
-    center = 0.5 * (from.colwise().minCoeff() + from.colwise().maxCoeff());
+    center = centreOf(from);
   }
-  vtkNew<vtkTransform> transform;
+  auto transform = vtkSmartPointer<vtkTransform>::New();
   transform->Translate(options.Translation.data());
   transform->Translate(center.data());
   transform->RotateZ(options.Rotation[2]);
@@ -102,7 +110,7 @@ Points placed(const Points& from, const Motion::Options& options)
   }
   transform->Concatenate(scale);
   transform->Translate(-center[0], -center[1], -center[2]);
-  return transformed(from, transform);
+  return transform;
 }
 
 /// Moves nodes away from the axis of their cylinder.
@@ -151,6 +159,48 @@ Points withRadius(
   return to;
 }
 
+Points positions(const BoundaryModel& model, const std::vector<Index>& nodes)
+{
+  return model.Points()(nodes, morph::allColumns);
+}
+
+/// The displacement of the whole motion; nothing where it is not affine.
+std::optional<morph::AffineMotion> affineMotion(
+  const Points& from, const Motion::Options& options, const Eigen::RowVector3d& centre)
+{
+  morph::AffineMotion motion = morph::AffineMotion::Zero();
+  vtkSmartPointer<vtkLinearTransform> linear;
+  switch (options.How)
+  {
+    case Motion::Kind::Vector:
+      motion.col(0) << options.Vector[0], options.Vector[1], options.Vector[2];
+      return motion;
+    case Motion::Kind::Placement:
+      linear = placement(from, options);
+      break;
+    case Motion::Kind::Transform:
+      linear = vtkLinearTransform::SafeDownCast(options.Transform);
+      break;
+    default:
+      break;
+  }
+  if (!linear)
+  {
+    return {};
+  }
+  linear->Update();
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      motion(i, 1 + j) = linear->GetMatrix()->GetElement(i, j) - (i == j);
+    }
+    motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
+  }
+  motion.col(0) += motion.rightCols<3>() * centre.transpose();
+  return motion;
+}
+
 Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Motion::Options& options, const Points& from)
 {
@@ -165,7 +215,7 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
     case Motion::Kind::Array:
       return from + arrayRows(input, options.ArrayName, choice.Moving);
     case Motion::Kind::Placement:
-      return placed(from, options);
+      return transformed(from, placement(from, options));
     case Motion::Kind::Radius:
       return withRadius(model, choice, from, options.RadiusChange);
     case Motion::Kind::Target:
@@ -205,11 +255,7 @@ namespace Motion
 Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Options& options)
 {
-  Points from(static_cast<Index>(choice.Moving.size()), 3);
-  for (Index i = 0; i < from.rows(); ++i)
-  {
-    from.row(i) = model.Points().row(choice.Moving[i]);
-  }
+  const Points from = positions(model, choice.Moving);
   if (choice.Moving.empty())
   {
     return from;
@@ -228,6 +274,31 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
     requireModerate(targets, choice.Moving, "ScaleFactor");
   }
   return targets;
+}
+
+std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,
+  const Options& options, const Eigen::RowVector3d& centre)
+{
+  if (choice.Moving.empty())
+  {
+    return {};
+  }
+  std::optional<morph::AffineMotion> motion =
+    affineMotion(positions(model, choice.Moving), options, centre);
+  if (motion)
+  {
+    *motion *= options.ScaleFactor;
+  }
+  return motion;
+}
+
+Eigen::RowVector3d Centre(const BoundaryModel& model, const Choice::Result& choice)
+{
+  if (choice.Moving.empty())
+  {
+    return Eigen::RowVector3d::Zero();
+  }
+  return centreOf(positions(model, choice.Moving));
 }
 
 std::vector<Index> Collapsed(

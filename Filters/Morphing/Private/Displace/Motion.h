@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Morpher/AffineModes.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 class vtkAbstractTransform;
@@ -49,6 +51,13 @@ struct Options
 /// does. Cost: one pass.
 morph::Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Options& options);
+
+/// The displacement of what moves as w c + A (x - centre), with w = 1, or nothing where it is not
+/// affine. `centre`: of choice.Moving.
+std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,
+  const Options& options, const Eigen::RowVector3d& centre);
+/// The middle of the box around the nodes that move; the origin where none does.
+Eigen::RowVector3d Centre(const BoundaryModel& model, const Choice::Result& choice);
 
 /// The cells of model.Surface() that lose their area at `moved` (#nodes x 3), all of their corners
 /// moving. A morph cannot keep the volume cells behind them.

@@ -50,7 +50,7 @@ void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* su
   }
   if (GridMesh::SameCells(grid, this->Copy))
   {
-    this->Polygons.Write(grid->GetPoints(), {}, surface);
+    this->Polygons.Write(grid->GetPoints(), surface);
     return;
   }
   try
@@ -58,7 +58,7 @@ void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* su
     morph::Monitor monitor;
     KeptMesh other;
     other.Take(grid, monitor);
-    other.Polygons.Write(grid->GetPoints(), {}, surface);
+    other.Polygons.Write(grid->GetPoints(), surface);
   }
   catch (const morph::Error&)
   {

@@ -18,17 +18,19 @@
 
 namespace morph::filters::MorphOutput
 {
-void Write(const Session& session, const StepResult& step, int precision, bool certify,
-  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+namespace
 {
-  const morph::Mesh& mesh = session.GetKept().Mesh();
-  const std::vector<std::int8_t>& orientation = session.GetKept().Orientation();
-  Output::Write(grid, mesh.points, step.Moved, precision, output);
+/// Measures all cells, and writes what follows from it.
+void measureAll(const Session& session, const StepResult& step, bool certify, Results& results,
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
+  morph::Monitor& monitor)
+{
+  const KeptMesh& kept = session.GetKept();
   const bool known =
     !step.Valid.Measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
   const morph::Quality quality =
-    known ? step.Valid.Measured : Quality::Measure(mesh, output, orientation, monitor);
+    known ? step.Valid.Measured
+          : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
   std::string status = step.Valid.Status;
   double largestValidStep = step.Valid.LargestValidStep;
   if (status != "Inverted" && quality.inverted + quality.degenerate > 0)
@@ -41,20 +43,49 @@ void Write(const Session& session, const StepResult& step, int precision, bool c
                  " cells. Set OutputPointsPrecision to double.");
   }
   Quality::Write(quality, output);
-  Quality::RemoveCertificate(output);
   results.Set(quality);
   if (certify)
   {
     const morph::CertificateReport report =
-      Quality::Certify(mesh, output, orientation, {}, monitor);
+      Quality::Certify(kept.Mesh(), output, kept.Orientation(), {}, monitor);
     Quality::Write(report, output);
     results.Set(report);
   }
   BadCells::Extract(quality, output, badCells);
-  session.GetKept().Surface().Write(output->GetPoints(), quality.scaledJacobian, surface);
-
+  results.SetInteger(
+    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
   results.SetText("MorphStatus", status);
   results.SetNumber("LargestValidStep", largestValidStep);
+}
+
+/// Measures the cells behind the outer faces alone.
+void measureSurface(const Session& session, Results& results, vtkUnstructuredGrid* output,
+  vtkPolyData* surface, morph::Monitor& monitor)
+{
+  const KeptMesh& kept = session.GetKept();
+  const morph::Quality quality =
+    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().InnerCells(), monitor);
+  results.SetInteger(
+    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
+  results.SetText("MorphStatus", "Unmeasured");
+}
+}
+
+void Write(const Session& session, const StepResult& step, int precision, Measures measures,
+  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+{
+  Output::Write(grid, session.GetKept().Mesh().points, step.Moved, precision, output);
+  Quality::Remove(output);
+  if (measures.All)
+  {
+    measureAll(session, step, measures.Certify, results, output, badCells, surface, monitor);
+  }
+  else
+  {
+    badCells->Initialize();
+    measureSurface(session, results, output, surface, monitor);
+  }
   results.SetInteger("BoundaryInvertedCells", step.BoundaryInverted);
   results.SetInteger("SubSteps", step.Valid.SubSteps);
   results.SetInteger("SolverIterations", step.Iterations);

@@ -21,10 +21,16 @@ struct StepResult;
 /// Writes the outputs of vtkMorphAlgorithm and their results.
 namespace MorphOutput
 {
+struct Measures
+{
+  bool All = true;      ///< of all cells, not of those behind the outer faces alone
+  bool Certify = false; ///< vtkMorphAlgorithm::SetCertify(); with All alone
+};
+
 /// Writes a step's mesh, its inverted cells and its surface. `precision`: of the points, as
-/// vtkAlgorithm::DEFAULT_PRECISION. `certify`: see vtkMorphAlgorithm::SetCertify(). Throws
-/// morph::Error where that precision does not hold the points.
-void Write(const Session& session, const StepResult& step, int precision, bool certify,
+/// vtkAlgorithm::DEFAULT_PRECISION. Throws morph::Error where that precision does not hold the
+/// points.
+void Write(const Session& session, const StepResult& step, int precision, Measures measures,
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
 

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <utility>
 
 namespace morph::filters
@@ -50,6 +51,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   if (this->Kept.Take(grid, monitor))
   {
     this->Method.reset();
+    this->Modes.clear();
     this->Steps.Clear();
   }
 }
@@ -88,8 +90,15 @@ BoundaryMatch::Result Session::Match(
 std::shared_ptr<const StepResult> Session::Morph(
   vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor)
 {
-  return std::make_shared<StepResult>(this->MorphStep(this->Kept.Mesh(),
-    this->Match(boundary, fraction, options, monitor), options, 0, 0.9, monitor));
+  const BoundaryMatch::Result match = this->Match(boundary, fraction, options, monitor);
+  std::optional<AffineHandle> handle;
+  if (options.Matching.DisplacementArray.empty())
+  {
+    handle = AffineHandle::Of(
+      boundary, match, this->Kept.Mesh(), options.Matching.ScaleFactor * fraction, options.IsFloat);
+  }
+  return std::make_shared<StepResult>(
+    this->MorphStep(this->Kept.Mesh(), match, handle, options, 0, 0.9, monitor));
 }
 
 std::shared_ptr<const StepResult> Session::MorphSeries(
@@ -124,7 +133,7 @@ std::shared_ptr<const StepResult> Session::MorphSeries(
     try
     {
       auto made = std::make_shared<StepResult>(
-        this->MorphStep(from, this->Match(boundary, motion.Fraction(step), options, monitor),
+        this->MorphStep(from, this->Match(boundary, motion.Fraction(step), options, monitor), {},
           options, progress(step - 1), progress(step), monitor));
       made->Valid.Measured = {}; // a series keeps meshes alone
       result = std::move(made);
@@ -152,7 +161,8 @@ std::shared_ptr<const StepResult> Session::MorphSeries(
 }
 
 StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Result& match,
-  const Options& options, double first, double last, morph::Monitor& monitor)
+  const std::optional<AffineHandle>& handle, const Options& options, double first, double last,
+  morph::Monitor& monitor)
 {
   const auto part = [&](double a, double b)
   { return morph::ProgressRange(monitor, first + a * (last - first), first + b * (last - first)); };
@@ -177,7 +187,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   const auto start = Clock::now();
   StepResult result;
   const morph::EvaluateReport report =
-    this->Method->evaluate(match.Targets, result.Moved, evaluating);
+    this->Evaluate(match, handle, options, result.Moved, evaluating);
   if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
   {
     throw morph::Error(
@@ -194,9 +204,23 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
       { "PostSmoothSteps", smoothAfterwards(this->Kept.Mesh(), this->Kept.Orientation(), partition,
                              options.PostSmoothIterations, result.Moved, smoothing) });
   }
+  double seconds = secondsSince(start);
   auto checking = part(options.PostSmooth ? 0.85 : 0.75, 1);
-  result.Valid = validity.Ensure(result.Moved, checking);
-  this->Results.SetNumber("EvaluateSeconds", secondsSince(start));
+  if (options.MeasureAll)
+  {
+    result.Valid = validity.Ensure(result.Moved, checking);
+  }
+  else
+  {
+    result.Valid.Status = "Unmeasured";
+    result.Valid.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  }
+  const std::string& status = result.Valid.Status;
+  if (status != "Valid" && status != "Inverted" && status != "Unmeasured")
+  {
+    seconds = secondsSince(start); // cells were not measured alone, but repaired
+  }
+  this->Results.SetNumber("EvaluateSeconds", seconds);
   if (result.Valid.Status == "Inverted")
   {
     result.BoundaryInverted = static_cast<morph::Index>(
@@ -207,6 +231,24 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   result.Prescribed = static_cast<morph::Index>(match.Ids.size());
   result.Unmatched = match.Unmatched;
   return result;
+}
+
+morph::EvaluateReport Session::Evaluate(const BoundaryMatch::Result& match,
+  const std::optional<AffineHandle>& handle, const Options& options, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  const auto* linear = dynamic_cast<const morph::LinearMorpher*>(this->Method.get());
+  if (!handle || !linear)
+  {
+    return this->Method->evaluate(match.Targets, moved, monitor);
+  }
+  // Always, not from the second motion on: a result must not depend on what ran before.
+  if (!this->Modes.isPreparedFor(handle->Fields) || this->ModesOptions != options.EvaluateOptions)
+  {
+    this->Modes.prepare(*linear, handle->Fields, monitor);
+    this->ModesOptions = options.EvaluateOptions;
+  }
+  return this->Modes.evaluate(*linear, handle->Motion, match.Targets, moved, monitor);
 }
 
 void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
@@ -221,6 +263,7 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   }
   const auto start = Clock::now();
   this->Method.reset();
+  this->Modes.clear();
   std::unique_ptr<morph::Morpher> morpher = options.CreateMorpher();
   if (from.points != this->Kept.Mesh().points)
   {

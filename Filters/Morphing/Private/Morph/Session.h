@@ -3,8 +3,10 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Morpher/AffineModes.h"
 #include "Morpher/Morpher.h"
 #include "Private/Data/Results.h"
+#include "Private/Morph/AffineHandle.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/Series.h"
@@ -13,6 +15,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,15 +36,19 @@ public:
   {
     std::string Method; ///< named in messages
     BoundaryMatch::Options Matching;
-    int Validity = 0; ///< vtkMorphAlgorithm::ValidityType
+    int Validity = 0;       ///< vtkMorphAlgorithm::ValidityType
+    bool MeasureAll = true; ///< false only with a validity that changes nothing
     int MaximumSubSteps = 0;
     bool PostSmooth = false;
     int PostSmoothIterations = 0;
     double StepMemoryLimit = 0; ///< megabytes
+    bool IsFloat = false;       ///< the result is rounded to single precision
     /// A text that differs for any two settings of the options that prepare() reads.
     std::string PrepareOptions;
     /// Makes a method with these options.
     std::function<std::unique_ptr<morph::Morpher>()> CreateMorpher;
+    /// A text that differs for any two settings of the options that evaluate() reads.
+    std::string EvaluateOptions;
     /// Sets the options that only evaluate() reads.
     std::function<void(morph::Morpher&)> SetEvaluateOptions;
   };
@@ -87,9 +94,14 @@ private:
   /// Matches the boundary, for that fraction of its motion.
   BoundaryMatch::Result Match(
     vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor) const;
-  /// `first`, `last`: of the progress.
+  /// `handle`: of the match, or nothing. `first`, `last`: of the progress.
   StepResult MorphStep(const morph::Mesh& from, const BoundaryMatch::Result& match,
-    const Options& options, double first, double last, morph::Monitor& monitor);
+    const std::optional<AffineHandle>& handle, const Options& options, double first, double last,
+    morph::Monitor& monitor);
+  /// Moves the mesh by the prepared method, by its modes where a handle has some.
+  morph::EvaluateReport Evaluate(const BoundaryMatch::Result& match,
+    const std::optional<AffineHandle>& handle, const Options& options, morph::Points& moved,
+    morph::Monitor& monitor);
   /// Prepares the method for the mesh, with its own points or others, unless it is prepared.
   void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
     const Options& options, morph::Monitor& monitor);
@@ -98,6 +110,8 @@ private:
   KeptMesh Kept;
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   std::string MethodOptions;
+  morph::AffineModes Modes; ///< of Method under ModesOptions
+  std::string ModesOptions;
 
   Series Steps;
   vtkMTimeType OptionsTime = 0;  ///< for Steps

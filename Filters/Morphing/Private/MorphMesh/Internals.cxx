@@ -151,6 +151,7 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph()
   to->SetDisplacementArray(nullptr);
   to->SetScaleFactor(1);
   to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
+  to->SetQuality(from->Quality);
   to->SetNumberOfSteps(from->NumberOfSteps);
   to->SetStepping(from->Stepping);
   to->SetOutputPointsPrecision(from->OutputPointsPrecision);
@@ -228,6 +229,7 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetInteger("InvertedCells", from->GetInvertedCells());
   to.SetInteger("DegenerateCells", from->GetDegenerateCells());
   to.SetInteger("WorstCellId", from->GetWorstCellId());
+  to.SetInteger("SurfaceInvertedCells", from->GetSurfaceInvertedCells());
   to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());
   to.SetInteger("MirroredBodies", from->GetMirroredBodies());
   to.SetInteger("CertifiedCells", from->GetCertifiedCells());

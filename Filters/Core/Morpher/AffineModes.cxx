@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Morpher/AffineModes.h"
+
+#include "Support/Error.h"
+
+#include <algorithm>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 4096;
+}
+
+void AffineModes::prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor)
+{
+  this->clear();
+  Points weight = Points::Zero(fields.rows(), 3);
+  weight.col(0) = fields.col(0);
+  std::vector<EvaluateReport> reports;
+  const std::vector<Points> modes =
+    method.basis({ fields.rightCols<3>(), weight }, monitor, &reports);
+  this->modes_.resize(modes[0].rows(), 4);
+  this->modes_.col(0) = modes[1].col(0);
+  this->modes_.rightCols<3>() = modes[0];
+  this->report_ = reports[0];
+  this->report_.iterations = std::max(reports[0].iterations, reports[1].iterations);
+  this->report_.relativeResidual =
+    std::max(reports[0].relativeResidual, reports[1].relativeResidual);
+  this->report_.bytesMoved = 80. * static_cast<double>(this->modes_.rows());
+  this->given_ = fields; // last: what throws above leaves nothing prepared
+}
+
+void AffineModes::clear()
+{
+  this->given_.resize(0, 4);
+  this->modes_.resize(0, 4);
+}
+
+bool AffineModes::isPreparedFor(const AffineFields& fields) const
+{
+  return this->modes_.rows() > 0 && this->given_.rows() == fields.rows() && this->given_ == fields;
+}
+
+EvaluateReport AffineModes::evaluate(const LinearMorpher& method, const AffineMotion& motion,
+  const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
+{
+  const Points& rest = method.restPoints();
+  const std::vector<Index>& ids = method.partition().prescribed;
+  if (this->modes_.rows() != rest.rows() || prescribed.rows() != static_cast<Index>(ids.size()))
+  {
+    throw Error("The affine modes are of another mesh or boundary: prepare them for this one.");
+  }
+  moved.resize(rest.rows(), 3);
+  monitor.parallelFor(rest.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index n = first; n < last; ++n)
+      {
+        const Eigen::RowVector3d displacement = affineDisplacement(motion, this->modes_.row(n));
+        for (int j = 0; j < 3; ++j)
+        {
+          // Bit for bit where nothing moves: -0.0 + 0.0 would be 0.0.
+          moved(n, j) = displacement[j] != 0 ? rest(n, j) + displacement[j] : rest(n, j);
+        }
+      }
+    });
+  moved(ids, allColumns) = prescribed;
+  return this->report_;
+}
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/AffineHandle.h"
+
+#include "Private/Data/AffineArrays.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+
+#include <limits>
+
+namespace morph::filters
+{
+namespace
+{
+/// The rounding of one coordinate to be expected, relative to the largest number that led to it.
+double rounding(vtkPointSet* boundary, bool isFloat)
+{
+  const bool single = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
+  return 32 * (single ? double(std::numeric_limits<float>::epsilon())
+                      : std::numeric_limits<double>::epsilon());
+}
+}
+
+std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
+  const BoundaryMatch::Result& match, const morph::Mesh& rest, double scale, bool isFloat)
+{
+  const auto found = AffineArrays::Read(boundary);
+  if (!found || match.Ids.empty())
+  {
+    return {};
+  }
+  AffineHandle handle;
+  handle.Motion = scale * found->Motion;
+  handle.Fields = morph::AffineFields::Zero(match.Targets.rows(), 4);
+  const double size = rest.points.cwiseAbs().maxCoeff() + match.Targets.cwiseAbs().maxCoeff();
+  const double tolerance = rounding(boundary, isFloat) * size;
+  for (morph::Index i = 0; i < handle.Fields.rows(); ++i)
+  {
+    if (match.Sources[i] >= 0)
+    {
+      found->Fields->GetTuple(match.Sources[i], handle.Fields.row(i).data());
+    }
+    const Eigen::RowVector3d place = rest.points.row(match.Ids[i]) +
+                                     morph::affineDisplacement(handle.Motion, handle.Fields.row(i));
+    if (!((place - match.Targets.row(i)).cwiseAbs().maxCoeff() <= tolerance)) // NaN, too
+    {
+      return {};
+    }
+  }
+  return handle;
+}
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The answer of the linear methods to an affine motion with fixed weights.
+#include "LinearMethods.h"
+#include "Meshes.h"
+#include "Morpher/AffineModes.h"
+#include "Motions.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace morph;
+using motions::difference;
+using motions::identical;
+using motions::outerPartition;
+
+namespace
+{
+class AffineModesOf : public testing::TestWithParam<meshes::LinearMethod>
+{
+};
+
+double number(std::mt19937& random)
+{
+  return std::uniform_real_distribution<double>(-1, 1)(random);
+}
+
+AffineMotion randomMotion(std::mt19937& random)
+{
+  return AffineMotion().unaryExpr([&](double) { return .1 * number(random); });
+}
+
+/// Fields of a weight that falls along x, about the origin.
+AffineFields fading(const Mesh& mesh, const NodePartition& partition)
+{
+  AffineFields fields(static_cast<Index>(partition.prescribed.size()), 4);
+  for (Index i = 0; i < fields.rows(); ++i)
+  {
+    const Eigen::RowVector3d x = mesh.points.row(partition.prescribed[i]);
+    const double weight = 1 / (1 + x[0] * x[0]);
+    fields.row(i) << weight, weight * x[0], weight * x[1], weight * x[2];
+  }
+  return fields;
+}
+
+Points targets(const Mesh& mesh, const NodePartition& partition, const AffineFields& fields,
+  const AffineMotion& motion)
+{
+  return meshes::rows(mesh.points, partition.prescribed) + fields * motion.transpose();
+}
+}
+
+TEST_P(AffineModesOf, GiveWhatEvaluateGives)
+{
+  std::mt19937 random(meshes::seed());
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    meshes::ThreadedMonitor monitor(2);
+    const auto method = GetParam().make();
+    method->prepare(mesh, partition, monitor);
+    const AffineFields fields = fading(mesh, partition);
+    AffineModes modes;
+    EXPECT_FALSE(modes.isPreparedFor(fields));
+    modes.prepare(*method, fields, monitor);
+    EXPECT_TRUE(modes.isPreparedFor(fields));
+    EXPECT_FALSE(modes.isPreparedFor(2 * fields));
+    for (int i = 0; i < 3; ++i)
+    {
+      const AffineMotion motion = randomMotion(random);
+      const Points to = targets(mesh, partition, fields, motion);
+      Points direct, moved, again;
+      method->evaluate(to, direct, monitor);
+      modes.evaluate(*method, motion, to, moved, monitor);
+      EXPECT_LT(difference(moved, direct), 1e-8) << name;
+      EXPECT_TRUE(identical(meshes::rows(moved, partition.prescribed), to)) << name;
+      meshes::ThreadedMonitor three(3);
+      modes.evaluate(*method, motion, to, again, three);
+      EXPECT_TRUE(identical(moved, again)) << name;
+    }
+  }
+}
+
+TEST_P(AffineModesOf, WithoutMotionKeepEveryBit)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Monitor monitor;
+    const auto method = GetParam().make();
+    method->prepare(mesh, partition, monitor);
+    const AffineFields fields = fading(mesh, partition);
+    AffineModes modes;
+    modes.prepare(*method, fields, monitor);
+    Points moved;
+    modes.evaluate(*method, AffineMotion::Zero(), meshes::rows(mesh.points, partition.prescribed),
+      moved, monitor);
+    EXPECT_TRUE(identical(moved, mesh.points)) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMethods, AffineModesOf, testing::ValuesIn(meshes::linearMethods()),
+  [](const auto& info) { return info.param.name; });
+
+TEST(AffineModes, RefuseFieldsAndPositionsOfAnotherBoundary)
+{
+  const auto method = meshes::linearMethods().front().make();
+  const Mesh mesh = motions::jittered().front().second;
+  const NodePartition partition = outerPartition(mesh);
+  Monitor monitor;
+  method->prepare(mesh, partition, monitor);
+  AffineModes modes;
+  AffineFields fields = fading(mesh, partition);
+  const AffineMotion motion = AffineMotion::Ones();
+  const Points to = targets(mesh, partition, fields, motion);
+  Points moved;
+  std::string message;
+  motions::kindOf([&] { modes.evaluate(*method, motion, to, moved, monitor); }, message);
+  EXPECT_NE(message.find("prepare them"), std::string::npos) << message;
+  modes.prepare(*method, fields, monitor);
+  motions::kindOf([&] { modes.evaluate(*method, motion, to.topRows(3), moved, monitor); }, message);
+  motions::kindOf([&] { modes.prepare(*method, fields.topRows(3), monitor); }, message);
+  EXPECT_FALSE(modes.isPreparedFor(fields)); // and nothing is half prepared
+  fields(0, 2) = std::nan("");
+  motions::kindOf([&] { modes.prepare(*method, fields, monitor); }, message);
+  EXPECT_NE(message.find("not finite"), std::string::npos) << message;
+}
