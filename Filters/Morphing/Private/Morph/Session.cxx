@@ -52,6 +52,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   {
     this->Method.reset();
     this->Modes.clear();
+    this->Partition = {};
     this->Steps.Clear();
   }
 }
@@ -166,7 +167,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
 {
   const auto part = [&](double a, double b)
   { return morph::ProgressRange(monitor, first + a * (last - first), first + b * (last - first)); };
-  const morph::NodePartition partition = morph::partitionNodes(from, match.Ids);
+  const morph::NodePartition& partition = this->PartitionOf(match.Ids);
   const Validity validity{ options.Validity, options.MaximumSubSteps, from,
     this->Kept.Mesh().points, partition, this->Kept.Orientation(), match.Targets,
     this->Kept.OuterFaces(),
@@ -251,6 +252,15 @@ morph::EvaluateReport Session::Evaluate(const BoundaryMatch::Result& match,
   return this->Modes.evaluate(*linear, handle->Motion, match.Targets, moved, monitor);
 }
 
+const morph::NodePartition& Session::PartitionOf(const std::vector<morph::Index>& prescribed)
+{
+  if (this->Partition.prescribed.empty() || this->Partition.prescribed != prescribed)
+  {
+    this->Partition = morph::partitionNodes(this->Kept.Mesh(), prescribed);
+  }
+  return this->Partition;
+}
+
 void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
   const Options& options, morph::Monitor& monitor)
 {
@@ -284,8 +294,7 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
   this->SetGrid(rest, monitor);
   const BoundaryMatch::Result match = this->Match(displaced, 1, options, monitor);
   morph::ProgressRange preparing(monitor, 0.05, 0.5);
-  this->Prepare(
-    this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), match.Ids), options, preparing);
+  this->Prepare(this->Kept.Mesh(), this->PartitionOf(match.Ids), options, preparing);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Method.get());
   if (!linear)
   {

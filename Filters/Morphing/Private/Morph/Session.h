@@ -102,12 +102,15 @@ private:
   morph::EvaluateReport Evaluate(const BoundaryMatch::Result& match,
     const std::optional<AffineHandle>& handle, const Options& options, morph::Points& moved,
     morph::Monitor& monitor);
+  /// The partition with these prescribed nodes, kept while they stay.
+  const morph::NodePartition& PartitionOf(const std::vector<morph::Index>& prescribed);
   /// Prepares the method for the mesh, with its own points or others, unless it is prepared.
   void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
     const Options& options, morph::Monitor& monitor);
 
   filters::Results& Results;
   KeptMesh Kept;
+  morph::NodePartition Partition;         ///< of Kept, or empty
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   std::string MethodOptions;
   morph::AffineModes Modes; ///< of Method under ModesOptions
