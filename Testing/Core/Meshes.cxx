@@ -2,6 +2,7 @@
 #include "Meshes.h"
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -218,6 +219,69 @@ std::vector<std::pair<std::string, Mesh>> all(int nx, int ny, int nz)
     { "hexes, pyramids and tets", hexesAndPyramids(nx, ny, nz) },
     { "hex20", quadraticHexes(nx, ny, nz, false) }, { "hex27", quadraticHexes(nx, ny, nz, true) },
     { "tet10", quadraticTets(nx, ny, nz) } };
+}
+
+namespace
+{
+/// 0, first, first (1 + growth), ... 1.
+std::vector<double> gradedLine(double first, double growth)
+{
+  std::vector<double> places = { 0 };
+  for (double step = first; places.back() + step < 0.999; step *= growth)
+  {
+    places.push_back(places.back() + step);
+  }
+  places.back() = 1;
+  return places;
+}
+}
+
+Mesh layered(Mesh (*box)(int, int, int), int n, double first, double growth)
+{
+  const std::vector<double> heights = gradedLine(first, growth);
+  Mesh mesh = box(n, n, static_cast<int>(heights.size()) - 1);
+  transform(mesh, [&](const Eigen::RowVector3d& x)
+    { return Eigen::RowVector3d(x[0] / n, x[1] / n, heights[std::lround(x[2])]); });
+  return mesh;
+}
+
+Mesh ring(int around, int height, double first)
+{
+  const std::vector<double> radii = gradedLine(first, 1.2);
+  const Mesh open = hexes(static_cast<int>(radii.size()) - 1, around, height);
+  // The last row of nodes along y is the first one.
+  Mesh mesh;
+  mesh.offsets.push_back(0);
+  std::vector<Index> nodeOf(open.points.rows());
+  std::vector<Eigen::RowVector3d> points;
+  for (Index i = 0; i < open.points.rows(); ++i)
+  {
+    const double angle = 2 * M_PI * open.points(i, 1) / around;
+    const double radius = 1 + radii[std::lround(open.points(i, 0))];
+    if (std::lround(open.points(i, 1)) == around)
+    {
+      nodeOf[i] = nodeOf[i - around * static_cast<Index>(radii.size())];
+      continue;
+    }
+    nodeOf[i] = static_cast<Index>(points.size());
+    points.emplace_back(
+      radius * std::cos(angle), radius * std::sin(angle), 0.8 * open.points(i, 2) / height);
+  }
+  mesh.points.resize(static_cast<Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    mesh.points.row(static_cast<Index>(i)) = points[i];
+  }
+  for (Index c = 0; c < open.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(open.cell(c), open.cell(c) + 8);
+    for (Index& node : nodes)
+    {
+      node = nodeOf[node];
+    }
+    add(mesh, open.types[c], nodes);
+  }
+  return mesh;
 }
 
 void jitterInterior(Mesh& mesh, double amount, unsigned seed)

@@ -39,6 +39,14 @@ Mesh quadraticTets(int nx, int ny, int nz);
 /// All of the above at one size, with a name for the message.
 std::vector<std::pair<std::string, Mesh>> all(int nx, int ny, int nz);
 
+/// [0, 1]^3: n x n columns of layers, which grow upwards from the height `first`. `box`: hexes,
+/// tets, ... above.
+Mesh layered(Mesh (*box)(int, int, int), int n, double first, double growth);
+
+/// The ring 1 <= r <= 2, `height` layers over 0 <= z <= 0.8, in hexahedra that grow outwards by 1.2
+/// from the length `first`.
+Mesh ring(int around, int height, double first);
+
 /// Moves the nodes that are not on the box by up to `amount` in each coordinate.
 void jitterInterior(Mesh& mesh, double amount, unsigned seed);
 /// Applies `map` to every node.

@@ -17,6 +17,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 using namespace meshes;
 using namespace morph;
@@ -295,6 +296,27 @@ TEST(FemWarp, StretchedAndRandomlyNumberedMeshesConvergeFast)
   const EvaluateReport report = method.evaluate(
     targets(mesh, partition, [](const auto& x) { return twist(x, 20, 20, 1); }), result, monitor);
   EXPECT_LT(report.iterations, 60);
+}
+
+TEST(FemWarp, LayersOfHexahedraConvergeFast)
+{
+  // Of these, two have rows whose far neighbors nearly outweigh the diagonal.
+  const std::tuple<int, double, double> layers[] = { { 6, 0.03, 1.1 }, { 8, 1e-4, 1.2 },
+    { 8, 1e-5, 1.2 }, { 5, 1e-3, 1.4 }, { 11, 3e-3, 1.15 } };
+  for (const auto& [n, first, growth] : layers)
+  {
+    const Mesh mesh = meshes::layered(meshes::hexes, n, first, growth);
+    const NodePartition partition = outerPartition(mesh);
+    const Points target =
+      targets(mesh, partition, [](const motions::Row& x) { return twist(x, 1, 1, 1); });
+    ThreadedMonitor monitor(2);
+    FemWarp method;
+    method.prepare(mesh, partition, monitor);
+    Points moved;
+    const EvaluateReport report = method.evaluate(target, moved, monitor);
+    EXPECT_LE(report.iterations, 40) << n << " " << first << " " << growth;
+    EXPECT_LE(report.relativeResidual, 1e-10);
+  }
 }
 
 TEST(FemWarp, RandomNumbersChangeTheRowsNotTheResult)

@@ -28,8 +28,8 @@ struct Setting
   {
     const std::vector<std::int8_t> orientation =
       morph::cellSigns(mesh, morph::connectedComponents(mesh));
-    this->energy.setTargets(
-      morph::targetMatrices(mesh, orientation, mesh.points, target, this->monitor));
+    this->energy.setTargets(morph::targetMatrices(
+      mesh, orientation, mesh.points, target, morph::CellWeights::Volume, this->monitor));
     morph::FoldoverDensity density;
     density.epsilon = epsilon;
     this->energy.setDensity(density);

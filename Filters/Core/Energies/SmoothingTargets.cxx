@@ -85,8 +85,8 @@ TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>
   {
     return idealTargets(rest, orientation);
   }
-  TargetMatrices result =
-    targetMatrices(rest, orientation, rest.points, TargetConstruction::Initial, monitor);
+  TargetMatrices result = targetMatrices(
+    rest, orientation, rest.points, TargetConstruction::Initial, CellWeights::Volume, monitor);
   for (TargetMatrices::Tetrahedron& tetrahedron : result.tetrahedra)
   {
     tetrahedron.theta = 0;

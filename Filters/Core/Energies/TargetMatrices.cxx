@@ -235,7 +235,7 @@ CellCorners idealShape(Shape shape, const Eigen::Vector3d& length)
 }
 
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, TargetConstruction target, Monitor& monitor)
+  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor)
 {
   const Index cells = rest.numberOfCells();
   TargetMatrices result;
@@ -290,7 +290,8 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
           x.row(0) *= sign;
         }
         const SimplicialDecomposition parts = simplicialDecomposition(shape);
-        const double least = LeastVolume * meanVolume(parts, x);
+        const double mean = meanVolume(parts, x), least = LeastVolume * mean;
+        const double unit = weights == CellWeights::Volume ? 1 : mean;
         for (int t = 0; t < parts.count; ++t)
         {
           TargetMatrices::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
@@ -303,7 +304,7 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
           }
           Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
           tetrahedron.theta = theta;
-          tetrahedron.weight = parts.tets[t].weight * volume;
+          tetrahedron.weight = parts.tets[t].weight * volume / unit;
         }
       }
     });

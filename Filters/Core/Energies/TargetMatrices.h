@@ -20,6 +20,14 @@ enum class TargetConstruction
   IdealSkew
 };
 
+/// What a cell counts for in the energy.
+enum class CellWeights
+{
+  Volume, ///< of its target: affine motions are stationary with Initial targets
+  /// all cells alike: inverted cells of a boundary layer would hardly count by their volume
+  Equal
+};
+
 /// The corners of a cell, one a column, in the order of its shape.
 using CellCorners = Eigen::Matrix<double, 3, 8>;
 
@@ -37,8 +45,10 @@ struct TargetMatrices
   struct Tetrahedron
   {
     double inverse[9]; ///< column major
-    double weight;     ///< decomposition weight times target volume; the mean over all is 1
-    double theta;      ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
+    /// decomposition weight times target volume, with CellWeights::Equal in units of the cell's
+    /// mean; the mean over all is 1
+    double weight;
+    double theta; ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
   };
   std::vector<Index> start; ///< #cells + 1
   std::vector<Tetrahedron> tetrahedra;
@@ -52,7 +62,7 @@ struct TargetMatrices
 /// cell that are not positive have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a
 /// hexahedron).
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, TargetConstruction target, Monitor& monitor);
+  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor);
 
 /// Sets weight 0 for tetrahedra with three corners on one of the boundary `faces` numbered in
 /// `folded`. On a folded face, either these tetrahedra or their neighbors are inverted.

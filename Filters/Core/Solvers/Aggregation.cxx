@@ -11,6 +11,7 @@ namespace morph
 namespace
 {
 constexpr double NearShare = 0.1; // of the squared distance: sqrt(10) times the nearest distance
+constexpr float LeastDiagonal = 0.25f; // of a filtered row, in units of the matrix's own
 constexpr Index Grain = 4096;
 
 double distance2(const Points& points, Index i, Index j)
@@ -130,12 +131,16 @@ CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
   return assembleRows<float>(A.rows, groups, monitor,
     [&](int i, const auto& add)
     {
-      float diagonal = 0;
+      float diagonal = 0, own = 0;
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
         diagonal += near[k] ? 0 : A.value[k];
+        own += A.column[k] == i ? A.value[k] : 0;
       }
-      if (!(diagonal > 0)) // the far neighbors outweigh it: the row is not smoothed
+      // The far neighbors nearly outweigh it: smoothing the row would blow it up, and the next
+      // level would be singular to rounding. Layers of hexahedra have such rows where their height
+      // comes near their width.
+      if (!(diagonal > LeastDiagonal * own))
       {
         add(group[i], 1);
         return;

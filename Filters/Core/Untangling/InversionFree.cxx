@@ -92,8 +92,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(targetMatrices(
-    this->referenceMesh_, this->orientation_, atRest, TargetConstruction::Initial, monitor));
+  energy.setTargets(targetMatrices(this->referenceMesh_, this->orientation_, atRest,
+    TargetConstruction::Initial, CellWeights::Volume, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
   this->minimumAtRest_ =
     measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
@@ -129,6 +129,13 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
+TargetMatrices InversionFree::targets(const Points& guide, bool isTangled, Monitor& monitor) const
+{
+  const bool equal = isTangled && this->target_ != TargetConstruction::Initial;
+  return targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_,
+    equal ? CellWeights::Equal : CellWeights::Volume, monitor);
+}
+
 double InversionFree::goal(const MovableQuality& quality, const Points& points) const
 {
   // One place that the boundary spoils does not set the goal for the rest.
@@ -143,8 +150,8 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
 {
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
-  const TargetMatrices targets =
-    targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_, monitor);
+  const bool isTangled = best <= 0;
+  const TargetMatrices targets = this->targets(guide, isTangled, monitor);
   monitor.check();
   ProgressRange untangle(monitor, 0.1, 0.7);
   const Untangling::Result untangling = Untangling(
@@ -158,8 +165,7 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
          refresh < this->refreshes_ && this->target_ == TargetConstruction::Stretched; ++refresh)
     {
       const Points ownGuide = points;
-      energy.setTargets(
-        targetMatrices(this->referenceMesh_, this->orientation_, ownGuide, this->target_, monitor));
+      energy.setTargets(this->targets(ownGuide, isTangled, monitor));
       stages.improve(points, RefreshSteps, monitor);
     }
     monitor.progress(0.8);
@@ -181,9 +187,7 @@ bool InversionFree::untangleNear(
   FoldoverContinuation stages(nothing, this->minimizer_);
   const bool done = Untangling(
     this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                      .runNear(targetMatrices(this->referenceMesh_, this->orientation_, guide,
-                                 this->target_, monitor),
-                        stages, points, monitor);
+                      .runNear(this->targets(guide, true, monitor), stages, points, monitor);
   effort = stages.effort();
   return done;
 }
@@ -194,54 +198,51 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Points& guid
   monitor.check();
   const MovableQuality quality = this->movableQuality();
   const double goal = this->goal(quality, points);
+  Points bestPoints = alternative;
   MovableQuality::Result best = quality.measure(alternative, monitor);
-  bool isValid = best.inverted == 0;
   Outcome outcome;
-  Points raised;
   const bool raisesFirst = this->raisesMinimum() && this->target_ == TargetConstruction::Stretched;
-  if (raisesFirst && !isValid && this->validAtRest_)
+  if (raisesFirst && best.inverted > 0 && this->validAtRest_)
   {
     ProgressRange near(monitor, 0.1, 0.3);
-    raised = alternative;
-    isValid = this->untangleNear(guide, raised, outcome.effort, near);
-    if (isValid)
+    Points untangled = alternative;
+    if (this->untangleNear(guide, untangled, outcome.effort, near))
     {
-      best = quality.measure(raised, monitor);
-      isValid = best.inverted == 0;
+      best = quality.measure(untangled, monitor);
+      bestPoints = std::move(untangled);
     }
   }
-  else
-  {
-    raised = alternative;
-  }
+  const bool isValid = best.inverted == 0;
   outcome.untangled = isValid;
   // Raising the minimum of a valid mesh costs far less than minimising the energy.
   if (isValid && raisesFirst)
   {
-    if (raiseMinimumQuality(quality, goal, raised, monitor) > 0)
+    if (raiseMinimumQuality(quality, goal, bestPoints, monitor) > 0)
     {
-      best = quality.measure(raised, monitor);
+      best = quality.measure(bestPoints, monitor);
     }
     if (hasReached(best.minimum, goal) || best.minimum >= enough * this->minimumAtRest_)
     {
-      points = std::move(raised);
+      points = std::move(bestPoints);
       return outcome;
     }
     if (this->start_ == Start::FemWarp)
     {
-      points = raised;
+      points = bestPoints;
     }
   }
   outcome.untangled = this->minimizeEnergy(quality, goal, isValid ? best.minimum : 0, guide, points,
                         outcome, monitor) ||
                       isValid;
-  if (isValid && quality.measure(points, monitor) < best)
+  if (quality.measure(points, monitor) < best)
   {
-    points = raised;
-    outcome.onFolds.clear();
+    points = bestPoints;
+    if (isValid)
+    {
+      outcome.onFolds.clear();
+    }
   }
-  outcome.kept =
-    isValid && outcome.effort.steps > 0 && (points.array() == alternative.array()).all();
+  outcome.kept = outcome.effort.steps > 0 && (points.array() == alternative.array()).all();
   if (outcome.kept && this->target_ == TargetConstruction::IdealSkew && this->raisesMinimum())
   {
     outcome.kept = raiseMinimumQuality(quality, goal, points, monitor) == 0;

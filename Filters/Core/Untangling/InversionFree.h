@@ -99,6 +99,9 @@ private:
   /// Returns FEMWARP's mesh `warped`, or simplex-linear's if that is better.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   MovableQuality movableQuality() const;
+  /// The targets of all cells. `isTangled`: of the mesh that is minimised. All cells then count
+  /// alike, so that those of a boundary layer are untangled, too; never for Initial.
+  TargetMatrices targets(const Points& guide, bool isTangled, Monitor& monitor) const;
   /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
   /// holds that of the whole mesh there; infinite where it does not.
   double goal(const MovableQuality& quality, const Points& points) const;
