@@ -210,6 +210,15 @@ TEST_F(AdjointInputs, CoordinatesThatAreNotFiniteAreRefusedWhereNothingElseLooks
     std::string::npos);
 }
 
+TEST_F(AdjointInputs, AMeshWithoutPointsDrawsAnError)
+{
+  vtkNew<vtkUnstructuredGrid> empty; // its GetPoints() is null
+  auto carrier = grids::cloud(grids::Row(0, 0, 0));
+  grids::addVectors(carrier, "Gradient", Points::Zero(1, 3));
+  auto adjoint = adjointOf(this->Morph, empty, this->Boundary, carrier);
+  EXPECT_NE(this->ErrorOf(adjoint), "");
+}
+
 TEST_F(AdjointInputs, GradientsThatOverflow)
 {
   this->Grid->GetPointData()->GetArray("Gradient")->Fill(1e308);

@@ -108,7 +108,7 @@ void RequireWritable(
 bool IsFloat(vtkPointSet* input, int precision)
 {
   return precision == vtkAlgorithm::SINGLE_PRECISION ||
-         (precision == vtkAlgorithm::DEFAULT_PRECISION &&
+         (precision == vtkAlgorithm::DEFAULT_PRECISION && input->GetPoints() &&
            input->GetPoints()->GetDataType() == VTK_FLOAT);
 }
 

@@ -18,7 +18,8 @@ namespace morph::filters::Output
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
   int precision, vtkUnstructuredGrid* output);
 
-/// Whether points for `input` are written as float at this precision.
+/// Whether points for `input` are written as float at this precision. An input without points, as a
+/// fresh vtkUnstructuredGrid is, has double ones.
 bool IsFloat(vtkPointSet* input, int precision);
 
 /// Throws morph::Error where a row of `moved` is not finite or beyond what DataCheck
