@@ -319,6 +319,13 @@ Mesh renumbered(const Mesh& mesh, const std::vector<Index>& order)
   {
     node = order[node];
   }
+  for (Index at = 0; at < static_cast<Index>(mesh.faces.size()); at += mesh.faces[at] + 1)
+  {
+    for (Index k = 1; k <= mesh.faces[at]; ++k)
+    {
+      result.faces[at + k] = order[mesh.faces[at + k]];
+    }
+  }
   return result;
 }
 

@@ -435,7 +435,7 @@ TEST(Certificate, CountsVolumeCellsOnly)
   const Cell voxel = { Cube[0], Cube[1], Cube[3], Cube[2], Cube[4], Cube[5], Cube[7], Cube[6] };
   const Mesh mesh = meshOf({ { Triangle, Cell(RightTet.begin(), RightTet.begin() + 3) },
     { Tetra, inverted }, { QuadraticTetra, quadratic }, { Hexahedron, notFinite }, { Voxel, voxel },
-    { 42, RightTet }, { Tetra, RightTet } });
+    { 72, RightTet }, { Tetra, RightTet } });
   const CertificateReport report = certifyAll(mesh);
   const auto U = Certificate::Undecided, C = Certificate::Certified;
   EXPECT_EQ(report.cells, (std::vector<Certificate>{ U, Certificate::Inverted, C, U, C, U, C }));

@@ -114,6 +114,12 @@ TEST(GeneralSolver, ColumnsStopByThemselves)
   EXPECT_EQ(x.col(1), Eigen::VectorXd::Zero(A.rows()));
   EXPECT_EQ(x.col(2), before);
 
+  // A column that is hardly above rounding is not reported as one that stagnates.
+  problem.b.col(1) *= 3e-14 * 1e17;
+  x.setZero();
+  report = solver.solve(problem.b, x, 1e-10, 500, monitor);
+  EXPECT_LE(report.relativeResidual, 1e-10);
+
   x.setZero();
   report = solver.solve(Points::Zero(A.rows(), 3), x, 1e-10, 500, monitor);
   EXPECT_EQ(report.iterations, 0);

@@ -6,6 +6,7 @@
 #include "Quality/PolynomialRoot.h"
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
+#include "RandomMeshes.h"
 
 #include <gtest/gtest.h>
 
@@ -66,22 +67,9 @@ void makeCase(Case& result, const std::string& kind, bool isRotation, int number
   std::mt19937 random(meshes::seed() + 1000 * number);
   std::uniform_real_distribution<double> one(-1, 1);
   Mesh& mesh = result.mesh;
-  mesh = kind == "hexes"             ? meshes::hexes(2, 1, 1)
-         : kind == "tets"            ? meshes::tets(1, 1, 1)
-         : kind == "wedges"          ? meshes::wedges(1, 1, 1)
-         : kind == "quadratic hexes" ? meshes::quadraticHexes(1, 1, 1, number % 2)
-         : kind == "quadratic tets"  ? meshes::quadraticTets(1, 1, 1)
-                                     : meshes::hexesAndPyramids(2, 1, 1);
+  mesh = meshes::randomMesh(kind, number, random);
   const auto noise = [&](double amount)
-  {
-    return Points(
-      Points(mesh.points.rows(), 3).unaryExpr([&](double) { return amount * one(random); }));
-  };
-  mesh.points += noise(kind.find("quadratic") == 0 ? .03 : .1);
-  if (number % 3 == 0)
-  {
-    mesh.points.col(1) *= -1;
-  }
+  { return meshes::noise(mesh.points.rows(), amount, random); };
   result.orientation = cellSigns(mesh, connectedComponents(mesh));
   result.first = noise(isRotation ? .5 : 1);
   result.second = noise(.5);

@@ -60,7 +60,7 @@ const CellShape* cellShape(std::uint8_t type)
 {
   static const auto table = []
   {
-    std::array<CellShape, 40> t{};
+    std::array<CellShape, Polyhedron + 1> t{};
     t[EmptyCell] = flat("empty cell", Shape::Other, 0, 0, 0);
     t[Vertex] = flat("vertex", Shape::Other, 0, 1, 1);
     t[PolyVertex] = flat("poly-vertex", Shape::Other, 0, -1, 0);
@@ -91,6 +91,7 @@ const CellShape* cellShape(std::uint8_t type)
     t[BiquadraticQuadraticWedge] = wedge("biquadratic-quadratic wedge", 18);
     t[BiquadraticQuadraticHexahedron] = hex("biquadratic-quadratic hexahedron", 24);
     t[BiquadraticTriangle] = flat("biquadratic triangle", Shape::Tri, 2, 7, 3);
+    t[Polyhedron] = { "polyhedron", Shape::Polyhedron, 3, -1, 0, 0, nullptr, InOrder, nullptr };
     return t;
   }();
   return type < table.size() && table[type].name ? &table[type] : nullptr;

@@ -40,7 +40,8 @@ enum CellType : std::uint8_t
   QuadraticLinearWedge = 31,
   BiquadraticQuadraticWedge = 32,
   BiquadraticQuadraticHexahedron = 33,
-  BiquadraticTriangle = 34
+  BiquadraticTriangle = 34,
+  Polyhedron = 42
 };
 
 /// The linear shape that a cell's corners span.
@@ -52,7 +53,8 @@ enum class Shape : std::uint8_t
   Tet,
   Hex,
   Wedge,
-  Pyramid
+  Pyramid,
+  Polyhedron ///< no corners or faces of the table: those of each cell are in the mesh
 };
 
 /// A face of a volume cell, by the cell's corner numbers. Its normal points outward by the
@@ -81,7 +83,7 @@ struct CellShape
   const double (*extraNodes)[3];
 };
 
-/// Returns null for a type that this library does not know (polyhedron, Lagrange, ...).
+/// Returns null for a type that this library does not know (Lagrange, ...).
 const CellShape* cellShape(std::uint8_t type);
 
 /// Copies the positions of a cell's corners, in the order of its shape. `points`: #nodes x 3;

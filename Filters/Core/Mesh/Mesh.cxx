@@ -2,6 +2,7 @@
 #include "Mesh/Mesh.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -52,11 +53,10 @@ void validate(const Mesh& mesh)
   {
     const int type = mesh.types[unknown.front()];
     throw Error("Cells of VTK type " + std::to_string(type) +
-                (type == 42    ? " (polyhedron)"
-                  : type >= 60 ? " (higher order)"
-                               : "") +
-                " cannot be morphed: cell ids " + listIds(unknown) +
-                ". Use tetrahedra, hexahedra, voxels, wedges, pyramids or their quadratic forms.");
+                (type >= 60 ? " (higher order)" : "") + " cannot be morphed: cell ids " +
+                listIds(unknown) +
+                ". Use tetrahedra, hexahedra, voxels, wedges, pyramids, their quadratic forms or "
+                "polyhedra.");
   }
   if (!wrongSize.empty())
   {
@@ -72,6 +72,7 @@ void validate(const Mesh& mesh)
     throw Error("Cells that name nodes outside 0 to " + std::to_string(nodes - 1) + ": cell ids " +
                 listIds(wrongNodes) + ".");
   }
+  requireClosedPolyhedra(mesh);
 
   std::vector<Index> notFinite;
   for (Index n = 0; n < nodes; ++n)

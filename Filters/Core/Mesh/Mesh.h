@@ -16,6 +16,10 @@ struct Mesh
   std::vector<std::uint8_t> types; ///< #cells, VTK cell types (see CellShape.h)
   std::vector<Index> offsets;      ///< #cells + 1, start of each cell in `connectivity`
   std::vector<Index> connectivity; ///< node ids of all cells, one cell after another
+  /// #cells + 1, start of each polyhedron's faces in `faces`; empty in a mesh without polyhedra
+  std::vector<Index> faceOffsets;
+  /// each face of a polyhedron: its number of nodes, then their ids, outward (see Polyhedra.h)
+  std::vector<Index> faces;
 
   Index numberOfNodes() const { return static_cast<Index>(this->points.rows()); }
   Index numberOfCells() const { return static_cast<Index>(this->types.size()); }
@@ -24,7 +28,7 @@ struct Mesh
 };
 
 /// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates, nodes
-/// per cell. The message names cells of a type that is not in CellShape.h (polyhedra, for
-/// instance). Cost: one pass over the mesh.
+/// per cell, closed polyhedra. The message names cells of a type that is not in CellShape.h
+/// (Lagrange cells, for instance). Cost: one pass over the mesh.
 void validate(const Mesh& mesh);
 }

@@ -2,6 +2,7 @@
 #include "Mesh/NodePartition.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Support/Error.h"
 
@@ -50,10 +51,11 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
     {
       continue;
     }
+    const Index corners = cornerCount(mesh, c, *shape);
     for (Index k = 0; k < mesh.cellSize(c); ++k)
     {
       std::uint8_t& r = role[mesh.cell(c)[k]];
-      r = std::max<std::uint8_t>(r, k < shape->numberOfCorners ? Free : Follower);
+      r = std::max<std::uint8_t>(r, k < corners ? Free : Follower);
     }
   }
   for (Index id : prescribed)

@@ -2,6 +2,8 @@
 #include "Mesh/Topology.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/FaceTable.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Support/UnionFind.h"
 
@@ -55,6 +57,31 @@ std::array<Index, 4> faceKey(const Mesh& mesh, Index cell, const CellShape& shap
 }
 
 constexpr int MostFaces = 6;
+
+/// A face by its cell and its number there.
+struct Place
+{
+  Index cell;
+  int side;
+};
+
+/// Returns the faces that one cell alone uses, ascending, where the mesh has polyhedra.
+std::vector<Place> outerFacesAmongAll(const Mesh& mesh, Monitor& monitor)
+{
+  const FaceTable table = faceTable(mesh, monitor);
+  std::vector<Place> faces;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
+    {
+      if (table.uses[f] == 1 && table.size(f) >= 3)
+      {
+        faces.push_back({ c, static_cast<int>(f - table.start[c]) });
+      }
+    }
+  }
+  return faces;
+}
 }
 
 Adjacency nodeToCells(const Mesh& mesh)
@@ -68,8 +95,8 @@ Adjacency nodeToCells(const Mesh& mesh)
     {
       if (const CellShape* shape = volumeShape(mesh, c))
       {
-        for (const Index* node = mesh.cell(c); node != mesh.cell(c) + shape->numberOfCorners;
-             ++node)
+        const Index* end = mesh.cell(c) + cornerCount(mesh, c, *shape);
+        for (const Index* node = mesh.cell(c); node != end; ++node)
         {
           if (last[*node] != c)
           {
@@ -88,7 +115,10 @@ Adjacency nodeToCells(const Mesh& mesh)
   return result;
 }
 
-BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
+namespace
+{
+/// Returns the faces that one cell alone uses, ascending.
+std::vector<Place> outerFaces(const Mesh& mesh, Monitor& monitor)
 {
   // Buckets the faces by their lowest corner: equal faces are in one bucket.
   const Index nodes = mesh.numberOfNodes();
@@ -159,6 +189,35 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   faces.erase(std::remove(faces.begin(), faces.end(), -1), faces.end());
   std::sort(faces.begin(), faces.end());
 
+  std::vector<Place> places;
+  places.reserve(faces.size());
+  for (Index face : faces)
+  {
+    places.push_back({ face / MostFaces, static_cast<int>(face % MostFaces) });
+  }
+  return places;
+}
+
+void addPolyhedronFace(const Mesh& mesh, const Place& place, BoundaryFaces& result)
+{
+  int side = 0;
+  forEachFace(mesh, place.cell,
+    [&](const Index* nodes, Index size)
+    {
+      if (side++ == place.side)
+      {
+        result.connectivity.insert(result.connectivity.end(), nodes, nodes + size);
+      }
+    });
+}
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
+{
+  const Index nodes = mesh.numberOfNodes();
+  const std::vector<Place> faces =
+    hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
+
   BoundaryFaces result;
   std::vector<std::uint8_t> onBoundary(
     nodes, 0);                               // 1: as a corner, 2: in the middle of an edge or face
@@ -166,14 +225,26 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   result.offsets.reserve(faces.size() + 1);
   result.cells.reserve(faces.size());
   result.offsets.push_back(0);
-  for (Index face : faces)
+  for (const Place& face : faces)
   {
-    const Index cell = face / MostFaces;
+    const Index cell = face.cell;
+    result.cells.push_back(cell);
+    result.sides.push_back(face.side);
+    if (isPolyhedron(mesh, cell))
+    {
+      addPolyhedronFace(mesh, face, result);
+      for (Index k = result.offsets.back(); k < static_cast<Index>(result.connectivity.size()); ++k)
+      {
+        onBoundary[result.connectivity[k]] = 1;
+      }
+      result.offsets.push_back(static_cast<Index>(result.connectivity.size()));
+      continue;
+    }
     const CellShape& shape = *volumeShape(mesh, cell);
-    const FaceShape& f = shape.faces[face % MostFaces];
+    const FaceShape& f = shape.faces[face.side];
     bool isOn[8] = {};
     Index corners[4];
-    const int size = faceNodes(mesh, cell, shape, static_cast<int>(face % MostFaces), corners);
+    const int size = faceNodes(mesh, cell, shape, face.side, corners);
     for (int k = 0; k < size; ++k)
     {
       result.connectivity.push_back(corners[k]);
@@ -209,8 +280,6 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
         }
       }
     }
-    result.cells.push_back(cell);
-    result.sides.push_back(static_cast<std::uint8_t>(face % MostFaces));
     result.offsets.push_back(static_cast<Index>(result.connectivity.size()));
   }
 
@@ -248,7 +317,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
     if (const CellShape* shape = volumeShape(mesh, c))
     {
       Index root = mesh.cell(c)[0];
-      for (int k = 1; k < shape->numberOfCorners; ++k)
+      for (Index k = 1; k < cornerCount(mesh, c, *shape); ++k)
       {
         root = bodies.join(root, mesh.cell(c)[k]);
       }
@@ -266,7 +335,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
         body = result.count++;
       }
       result.ofCell[c] = body;
-      for (int k = 0; k < shape->numberOfCorners; ++k)
+      for (Index k = 0; k < cornerCount(mesh, c, *shape); ++k)
       {
         result.ofNode[mesh.cell(c)[k]] = body;
       }
@@ -278,7 +347,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies)
 {
   const Index cells = mesh.numberOfCells();
-  constexpr int Shapes = static_cast<int>(Shape::Pyramid) + 1;
+  constexpr int Shapes = static_cast<int>(Shape::Polyhedron) + 1;
   struct Sum
   {
     double volume = 0;
@@ -291,10 +360,17 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
   {
     if (const CellShape* shape = volumeShape(mesh, c))
     {
-      double corners[8][3];
-      copyCorners(mesh, c, *shape, mesh.points, corners[0]);
       Sum& sum = slot(c, shape->shape);
-      sum.volume += signedVolume(shape->shape, corners);
+      if (isPolyhedron(mesh, c))
+      {
+        sum.volume += polyhedronVolume(mesh, c, mesh.points);
+      }
+      else
+      {
+        double corners[8][3];
+        copyCorners(mesh, c, *shape, mesh.points, corners[0]);
+        sum.volume += signedVolume(shape->shape, corners);
+      }
       ++sum.cells;
     }
   }

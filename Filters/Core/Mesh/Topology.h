@@ -16,8 +16,8 @@ struct BoundaryFaces
   std::vector<Index> offsets; ///< #faces + 1, into `connectivity`
   /// node ids, outward by the right-hand rule for cells in VTK's order
   std::vector<Index> connectivity;
-  std::vector<Index> cells;        ///< #faces, the volume cell that owns the face
-  std::vector<std::uint8_t> sides; ///< #faces, its number in CellShape::faces
+  std::vector<Index> cells; ///< #faces, the volume cell that owns the face
+  std::vector<int> sides;   ///< #faces, its number in CellShape::faces or among the polyhedron's
   std::vector<Index> nodes; ///< sorted: all nodes of these faces, including mid-side and face nodes
   /// #nodes: corners of the edge or face whose middle the node is; empty for a corner
   Adjacency between;

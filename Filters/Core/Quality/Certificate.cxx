@@ -6,6 +6,7 @@
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/BernsteinDomain.h"
 #include "Quality/BernsteinHex.h"
+#include "Quality/PolyhedronQuality.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Support/ReproducibleSum.h"
 
@@ -136,7 +137,12 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
     {
       return {};
     }
-    if (shape)
+    if (shape && shape->shape == Shape::Polyhedron)
+    {
+      thread_local PolyhedronMeasure measure; // for its memory
+      report.cells[c] = measure.certify(mesh, c, points, orientation.empty() ? 1 : orientation[c]);
+    }
+    else if (shape)
     {
       Vector x[MostNodesOfVolume];
       for (int k = 0; k < shape->numberOfNodes; ++k)

@@ -40,6 +40,9 @@ enum class Certificate : std::int8_t
 ///   233 (2013) 359-372). Its corner signs are bounded, not exact. With nodes exactly in the middle
 ///   of their corners the cell is proved as the linear one that it is.
 ///
+/// - Polyhedron (certify() alone): OpenFOAM's test of face pyramids, see PolyhedronQuality.h. It is
+///   a test of volumes, not of a map.
+///
 /// Undecided are hexahedra and wedges with a determinant within about 1e-13 of zero, but no corner
 /// at or below zero. This is relative to the product of the longest edges in the three directions.
 /// Also undecided are quadratic cells within about 1e-11 of zero, even if exactly zero (a node at a

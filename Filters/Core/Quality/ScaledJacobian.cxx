@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Quality/CornerNodes.h"
+#include "Quality/PolyhedronQuality.h"
 #include "Quality/QuadraticJacobian.h"
 
 #include <Eigen/Geometry>
@@ -205,6 +206,7 @@ double measure(Shape shape, const Vector* x, int corners, unsigned samples, bool
     case Shape::Pyramid:
       value = pyramid(x, samples, collapsed);
       break;
+    case Shape::Polyhedron: // has no corners in a table: see PolyhedronMeasure
     case Shape::Other:
       break;
   }
@@ -246,6 +248,7 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   monitor.parallelFor(cells, 4096,
     [&](Index first, Index last)
     {
+      PolyhedronMeasure polyhedra;
       for (Index c = first; c < last; ++c)
       {
         const CellShape* shape = cellShape(mesh.types[c]);
@@ -256,6 +259,13 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         }
         // Measures a cell in mirrored order as its mirror image.
         const double sign = orientation.empty() ? 1 : orientation[c];
+        if (shape->shape == Shape::Polyhedron)
+        {
+          bool isFlat = false;
+          quality.scaledJacobian[c] = polyhedra.scaledJacobian(mesh, c, points, sign, isFlat);
+          isCollapsed[c] = isFlat;
+          continue;
+        }
         Vector x[8];
         copyCorners(mesh, c, *shape, points, x[0].data());
         for (int k = 0; k < shape->numberOfCorners; ++k)

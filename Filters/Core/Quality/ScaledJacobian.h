@@ -21,6 +21,8 @@ namespace morph
 ///   tri      2/sqrt(3) times twice the area / largest product of two edge lengths (never negative)
 ///   quad     minimum corner, signed by the normal at the centre
 ///
+/// measureQuality() also has polyhedra (PolyhedronQuality.h).
+///
 /// Two values differ from Verdict: 0 where a corner's edges have no length (Verdict: 1e30), and a
 /// pyramid's negative values (Verdict: 0). Only the corners of a quadratic cell count here;
 /// measureQuality() looks inside it. `corners`: numberOfCorners x 3, in VTK's hexahedron, wedge,
@@ -60,9 +62,10 @@ struct Quality
 /// corners' value unless its true map proves otherwise (quadraticScaledJacobian()). It is then at
 /// most 0 if the determinant is negative somewhere inside.
 ///
-/// `points`: #nodes x 3, the positions to measure, instead of the mesh's own. `orientation`: #cells
-/// of +1 / -1 (Topology.h), or empty for VTK's order throughout. Runs in parallel; sums have a
-/// fixed order. Cost: one pass, about 0.1 microseconds a cell, 5 for a quadratic volume cell.
+/// `points`: #nodes x 3, the positions to measure; the mesh's own tell the corners of polyhedra.
+/// `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout. Runs in
+/// parallel; sums have a fixed order. Cost: one pass, about 0.1 microseconds a cell, 3 for a
+/// polyhedron, 5 for a quadratic volume cell.
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);

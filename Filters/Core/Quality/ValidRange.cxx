@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/ValidRange.h"
 
-#include "Mesh/CellShape.h"
-#include "Quality/CornerNodes.h"
+#include "Quality/MeasuredPlaces.h"
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
@@ -25,23 +24,12 @@ constexpr Index Grain = 1024;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Pi = 3.14159265358979323846;
 
-/// A vector whose components are polynomials of degree D in t.
+/// A vector whose components are polynomials of degree D in t; a column for each power.
 template <int D>
-using Path = std::array<Vector, D + 1>;
+using Path = Eigen::Matrix<double, 3, D + 1>;
 /// The coefficients of a determinant.
 template <int D>
 using Determinant = std::array<double, 3 * D + 1>;
-
-template <int D>
-Path<D> edge(const Path<D>& a, const Path<D>& b)
-{
-  Path<D> c;
-  for (int i = 0; i <= D; ++i)
-  {
-    c[i] = b[i] - a[i];
-  }
-  return c;
-}
 
 template <int D>
 Determinant<D> determinant(const Path<D>& a, const Path<D>& b, const Path<D>& c, double sign)
@@ -52,10 +40,10 @@ Determinant<D> determinant(const Path<D>& a, const Path<D>& b, const Path<D>& c,
   {
     for (int k = 0; k <= D; ++k)
     {
-      const Vector cross = b[j].cross(c[k]);
+      const Vector cross = b.col(j).cross(c.col(k));
       for (int i = 0; i <= D; ++i)
       {
-        result[i + j + k] += sign * a[i].dot(cross);
+        result[i + j + k] += sign * a.col(i).dot(cross);
       }
     }
   }
@@ -68,14 +56,16 @@ Path<D> pathOf(const NodeMotion& motion, Index node)
 {
   const Vector base = motion.base->row(node).transpose();
   const Vector first = motion.first->row(node).transpose();
+  Path<D> path;
   if constexpr (D == 1)
   {
-    return { base, first };
+    path << base, first;
   }
   else
   {
-    return { base, 2 * first, base + 2 * Vector(motion.second->row(node).transpose()) };
+    path << base, 2 * first, base + 2 * Vector(motion.second->row(node).transpose());
   }
+  return path;
 }
 
 /// One end of a range: how far the parameter goes in one direction.
@@ -165,65 +155,6 @@ void addDeterminant(const Determinant<D>& a, Index cell, Ends& ends)
   addEnd<D>(mirrored(a), cell, ends.low);
 }
 
-template <int D>
-bool hasCollapsedEdge(const CellShape& shape, const Path<D>* x)
-{
-  for (int f = 0; f < shape.numberOfFaces; ++f)
-  {
-    const FaceShape& face = shape.faces[f];
-    for (int k = 0; k < face.size; ++k)
-    {
-      if (x[face.corner[k]][0] == x[face.corner[(k + 1) % face.size]][0])
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Calls `take` with the determinant at each place that measureQuality() looks at. `x`: corners in
-/// the order of the shape.
-template <int D, typename Take>
-void cornerDeterminants(Shape shape, const Path<D>* x, double sign, const Take& take)
-{
-  const auto corners = [&](const auto& list)
-  {
-    for (const int(&c)[4] : list)
-    {
-      take(determinant<D>(
-        edge<D>(x[c[0]], x[c[1]]), edge<D>(x[c[0]], x[c[2]]), edge<D>(x[c[0]], x[c[3]]), sign));
-    }
-  };
-  switch (shape)
-  {
-    case Shape::Tet:
-      return corners(TetCornerNodes);
-    case Shape::Wedge:
-      return corners(WedgeCornerNodes);
-    case Shape::Pyramid:
-      return corners(PyramidCornerNodes);
-    case Shape::Hex:
-      break;
-    default:
-      return;
-  }
-  corners(HexCornerNodes);
-  Path<D> center[3];
-  for (int d = 0; d < 3; ++d)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      center[d][i].setZero();
-      for (const int(&ends)[2] : HexAxisEdges[d])
-      {
-        center[d][i] += x[ends[1]][i] - x[ends[0]][i];
-      }
-    }
-  }
-  take(determinant<D>(center[0], center[1], center[2], sign));
-}
-
 /// The values of t at which the coefficients of a quadratic cell are evaluated, and the matrix from
 /// these values to the coefficients of the polynomial in t.
 template <int D>
@@ -268,10 +199,10 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
     Vector x[MostNodesOfVolume];
     for (int i = 0; i < map.numberOfNodes(); ++i)
     {
-      x[i] = path[i][D];
+      x[i] = path[i].col(D);
       for (int power = D - 1; power >= 0; --power)
       {
-        x[i] = x[i] * interpolation.t[k] + path[i][power];
+        x[i] = x[i] * interpolation.t[k] + path[i].col(power);
       }
     }
     c[k].fill(0);
@@ -299,13 +230,14 @@ void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign
   {
     x[k] = pathOf<D>(motion, mesh.cell(cell)[shape.cornerNode[k]]);
   }
-  if (hasCollapsedEdge<D>(shape, x))
+  if (hasCollapsedEdge(shape, x))
   {
     return;
   }
-  cornerDeterminants<D>(shape.shape, x, sign,
-    [&](const Determinant<D>& a)
+  forEachMeasuredPlace(shape.shape, x,
+    [&](const Path<D>& e1, const Path<D>& e2, const Path<D>& e3)
     {
+      const Determinant<D> a = determinant<D>(e1, e2, e3, sign);
       if (a[0] > 0)
       {
         addDeterminant<D>(a, cell, ends);
@@ -364,6 +296,7 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
+  requireMeasuredPlaces(mesh);
   monitor.check();
   const bool isRotation = motion.second != nullptr;
   const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, monitor)

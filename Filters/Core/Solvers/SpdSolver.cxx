@@ -254,7 +254,8 @@ SolveReport SpdSolver::Implementation::iterate(
 
   for (int c = 0; c < 3; ++c)
   {
-    if (bNorm2[c] > floor2)
+    // A residual of 1e-13 of the whole is rounding, however small the column is.
+    if (bNorm2[c] > floor2 && norm2[c] > 100 * floor2)
     {
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/PolyhedronPieces.h"
+
+#include "Mesh/FaceTable.h"
+#include "Mesh/Polyhedra.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+constexpr double LeastSine = 0.1; // of a corner of a quadrilateral that stays whole
+constexpr Index Whole = -1;       // a face without a node at its centre
+
+Eigen::RowVector3d doubleArea(const Mesh& mesh, const Index* nodes, Index size)
+{
+  Eigen::RowVector3d area = Eigen::RowVector3d::Zero();
+  for (Index k = 2; k < size; ++k)
+  {
+    const Eigen::RowVector3d a = mesh.points.row(nodes[k - 1]) - mesh.points.row(nodes[0]);
+    const Eigen::RowVector3d b = mesh.points.row(nodes[k]) - mesh.points.row(nodes[0]);
+    area += a.cross(b);
+  }
+  return area;
+}
+
+/// Whether each corner turns clearly to the inside. A node in the middle of a side does not.
+bool isPlain(const Mesh& mesh, const Index* nodes, Index size)
+{
+  const Eigen::RowVector3d normal = doubleArea(mesh, nodes, size).normalized();
+  for (Index k = 0; k < size; ++k)
+  {
+    const Eigen::RowVector3d x = mesh.points.row(nodes[k]);
+    const Eigen::RowVector3d next = mesh.points.row(nodes[(k + 1) % size]) - x;
+    const Eigen::RowVector3d last = mesh.points.row(nodes[(k + size - 1) % size]) - x;
+    if (!(next.cross(last).dot(normal) > LeastSine * next.norm() * last.norm()))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// For each face of the table the number of its centre, or Whole.
+std::vector<Index> numberCenters(const Mesh& mesh, const FaceTable& table, Index& count)
+{
+  const Index faces = table.start.back();
+  std::vector<char> isOfStandardCell(faces, 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index f = table.start[c]; f < table.start[c + 1] && !isPolyhedron(mesh, c); ++f)
+    {
+      isOfStandardCell[table.first[f]] = 1;
+    }
+  }
+  std::vector<Index> centers(faces, Whole);
+  count = 0;
+  for (Index f = 0; f < faces; ++f)
+  {
+    if (table.first[f] != f)
+    {
+      centers[f] = centers[table.first[f]];
+      continue;
+    }
+    const Index size = table.size(f);
+    const bool isWhole = isOfStandardCell[f] || size <= 3 ||
+                         (size == 4 && isPlain(mesh, table.corners.begin(f), size));
+    centers[f] = isWhole ? Whole : count++;
+  }
+  return centers;
+}
+
+using Triplets = std::vector<Eigen::Triplet<double, Index>>;
+
+/// Adds the weights of a cell's nodes in its centre, one entry a node.
+void addCellCenter(const Mesh& mesh, const FaceTable& table, Index cell, Index row, Triplets& means)
+{
+  std::vector<double> areas;
+  double sum = 0;
+  for (Index f = table.start[cell]; f < table.start[cell + 1]; ++f)
+  {
+    areas.push_back(doubleArea(mesh, table.corners.begin(f), table.size(f)).norm());
+    sum += areas.back();
+  }
+  const auto first = static_cast<std::ptrdiff_t>(means.size());
+  for (const Index* node = mesh.cell(cell); node != mesh.cell(cell) + mesh.cellSize(cell); ++node)
+  {
+    means.emplace_back(row, *node, 0.);
+  }
+  const auto column = [](const Triplets::value_type& a, const Triplets::value_type& b)
+  { return a.col() < b.col(); };
+  std::sort(means.begin() + first, means.end(), column);
+  for (Index f = table.start[cell]; f < table.start[cell + 1]; ++f)
+  {
+    const double share =
+      sum > 0 ? areas[f - table.start[cell]] / sum : 1 / static_cast<double>(areas.size());
+    for (const Index* node = table.corners.begin(f); node != table.corners.end(f); ++node)
+    {
+      const auto at = std::lower_bound(
+        means.begin() + first, means.end(), Triplets::value_type(row, *node, 0.), column);
+      *at = { row, *node, at->value() + share / static_cast<double>(table.size(f)) };
+    }
+  }
+}
+
+/// Whether all corners are clearly positive. `nodes`: in VTK's order.
+bool isClearlyValid(const Mesh& mesh, Shape shape, const std::vector<Index>& nodes)
+{
+  const SimplicialDecomposition split = simplicialDecomposition(shape);
+  return std::all_of(split.tets, split.tets + cornerTetrahedra(shape),
+    [&](const WeightedTet& tet)
+    {
+      Eigen::RowVector3d edge[3];
+      double product = 1;
+      for (int k = 0; k < 3; ++k)
+      {
+        edge[k] = mesh.points.row(nodes[tet.corner[k + 1]]) - mesh.points.row(nodes[tet.corner[0]]);
+        product *= edge[k].norm();
+      }
+      return edge[0].dot(edge[1].cross(edge[2])) > LeastSine * product;
+    });
+}
+
+/// The node of a hexahedron that an edge joins with `node` of its bottom; -1 if there is none.
+Index nodeAbove(const FaceTable& table, Index bottom, Index last, Index node)
+{
+  const auto isInBottom = [&](Index other)
+  {
+    return std::find(table.corners.begin(bottom), table.corners.end(bottom), other) !=
+           table.corners.end(bottom);
+  };
+  for (Index f = bottom + 1; f < last; ++f)
+  {
+    const Index* n = table.corners.begin(f);
+    for (Index k = 0; k < table.size(f); ++k)
+    {
+      for (const Index other : { n[(k + 1) % 4], n[(k + 3) % 4] })
+      {
+        if (n[k] == node && !isInBottom(other))
+        {
+          return other;
+        }
+      }
+    }
+  }
+  return -1;
+}
+
+/// The nodes in VTK's order of a polyhedron that is a valid tetrahedron or hexahedron with whole
+/// faces; none for another one.
+std::vector<Index> standardNodes(
+  const Mesh& mesh, const FaceTable& table, const std::vector<Index>& centers, Index cell)
+{
+  const Index first = table.start[cell], last = table.start[cell + 1];
+  const Index size = table.size(first), corners = mesh.cellSize(cell);
+  const bool isTet = last - first == 4 && size == 3 && corners == 4;
+  const bool isHex = last - first == 6 && size == 4 && corners == 8;
+  for (Index f = first; f < last; ++f)
+  {
+    if ((!isTet && !isHex) || table.size(f) != size || centers[f] != Whole)
+    {
+      return {};
+    }
+  }
+  const Index* face = table.corners.begin(first);
+  std::vector<Index> nodes(face, face + size);
+  std::reverse(nodes.begin(), nodes.end()); // from inside
+  for (Index k = 0; isHex && k < size; ++k)
+  {
+    nodes.push_back(nodeAbove(table, first, last, nodes[k]));
+  }
+  if (isTet)
+  {
+    nodes.push_back(*std::find_if(mesh.cell(cell), mesh.cell(cell) + corners,
+      [&](Index node) { return std::find(face, face + size, node) == face + size; }));
+  }
+  // The faces of the standard cell have to be the polyhedron's.
+  const CellShape& shape = *cellShape(isTet ? Tetra : Hexahedron);
+  const auto isFace = [&](const FaceShape& wanted)
+  {
+    for (Index f = first; f < last; ++f)
+    {
+      const Index* begin = table.corners.begin(f);
+      if (std::all_of(wanted.corner, wanted.corner + wanted.size,
+            [&](int k) { return std::find(begin, begin + size, nodes[k]) != begin + size; }))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  const bool isStandard = std::all_of(shape.faces, shape.faces + shape.numberOfFaces, isFace) &&
+                          isClearlyValid(mesh, shape.shape, nodes);
+  return isStandard ? nodes : std::vector<Index>();
+}
+
+/// Collects cells one after the other.
+struct Cells
+{
+  std::vector<std::uint8_t> types;
+  std::vector<Index> sizes, connectivity;
+
+  void add(std::uint8_t type, const Index* begin, const Index* end)
+  {
+    this->types.push_back(type);
+    this->sizes.push_back(end - begin);
+    this->connectivity.insert(this->connectivity.end(), begin, end);
+  }
+  void add(std::uint8_t type, std::initializer_list<Index> nodes)
+  {
+    this->add(type, nodes.begin(), nodes.end());
+  }
+};
+
+void append(const Cells& cells, Mesh& mesh)
+{
+  mesh.types.insert(mesh.types.end(), cells.types.begin(), cells.types.end());
+  for (const Index size : cells.sizes)
+  {
+    mesh.offsets.push_back(mesh.offsets.back() + size);
+  }
+  mesh.connectivity.insert(
+    mesh.connectivity.end(), cells.connectivity.begin(), cells.connectivity.end());
+}
+}
+
+PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll)
+  : nodes_(mesh.numberOfNodes())
+{
+  const FaceTable table = faceTable(mesh, monitor);
+  const std::vector<Index> centers = numberCenters(mesh, table, this->faceCenters_);
+  Triplets means;
+  for (Index f = 0; f < table.start.back(); ++f)
+  {
+    const double share = 1 / static_cast<double>(table.size(f));
+    for (const Index* node = table.corners.begin(f);
+         centers[f] != Whole && table.first[f] == f && node != table.corners.end(f); ++node)
+    {
+      means.emplace_back(centers[f], *node, share);
+    }
+  }
+  Cells first, others;
+  Index row = this->faceCenters_;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!isPolyhedron(mesh, c))
+    {
+      first.add(mesh.types[c], mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      continue;
+    }
+    if (const std::vector<Index> nodes = standardNodes(mesh, table, centers, c);
+        !nodes.empty() && !cutsAll)
+    {
+      first.add(nodes.size() == 4 ? Tetra : Hexahedron, nodes.data(), nodes.data() + nodes.size());
+      continue;
+    }
+    const Index apex = this->nodes_ + row;
+    addCellCenter(mesh, table, c, row++, means);
+    Cells* to = &first;
+    for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
+    {
+      // From inside, as VTK's order has the faces at the apex of a valid cell.
+      const Index* n = table.corners.begin(f);
+      const Index size = table.size(f);
+      if (centers[f] == Whole && size == 3)
+      {
+        to->add(Tetra, { n[2], n[1], n[0], apex });
+      }
+      else if (centers[f] == Whole)
+      {
+        to->add(Pyramid, { n[3], n[2], n[1], n[0], apex });
+      }
+      for (Index k = 0; centers[f] != Whole && k < size; ++k)
+      {
+        to->add(Tetra, { n[(k + 1) % size], n[k], this->nodes_ + centers[f], apex });
+        to = &others;
+      }
+      to = &others;
+    }
+  }
+  this->means_.resize(row, this->nodes_);
+  this->means_.setFromTriplets(means.begin(), means.end());
+  this->pieces_.offsets = { 0 };
+  append(first, this->pieces_);
+  append(others, this->pieces_);
+  this->pieces_.points = this->extend(ConstPoints(mesh.points));
+}
+
+Points PolyhedronPieces::extend(const ConstPoints& points) const
+{
+  Points all(this->nodes_ + this->means_.rows(), 3);
+  all.topRows(this->nodes_) = points;
+  all.bottomRows(this->means_.rows()) = this->means_ * points;
+  return all;
+}
+
+Points PolyhedronPieces::extendTranspose(const ConstPoints& all) const
+{
+  return all.topRows(this->nodes_) + this->means_.transpose() * all.bottomRows(this->means_.rows());
+}
+
+NodePartition PolyhedronPieces::extend(const NodePartition& partition) const
+{
+  std::vector<char> isPrescribed(this->nodes_, 0);
+  for (const Index node : partition.prescribed)
+  {
+    isPrescribed[node] = 1;
+  }
+  std::vector<Index> prescribed = partition.prescribed;
+  for (Index f = 0; f < this->faceCenters_; ++f)
+  {
+    bool all = true;
+    for (decltype(this->means_)::InnerIterator node(this->means_, f); node; ++node)
+    {
+      all = all && isPrescribed[node.col()] != 0;
+    }
+    if (all)
+    {
+      prescribed.push_back(this->nodes_ + f);
+    }
+  }
+  return partitionNodes(this->pieces_, std::move(prescribed));
+}
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Morpher/PolyhedralMorpher.h"
+
+#include "Mesh/PolyhedronPieces.h"
+
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+/// A method, prepared on the pieces of a mesh.
+template <typename Method>
+class OnPieces
+{
+public:
+  OnPieces(std::unique_ptr<Method> method, bool cutsAll)
+    : method_(std::move(method))
+    , cutsAll_(cutsAll)
+  {
+  }
+
+  Method& method() const { return *this->method_; }
+  void setReference(Points reference) { this->reference_ = std::move(reference); }
+
+  void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
+  {
+    this->pieces_ = std::make_unique<PolyhedronPieces>(rest, monitor, this->cutsAll_);
+    this->nodes_ = rest.numberOfNodes();
+    if (this->reference_.rows() > 0)
+    {
+      this->method_->setReference(this->pieces_->extend(this->reference_));
+    }
+    this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(partition), monitor);
+  }
+
+  EvaluateReport displace(
+    const NodePartition& partition, const Points& prescribed, Points& free, Monitor& monitor) const
+  {
+    Points displacement = Points::Zero(this->nodes_, 3);
+    displacement(partition.prescribed, allColumns) = prescribed;
+    const Points all = this->pieces_->extend(displacement);
+    const std::vector<Index>& ids = this->method_->partition().prescribed;
+    const Points& rest = this->method_->restPoints();
+    Points targets(static_cast<Index>(ids.size()), 3), moved;
+    for (Index i = 0; i < targets.rows(); ++i)
+    {
+      targets.row(i) = rest.row(ids[i]) + all.row(ids[i]);
+    }
+    const EvaluateReport report = this->method_->evaluate(targets, moved, monitor);
+    for (Index i = 0; i < free.rows(); ++i)
+    {
+      const Index node = partition.free[i];
+      free.row(i) = moved.row(node) - rest.row(node);
+    }
+    return report;
+  }
+
+  EvaluateReport displaceTranspose(
+    const NodePartition& partition, const Points& free, Points& prescribed, Monitor& monitor) const
+  {
+    Points gradient = Points::Zero(this->method_->restPoints().rows(), 3), given;
+    gradient(partition.free, allColumns) = free;
+    const EvaluateReport report = this->method_->applyTranspose(gradient, given, monitor);
+    Points all = Points::Zero(gradient.rows(), 3);
+    all(this->method_->partition().prescribed, allColumns) = given;
+    prescribed += this->pieces_->extendTranspose(all)(partition.prescribed, allColumns);
+    return report;
+  }
+
+private:
+  std::unique_ptr<Method> method_;
+  bool cutsAll_;
+  std::unique_ptr<PolyhedronPieces> pieces_;
+  Points reference_;
+  Index nodes_ = 0;
+};
+
+/// What methodOf() asks for.
+class Wrapper
+{
+public:
+  virtual ~Wrapper() = default;
+  virtual Morpher& wrapped() = 0;
+};
+
+template <typename Method>
+class PolyhedralMorpher
+  : public Method
+  , public Wrapper
+{
+public:
+  PolyhedralMorpher(std::unique_ptr<Method> method, bool cutsAll)
+    : onPieces_(std::move(method), cutsAll)
+  {
+  }
+  void setReference(Points reference) override
+  {
+    this->onPieces_.setReference(std::move(reference));
+  }
+  Morpher& wrapped() override { return this->onPieces_.method(); }
+
+protected:
+  void doPrepare(const Mesh& rest, Monitor& monitor) override
+  {
+    this->onPieces_.prepare(rest, this->partition(), monitor);
+  }
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override
+  {
+    return this->onPieces_.displace(this->partition(), prescribed, free, monitor);
+  }
+
+  OnPieces<Method> onPieces_;
+};
+
+class PolyhedralLinearMorpher : public PolyhedralMorpher<LinearMorpher>
+{
+  using PolyhedralMorpher<LinearMorpher>::PolyhedralMorpher;
+
+  EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const override
+  {
+    return this->onPieces_.displaceTranspose(this->partition(), free, prescribed, monitor);
+  }
+};
+}
+
+std::unique_ptr<Morpher> morpherForPolyhedra(std::unique_ptr<Morpher> method, bool cutsAll)
+{
+  if (auto* linear = dynamic_cast<LinearMorpher*>(method.get()))
+  {
+    method.release();
+    return std::make_unique<PolyhedralLinearMorpher>(
+      std::unique_ptr<LinearMorpher>(linear), cutsAll);
+  }
+  return std::make_unique<PolyhedralMorpher<Morpher>>(std::move(method), cutsAll);
+}
+
+Morpher& methodOf(Morpher& morpher)
+{
+  auto* wrapper = dynamic_cast<Wrapper*>(&morpher);
+  return wrapper ? wrapper->wrapped() : morpher;
+}
+}

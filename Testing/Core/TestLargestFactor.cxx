@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The largest factor of straight motions and turns together, against a search with the measure of
+// quality on random motions.
+#include "Mesh/Topology.h"
+#include "Meshes.h"
+#include "Quality/LargestFactor.h"
+#include "Quality/ScaledJacobian.h"
+#include "Quality/ValidRange.h"
+#include "RandomMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace morph;
+
+namespace
+{
+constexpr int Cases = 200;
+
+struct Case
+{
+  Mesh mesh;
+  Points straight, first[2], second[2];
+  CombinedMotion motion;
+  std::vector<std::int8_t> orientation;
+
+  Points at(double f) const
+  {
+    Points x = this->mesh.points + f * this->straight;
+    for (const CombinedMotion::Turn& turn : this->motion.turns)
+    {
+      x += std::sin(f * turn.angle) * *turn.first + (1 - std::cos(f * turn.angle)) * *turn.second;
+    }
+    return x;
+  }
+  bool isValid(double f) const
+  {
+    Monitor monitor;
+    return invertedCells(this->mesh, this->at(f), this->orientation, monitor).empty();
+  }
+  /// Found by steps up to `far`, and bisection.
+  double searched(double far) const
+  {
+    const double step = far / 2000;
+    for (double f = step; f < far; f += step)
+    {
+      if (this->isValid(f))
+      {
+        continue;
+      }
+      double low = f - step, high = f;
+      while (high - low > 1e-10)
+      {
+        const double middle = (low + high) / 2;
+        (this->isValid(middle) ? low : high) = middle;
+      }
+      return low;
+    }
+    return HUGE_VAL;
+  }
+};
+
+void makeCase(Case& result, const std::string& kind, int number)
+{
+  std::mt19937 random(meshes::seed() + 1000 * number);
+  std::uniform_real_distribution<double> one(-1, 1);
+  Mesh& mesh = result.mesh;
+  mesh = meshes::randomMesh(kind, number, random);
+  const auto noise = [&](double amount)
+  { return meshes::noise(mesh.points.rows(), amount, random); };
+  result.orientation = cellSigns(mesh, connectedComponents(mesh));
+  result.straight = noise(.3);
+  result.motion.base = &mesh.points;
+  result.motion.straight = &result.straight;
+  for (int turn = 0; turn < 1 + number % 2; ++turn)
+  {
+    result.first[turn] = noise(.3);
+    result.second[turn] = noise(.3);
+    result.motion.turns.push_back({ &result.first[turn], &result.second[turn],
+      std::copysign(1 + one(random) / 2, one(random)) });
+  }
+}
+
+class LargestFactors : public testing::TestWithParam<std::string>
+{
+};
+}
+
+TEST_P(LargestFactors, AreThoseOfASearch)
+{
+  const bool isQuadratic = GetParam().find("quadratic") == 0;
+  int finite = 0, tight = 0, made = 0;
+  for (int number = 0; made < Cases && number < 4 * Cases; ++number)
+  {
+    SCOPED_TRACE("case " + std::to_string(number) + ", seed " + std::to_string(meshes::seed()));
+    Case problem;
+    makeCase(problem, GetParam(), number);
+    if (!problem.isValid(0))
+    {
+      continue;
+    }
+    ++made;
+    Monitor monitor;
+    const LargestFactor found =
+      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor);
+    EXPECT_EQ(found.cell >= 0, std::isfinite(found.factor));
+    if (isQuadratic)
+    {
+      // A bound on the safe side; a search by proofs would be slow.
+      for (int part = 1; part <= 10; ++part)
+      {
+        EXPECT_TRUE(problem.isValid(std::min(found.factor * (1 - 1e-9), 4.) * part / 10));
+      }
+      finite += std::isfinite(found.factor);
+      tight += found.factor > 0 && !problem.isValid(2 * found.factor);
+    }
+    else
+    {
+      const double expected = problem.searched(4);
+      EXPECT_LE(found.factor, expected + 1e-9);
+      if (found.factor < expected - 1e-6)
+      {
+        // A step of the search may pass over a short interval of inversion.
+        EXPECT_FALSE(problem.isValid(found.factor + 1e-6)) << found.factor << " " << expected;
+      }
+      finite += std::isfinite(expected);
+      tight += std::isfinite(expected) && found.factor > .5 * expected;
+    }
+    for (int threads : isQuadratic ? std::vector<int>{ 3 } : std::vector<int>{ 2, 3 })
+    {
+      meshes::ThreadedMonitor threaded(threads);
+      const LargestFactor again =
+        largestFactor(problem.mesh, problem.motion, problem.orientation, threaded);
+      EXPECT_EQ(again.factor, found.factor);
+      EXPECT_EQ(again.cell, found.cell);
+    }
+  }
+  EXPECT_EQ(made, Cases);
+  EXPECT_GE(finite, Cases / 2);
+  EXPECT_GE(tight, finite / 2) << "of " << finite << " within a factor of 2";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LargestFactors,
+  testing::Values("hexes", "tets", "wedges", "pyramids", "quadratic hexes", "quadratic tets"),
+  [](const auto& info)
+  {
+    std::string name = info.param;
+    name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+    return name;
+  });
+
+TEST(LargestFactor, OfOneTurnIsThatOfItsRange)
+{
+  for (int number = 1; number < 40; number += 2)
+  {
+    Case problem;
+    makeCase(problem, "hexes", number);
+    problem.motion.straight = nullptr;
+    problem.motion.turns.resize(1);
+    problem.motion.turns[0].angle = std::abs(problem.motion.turns[0].angle);
+    const CombinedMotion::Turn& turn = problem.motion.turns[0];
+    Monitor monitor;
+    const double range = validRange(problem.mesh,
+      { &problem.mesh.points, turn.first, turn.second, turn.angle }, problem.orientation, monitor)
+                           .highest;
+    const double found =
+      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor).factor;
+    if (std::isfinite(range))
+    {
+      EXPECT_NEAR(found, range, 1e-7) << "case " << number << ", seed " << meshes::seed();
+      EXPECT_LE(found, range + 1e-11);
+    }
+    else
+    {
+      EXPECT_EQ(found, range);
+    }
+  }
+}
+
+TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(3, 2, 2);
+  problem.straight = Points::Ones(problem.mesh.points.rows(), 3);
+  problem.first[0] = problem.second[0] = Points::Zero(problem.mesh.points.rows(), 3);
+  problem.first[0].col(0) = -problem.mesh.points.col(1);
+  problem.first[0].col(1) = problem.mesh.points.col(0);
+  problem.second[0].leftCols(2) = -problem.mesh.points.leftCols(2);
+  problem.motion = { &problem.mesh.points, &problem.straight,
+    { { &problem.first[0], &problem.second[0], .5 } } };
+  Monitor monitor;
+  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_EQ(found.factor, HUGE_VAL);
+  EXPECT_EQ(found.cell, -1);
+
+  problem.mesh.points.row(0) << 5, 5, 5; // inverted at 0
+  found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_TRUE(std::isnan(found.factor));
+  EXPECT_EQ(found.cell, 0);
+}
