@@ -3,7 +3,8 @@
 
 vtk_module_scan(
   MODULE_FILES     "${CMAKE_CURRENT_SOURCE_DIR}/Filters/Morphing/vtk.module"
-  REQUEST_MODULES  MeshMorphing::FiltersMorphing
+                   "${CMAKE_CURRENT_SOURCE_DIR}/Filters/IO/vtk.module"
+  REQUEST_MODULES  MeshMorphing::FiltersMorphing MeshMorphing::FiltersIO
   PROVIDES_MODULES modules
   REQUIRES_MODULES required_modules
   HIDE_MODULES_FROM_CACHE ON)

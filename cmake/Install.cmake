@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The CMake package MeshMorphing: find_package(MeshMorphing) gives the targets MeshMorphing::Core
-# and MeshMorphing::FiltersMorphing, a static library beside the plugin, a shared one with plain
-# VTK.
+# The CMake package MeshMorphing: find_package(MeshMorphing) gives the targets MeshMorphing::Core,
+# MeshMorphing::FiltersMorphing and MeshMorphing::FiltersIO; the last two are static libraries
+# beside the plugin, shared ones with plain VTK.
 include(CMakePackageConfigHelpers)
 set(package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/MeshMorphing")
 set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
@@ -39,22 +39,25 @@ install(SCRIPT "${CMAKE_CURRENT_LIST_DIR}/InstallHeaders.cmake" COMPONENT sdk)
 set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
 target_include_directories(morph_core
   PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS morph_core
+set_target_properties(morph_io PROPERTIES EXPORT_NAME SolverFiles)
+install(TARGETS morph_core morph_io
   EXPORT  MeshMorphing
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
 
 if (MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
   # ParaView's build installs the plugin alone; with plain VTK vtk_module_build() does what follows.
-  get_target_property(filter_headers FiltersMorphing INTERFACE_vtk_module_headers)
-  # VTK after 9.3 leaves the header with the export macro out of its list.
-  get_target_property(filter_folder FiltersMorphing BINARY_DIR)
-  list(APPEND filter_headers "${filter_folder}/vtkMeshMorphingFiltersMorphingModule.h")
-  list(REMOVE_DUPLICATES filter_headers)
-  install(FILES ${filter_headers} DESTINATION "${headers_destination}" COMPONENT sdk)
-  target_include_directories(FiltersMorphing PUBLIC $<INSTALL_INTERFACE:${headers_destination}>)
-  install(TARGETS FiltersMorphing
-    EXPORT  MeshMorphing
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
+  foreach (module IN ITEMS FiltersMorphing FiltersIO)
+    get_target_property(module_headers ${module} INTERFACE_vtk_module_headers)
+    # VTK after 9.3 leaves the header with the export macro out of its list.
+    get_target_property(module_folder ${module} BINARY_DIR)
+    list(APPEND module_headers "${module_folder}/vtkMeshMorphing${module}Module.h")
+    list(REMOVE_DUPLICATES module_headers)
+    install(FILES ${module_headers} DESTINATION "${headers_destination}" COMPONENT sdk)
+    target_include_directories(${module} PUBLIC $<INSTALL_INTERFACE:${headers_destination}>)
+    install(TARGETS ${module}
+      EXPORT  MeshMorphing
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
+  endforeach ()
   install(EXPORT MeshMorphing
     NAMESPACE   MeshMorphing::
     FILE        MeshMorphing-targets.cmake

@@ -12,6 +12,20 @@ set(morph_result_row
   "(.+)") # 8: documentation
 string(CONCAT morph_result_row "^" ${morph_result_row} "$")
 
+# Labels in the panel, where the name in words is not what a user would call it.
+set(morph_label_MorphStatus "Status")
+set(morph_label_MinScaledJacobian "Minimum scaled Jacobian")
+set(morph_label_MeanScaledJacobian "Mean scaled Jacobian")
+set(morph_label_WorstCellId "Worst cell")
+set(morph_label_LargestValidStep "Part of the motion reached")
+set(morph_label_BoundaryInvertedCells "Cells that the boundary inverts")
+set(morph_label_PrepareSeconds "Seconds to prepare")
+set(morph_label_EvaluateSeconds "Seconds to move the nodes")
+set(morph_label_MaxTargetDistanceBefore "Largest distance before")
+set(morph_label_MeanTargetDistanceBefore "Mean distance before")
+set(morph_label_MaxTargetDistance "Largest distance after")
+set(morph_label_MeanTargetDistance "Mean distance after")
+
 # morph_results(SECTION ...) reads these sections and sets, in the caller's scope,
 #   ResultRows         their rows as C++ (Private/Data/Results.h),
 #   <group>Properties  for each group: the information properties of ParaView's XML,
@@ -86,12 +100,19 @@ function (morph_result_xml name kind none panel documentation)
     set(type "String")
     set(default)
   endif ()
+  set(hints)
+  if (morph_label_${name})
+    string(CONCAT hints
+      "        <Hints>\n"
+      "          <PropertyWidgetDecorator type=\"PanelLabel\" text=\"${morph_label_${name}}\"/>\n"
+      "        </Hints>\n")
+  endif ()
   string(CONCAT property
     "      <${type}VectorProperty name=\"${name}\" command=\"Get${name}\"\n"
     "                            information_only=\"1\" number_of_elements=\"1\"${default}\n"
     "                            panel_visibility=\"${panel}\">\n"
     "        <Simple${type}InformationHelper/>\n"
-    "        <Documentation>\n${documentation}\n        </Documentation>\n"
+    "        <Documentation>\n${documentation}\n        </Documentation>\n${hints}"
     "      </${type}VectorProperty>\n")
   set(property "${property}" PARENT_SCOPE)
 endfunction ()

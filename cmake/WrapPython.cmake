@@ -2,7 +2,7 @@
 # `import meshmorphing`: the filters in the Python that VTK was built with.
 vtk_module_python_default_destination(python_destination)
 vtk_module_wrap_python(
-  MODULES             MeshMorphing::FiltersMorphing
+  MODULES             MeshMorphing::FiltersMorphing MeshMorphing::FiltersIO
   TARGET              MeshMorphing::Python
   PYTHON_PACKAGE      meshmorphing
   MODULE_DESTINATION  "${python_destination}"
@@ -11,6 +11,8 @@ vtk_module_wrap_python(
   COMPONENT           runtime)
 configure_file(Python/__init__.py.in
   "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py"
+configure_file(Python/_morph.py
+  "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/_morph.py" COPYONLY)
+install(FILES "${CMAKE_BINARY_DIR}/${python_destination}/meshmorphing/__init__.py" Python/_morph.py
   DESTINATION "${python_destination}/meshmorphing"
   COMPONENT   runtime)

@@ -15,29 +15,34 @@ namespace morph_mesh
 {
 namespace
 {
-const char* const Usage = "Usage: morph-mesh [options] <grid> <boundary> <output>\n"
-                          "       morph-mesh --move <surface> --translate <x,y,z> [options] "
-                          "<grid> <output>\n"
-                          "       morph-mesh --target <surface file> [options] <grid> <output>\n"
-                          "       morph-mesh --displacements <csv> [options] <grid> <output>\n"
-                          "       morph-mesh --list-surfaces <grid>\n"
-                          "       morph-mesh --extract-boundary <grid> <boundary>\n"
-                          "       morph-mesh [options] <grid> --shapes <boundary>... --table "
-                          "<table> --output <folder>\n"
-                          "\n"
-                          "Moves the nodes of a volume mesh so that it fits its displaced "
-                          "boundary, writes it, and prints its quality.\n"
-                          "The boundary is what --extract-boundary writes, with its points moved "
-                          "by any program that keeps the point\n"
-                          "array MorphPointId; or points with --boundary-id-array; or "
-                          "undeformed points with --displacement-array.\n"
-                          "\n"
-                          "Reads  .vtu .pvtu .vtk .inp (AVS UCD) .neu (Gambit) .e .exo .ex2 .exii "
-                          "(Exodus II); boundaries also\n"
-                          "       .vtp .pvtp .ply .stl .obj\n"
-                          "Writes .vtu .vtk, boundaries .vtp .vtk\n"
-                          "\n"
-                          "Options:\n";
+const char* const Usage =
+  "Usage: morph-mesh [options] <grid> <boundary> <output>\n"
+  "       morph-mesh --move <surface> --translate <x,y,z> [options] "
+  "<grid> <output>\n"
+  "       morph-mesh --target <surface file> [options] <grid> <output>\n"
+  "       morph-mesh --displacements <csv> [options] <grid> <output>\n"
+  "       morph-mesh --list-surfaces <grid>\n"
+  "       morph-mesh --extract-boundary <grid> <boundary>\n"
+  "       morph-mesh [options] <grid> --shapes <boundary>... --table "
+  "<table> --output <folder>\n"
+  "\n"
+  "Moves the nodes of a volume mesh so that it fits its displaced "
+  "boundary, writes it, and prints its quality.\n"
+  "The boundary is what --extract-boundary writes, with its points moved "
+  "by any program that keeps the point\n"
+  "array MorphPointId; or points with --boundary-id-array; or "
+  "undeformed points with --displacement-array.\n"
+  "\n"
+  "Reads  .vtu .pvtu .vtk .inp (AVS UCD) .neu (Gambit); boundaries also\n"
+  "       .vtp .pvtp .ply .stl .obj; solvers' files .inp (Abaqus, CalculiX)\n"
+  "       .bdf .nas .fem .dat (Nastran) .su2 .msh (Gmsh)\n"
+  "       .e .exo .ex2 .exii .g .gen (Exodus II) .cgns, cases of OpenFOAM\n"
+  "Writes .vtu .vtk, boundaries .vtp .vtk; with a solver's file as grid, "
+  "also a copy of it\n"
+  "       with nothing but its coordinates changed: <output> has the same "
+  "extension\n"
+  "\n"
+  "Options:\n";
 
 const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
@@ -119,26 +124,38 @@ int stepCount(const std::string& text)
 void checkMotion(const Arguments& arguments)
 {
   const Motion& motion = arguments.motion;
-  const int ways = !motion.moving.empty() + !motion.target.empty() + !motion.displacements.empty();
-  if (ways > 1)
+  if (!motion.displacements.empty() && (!motion.moving.empty() || !motion.target.empty()))
   {
-    throw UsageError("Of --move, --target and --displacements only one can be given.");
+    throw UsageError("--displacements cannot be combined with --move or --target.");
   }
   const Motion none;
   const bool hasNumbers = motion.translation != none.translation ||
                           motion.rotation != none.rotation || motion.scale != none.scale;
-  if (motion.moving.empty() &&
-      (hasNumbers || motion.radius != 0 || !motion.fixed.empty() || !motion.sliding.empty()))
+  if (motion.moving.empty() && (hasNumbers || motion.radius != 0))
   {
-    throw UsageError("--translate, --rotate, --scale, --radius, --fix and --slide need --move.");
+    throw UsageError("--translate, --rotate, --scale and --radius need --move.");
+  }
+  if (motion.moving.empty() && motion.target.empty() &&
+      (!motion.fixed.empty() || !motion.sliding.empty() || !motion.free.empty()))
+  {
+    throw UsageError("--fix, --slide and --free need --move or --target.");
+  }
+  if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
+  {
+    throw UsageError(
+      "--target cannot be combined with --translate, --rotate, --scale or --radius.");
+  }
+  if (motion.align && motion.target.empty())
+  {
+    throw UsageError("--align needs --target.");
   }
   if (hasNumbers && motion.radius != 0)
   {
     throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
   }
-  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0)
+  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0 && motion.target.empty())
   {
-    throw UsageError("--move needs --translate, --rotate, --scale or --radius.");
+    throw UsageError("--move needs --translate, --rotate, --scale, --radius or --target.");
   }
 }
 
@@ -164,10 +181,10 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
     throw UsageError("With --shapes one more file is needed, the grid; " +
                      std::to_string(files.size()) + " are given.");
   }
-  if (result.scaleFactor != 1 || result.postSmooth || result.validity != "Report")
+  if (result.scaleFactor != 1 || result.postSmooth || result.validity != "Report" || result.results)
   {
-    throw UsageError(
-      "--scale-factor, --post-smooth and --validity have no effect on --shapes: remove them.");
+    throw UsageError("--scale-factor, --post-smooth, --validity and --results have no effect on "
+                     "--shapes: remove them.");
   }
   result.grid = files.front();
   result.task = Arguments::Task::WriteDesigns;
@@ -280,8 +297,13 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--slide", "<surface>",
       "a surface whose nodes slide along it, a plane of symmetry; repeatable",
       [&](const std::string& value) { result.motion.sliding.push_back(value); } },
-    { "--target", "<file>", "a surface onto which the boundary is projected; vertices stay",
+    { "--free", "<surface>", "a surface whose nodes are solved with the interior; repeatable",
+      [&](const std::string& value) { result.motion.free.push_back(value); } },
+    { "--target", "<file>",
+      "a surface onto which the surfaces of --move go; without --move, those that it belongs to",
       text(result.motion.target) },
+    { "--align", nullptr, "rotate and shift the target onto what moves first",
+      flag(result.motion.align) },
     { "--displacements", "<csv>", "nodes that move: columns id (0-based point id), dx, dy, dz",
       text(result.motion.displacements) },
     { "--node-numbers", nullptr, "ids of --displacements are the node numbers of the grid's file",
@@ -289,6 +311,10 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--steps", "<number>",
       "write the equal steps of the motion: <output> with -1, -2, ... before its extension",
       [&](const std::string& value) { result.steps = stepCount(value); } },
+    { "--results", nullptr,
+      "write the arrays that the morph adds, too: scaled Jacobian and the like; by default the\n"
+      "arrays of <grid> alone",
+      flag(result.results) },
     { "--list-surfaces", nullptr, "print name, faces, area and centre of each surface, and stop",
       task(Task::ListSurfaces) },
     { "--extract-boundary", nullptr, "write the grid's boundary, to be moved, and stop",

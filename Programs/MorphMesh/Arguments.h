@@ -12,7 +12,7 @@ namespace morph_mesh
 /// How the boundary moves where it is not read from a file.
 struct Motion
 {
-  std::vector<std::string> moving, fixed, sliding; ///< names of surfaces and curves
+  std::vector<std::string> moving, fixed, sliding, free; ///< names of surfaces and curves
   std::array<double, 3> translation = { 0, 0, 0 };
   std::array<double, 3> rotation = { 0, 0, 0 }; ///< degrees about x, y and z
   std::array<double, 3> scale = { 1, 1, 1 };
@@ -20,6 +20,7 @@ struct Motion
   bool hasCenter = false;            ///< else the centre of what moves
   double radius = 0;                 ///< change of the radius of cylinders
   std::string target, displacements; ///< files; empty: none
+  bool align = false;                ///< the target first
   bool nodeNumbers = false;
 
   bool any() const
@@ -57,7 +58,8 @@ struct Arguments
   bool requireValid = false;
   int threads = 0;
   bool quiet = false, progress = false;
-  std::string help; ///< for ShowHelp
+  bool results = false; ///< write the arrays that the morph adds, too
+  std::string help;     ///< for ShowHelp
 };
 
 /// The error of a wrong command line.

@@ -9,14 +9,15 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMath.h>
-#include <vtkMorphBoundary.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkTrivialProducer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -73,7 +74,7 @@ std::map<vtkIdType, vtkIdType> pointOfNumber(vtkUnstructuredGrid* grid)
   vtkDataArray* numbers = grid->GetPointData()->GetGlobalIds();
   if (!numbers)
   {
-    numbers = grid->GetPointData()->GetArray("GlobalNodeId");
+    numbers = grid->GetPointData()->GetArray("GlobalNodeId"); // Exodus II, by VTK's reader
   }
   if (!numbers)
   {
@@ -106,20 +107,14 @@ std::array<double, 4> numbersOf(
   return numbers;
 }
 
-vtkSmartPointer<vtkAlgorithm> makeProjection(
-  vtkUnstructuredGrid* grid, const std::string& target, int threads)
+vtkSmartPointer<vtkPolyData> readTarget(const std::string& path)
 {
-  const vtkSmartPointer<vtkPointSet> surface = readPoints(target);
-  if (!vtkPolyData::SafeDownCast(surface))
+  vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(readPoints(path));
+  if (!surface)
   {
-    throw Failure(target + " is no surface: --target needs one, an .stl file for instance.");
+    throw Failure(path + " is no surface: --target needs one, an .stl file for instance.");
   }
-  auto filter = vtkSmartPointer<vtkMorphBoundary>::New();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grid); // its vertices stay, and the others find their place
-  filter->SetTargetData(surface);
-  filter->SetNumberOfThreads(threads);
-  return filter;
+  return surface;
 }
 
 struct SurfaceSums
@@ -155,10 +150,6 @@ void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
 vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   vtkUnstructuredGrid* grid, const Motion& motion, int threads)
 {
-  if (!motion.target.empty())
-  {
-    return makeProjection(grid, motion.target, threads);
-  }
   auto filter = vtkSmartPointer<vtkBoundaryDisplacement>::New();
   filter->SetInputData(grid);
   filter->SetMovingToPatches();
@@ -174,7 +165,17 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   {
     filter->AddSlidingPatch(name.c_str());
   }
-  if (motion.radius != 0)
+  for (const std::string& name : motion.free)
+  {
+    filter->AddFreePatch(name.c_str());
+  }
+  if (!motion.target.empty())
+  {
+    filter->SetMotionToTarget();
+    filter->SetTargetData(readTarget(motion.target));
+    filter->SetAlignTarget(motion.align);
+  }
+  else if (motion.radius != 0)
   {
     filter->SetMotionToRadius();
     filter->SetRadiusChange(motion.radius);
@@ -244,6 +245,30 @@ vtkSmartPointer<vtkAlgorithm> readDisplacements(
   return source;
 }
 
+void printTargetDistances(vtkDataObject* boundary)
+{
+  vtkPointData* arrays = vtkPointSet::SafeDownCast(boundary)->GetPointData();
+  for (const auto& [name, when] :
+    { std::pair{ "TargetDistanceBefore", "before" }, std::pair{ "TargetDistance", "after" } })
+  {
+    vtkDataArray* distances = arrays->GetArray(name);
+    double largest = 0, sum = 0;
+    vtkIdType count = 0;
+    for (vtkIdType i = 0; distances && i < distances->GetNumberOfTuples(); ++i)
+    {
+      const double distance = distances->GetComponent(i, 0);
+      if (std::isfinite(distance)) // NaN where nodes do not move
+      {
+        largest = std::max(largest, distance);
+        sum += distance;
+        ++count;
+      }
+    }
+    std::cout << "distance from the target " << when << ": maximum " << largest << ", mean "
+              << (count > 0 ? sum / static_cast<double>(count) : 0) << "\n";
+  }
+}
+
 void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threads)
 {
   vtkNew<vtkBoundaryDisplacement> filter;
@@ -254,23 +279,40 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   messages.update("Cannot list the surfaces of " + path);
   vtkPolyData* boundary = filter->GetOutput();
   vtkDataArray* surfaces = boundary->GetCellData()->GetArray("GeometryId");
+  auto* names =
+    vtkStringArray::SafeDownCast(boundary->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  std::vector<std::pair<std::string, SurfaceSums>> named;
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    named.push_back({ names->GetValue(i), SurfaceSums() });
+  }
   std::map<vtkIdType, SurfaceSums> sums;
   vtkNew<vtkIdList> corners;
   for (vtkIdType face = 0; face < boundary->GetNumberOfCells(); ++face)
   {
     boundary->GetCellPoints(face, corners);
     addPolygon(boundary, corners, sums[static_cast<vtkIdType>(surfaces->GetComponent(face, 0))]);
+    for (auto& [name, sum] : named)
+    {
+      if (boundary->GetCellData()->GetArray(name.c_str())->GetComponent(face, 0) != 0)
+      {
+        addPolygon(boundary, corners, sum);
+      }
+    }
+  }
+  for (const auto& [id, sum] : sums)
+  {
+    named.push_back({ "Surface " + std::to_string(id), sum });
   }
   std::cout << std::left << std::setw(14) << "name" << std::right << std::setw(10) << "faces"
             << std::setw(14) << "area"
             << "  centre\n";
-  for (const auto& [id, sum] : sums)
+  for (const auto& [name, sum] : named)
   {
     const double area = sum.Area > 0 ? sum.Area : 1;
-    std::cout << std::left << std::setw(14) << ("Surface " + std::to_string(id)) << std::right
-              << std::setw(10) << sum.Faces << std::setw(14) << sum.Area << "  "
-              << sum.Center[0] / area << ", " << sum.Center[1] / area << ", "
-              << sum.Center[2] / area << "\n";
+    std::cout << std::left << std::setw(14) << name << std::right << std::setw(10) << sum.Faces
+              << std::setw(14) << sum.Area << "  " << sum.Center[0] / area << ", "
+              << sum.Center[1] / area << ", " << sum.Center[2] / area << "\n";
   }
 }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 class vtkAlgorithm;
+class vtkDataObject;
 class vtkUnstructuredGrid;
 
 /// Displaced boundaries that are made from the command line instead of being read.
@@ -13,10 +14,14 @@ namespace morph_mesh
 {
 struct Motion;
 
-/// The filter whose output is the grid's displaced boundary: by numbers, or by projection onto a
-/// target. It has not been executed. Throws Failure for a target that cannot be read.
+/// The filter whose output is the grid's displaced boundary: by numbers, or onto a target. It has
+/// not been executed. Throws Failure for a target that cannot be read.
 vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   vtkUnstructuredGrid* grid, const Motion& motion, int threads);
+
+/// Prints the largest and the mean distance of what moves from the target, before and after.
+/// `boundary`: of makeDisplacement(), with a target.
+void printTargetDistances(vtkDataObject* boundary);
 
 /// The name of the point vectors of readDisplacements().
 inline constexpr const char* DisplacementName = "Displacement";

@@ -7,7 +7,8 @@
 #include "Messages.h"
 #include "Methods.h"
 #include "ProgressBar.h"
-#include "ReplaceFile.h"
+
+#include "Files/ReplaceFile.h"
 
 #include <vtkMorphShapes.h>
 #include <vtkNew.h>
@@ -28,6 +29,7 @@ namespace morph_mesh
 namespace
 {
 namespace fs = std::filesystem;
+namespace io = morph::io;
 
 std::string contentOf(const fs::path& path)
 {
@@ -153,7 +155,8 @@ public:
     {
       content += line + (line.empty() ? "" : "\n");
     }
-    replaceFile((this->folder_ / "quality.csv").string(), content);
+    io::replaceFile(
+      (this->folder_ / "quality.csv").string(), content, io::Signals::RemoveTemporaries);
   }
 
 private:
@@ -166,7 +169,7 @@ private:
                     " holds designs of another mesh, other shapes or other options (run.txt). "
                     "Choose another folder, or delete this one.");
     }
-    replaceFile(file.string(), description);
+    io::replaceFile(file.string(), description, io::Signals::RemoveTemporaries);
   }
 
   void readQuality()

@@ -4,7 +4,8 @@
 #include "Messages.h"
 #include "ReadApart.h"
 #include "ReadingGuard.h"
-#include "ReplaceFile.h"
+
+#include "Files/ReplaceFile.h"
 
 #include <vtkAVSucdReader.h>
 #include <vtkAppendFilter.h>
@@ -21,6 +22,8 @@
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
+#include <vtkSolverFileReader.h>
+#include <vtkSolverFileWriter.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -34,6 +37,7 @@
 #include <initializer_list>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <system_error>
 #include <vector>
@@ -42,6 +46,8 @@ namespace morph_mesh
 {
 namespace
 {
+namespace io = morph::io;
+
 std::string extension(const std::string& path)
 {
   return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
@@ -50,6 +56,12 @@ std::string extension(const std::string& path)
 bool isOneOf(const std::string& text, std::initializer_list<const char*> list)
 {
   return std::find(list.begin(), list.end(), text) != list.end();
+}
+
+/// Whether a library of others reads this solver's file, which a build may lack.
+bool isReadByLibrary(const std::string& path)
+{
+  return isOneOf(extension(path), { ".cgns", ".e", ".ex2", ".exo", ".exii", ".g", ".gen" });
 }
 
 template <typename Reader>
@@ -188,8 +200,30 @@ vtkSmartPointer<vtkDataObject> readGuarded(
   }
 }
 
+/// The format's name, not the extension alone, tells that VTK has no reader for it. `guarded`: a
+/// library of others reads it, which a damaged file may crash.
+vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path, bool guarded)
+{
+  const auto guard = guarded ? std::make_unique<ReadingGuard>(path, bytesToRead(path)) : nullptr;
+  vtkNew<vtkSolverFileReader> reader;
+  reader->SetFileName(path.c_str());
+  Messages messages(reader);
+  reader->Update();
+  if (!messages.errors().empty())
+  {
+    throw Failure(messages.errors().front()); // it names the file
+  }
+  printWarnings(path, messages.warnings());
+  return reader->GetOutput();
+}
+
 vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
 {
+  // VTK has no reader of CGNS here: the error names the library that is missing.
+  if (vtkSolverFileReader::CanReadFile(path.c_str()) || extension(path) == ".cgns")
+  {
+    return readSolverFile(path, isReadByLibrary(path));
+  }
   // Some readers say nothing of a file that is not there.
   if (!vtksys::SystemTools::FileExists(path, true))
   {
@@ -212,6 +246,11 @@ vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
   vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
   printWarnings(path, warnings);
   return data;
+}
+
+bool isVtkGrid(const std::string& path)
+{
+  return isOneOf(extension(path), { ".vtu", ".vtk" });
 }
 
 /// The writer writes into memory, which takes up to 3 times the size of the file. On a full disk
@@ -239,7 +278,7 @@ void writeXml(vtkDataObject* data, const std::string& path)
   runWriter(writer.Get(), data, path);
   const std::string content = writer->GetOutputString();
   writer = nullptr; // and its copy
-  replaceFile(path, content);
+  io::replaceFile(path, content, io::Signals::RemoveTemporaries);
 }
 
 void writeLegacy(vtkDataObject* data, const std::string& path)
@@ -248,7 +287,7 @@ void writeLegacy(vtkDataObject* data, const std::string& path)
   writer->SetFileTypeToBinary();
   runWriter(writer.Get(), data, path);
   const auto length = static_cast<std::size_t>(writer->GetOutputStringLength());
-  replaceFile(path, { writer->GetOutputString(), length });
+  io::replaceFile(path, { writer->GetOutputString(), length }, io::Signals::RemoveTemporaries);
 }
 }
 
@@ -279,11 +318,27 @@ vtkSmartPointer<vtkPointSet> readPoints(const std::string& path)
 
 void requireGridFormat(const std::string& path)
 {
-  if (!isOneOf(extension(path), { ".vtu", ".vtk" }))
+  if (!isVtkGrid(path))
   {
     throw Failure("Cannot write " + path + ": a grid is written as .vtu or .vtk.");
   }
-  requireReplaceable(path);
+  io::requireReplaceable(path);
+}
+
+void requireMorphedFormat(const std::string& original, const std::string& path)
+{
+  const bool isSolverFile =
+    vtkSolverFileReader::CanReadFile(original.c_str()) || isReadByLibrary(original);
+  if (isVtkGrid(path) || !isSolverFile)
+  {
+    requireGridFormat(path);
+    return;
+  }
+  const std::string reason = vtkSolverFileWriter::WhyNot(original.c_str(), path.c_str());
+  if (!reason.empty())
+  {
+    throw Failure(reason);
+  }
 }
 
 void requireBoundaryFormat(const std::string& path)
@@ -293,7 +348,7 @@ void requireBoundaryFormat(const std::string& path)
     throw Failure(
       "Cannot write " + path + ": a boundary, with its arrays, is written as .vtp or .vtk.");
   }
-  requireReplaceable(path);
+  io::requireReplaceable(path);
 }
 
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)
@@ -301,6 +356,27 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)
   requireGridFormat(path);
   extension(path) == ".vtk" ? writeLegacy(grid, path)
                             : writeXml<vtkXMLUnstructuredGridWriter>(grid, path);
+}
+
+double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
+{
+  if (isVtkGrid(path))
+  {
+    writeGrid(grid, path);
+    return 0;
+  }
+  vtkNew<vtkSolverFileWriter> writer;
+  writer->SetInputData(grid);
+  writer->SetOriginalFileName(original.c_str());
+  writer->SetFileName(path.c_str());
+  writer->HandleSignalsOn();
+  Messages messages(writer);
+  writer->Write();
+  if (!messages.errors().empty())
+  {
+    throw Failure(messages.errors().front()); // it names the file
+  }
+  return writer->GetLargestRounding();
 }
 
 void writeBoundary(vtkPointSet* boundary, const std::string& path)

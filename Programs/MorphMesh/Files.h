@@ -8,20 +8,28 @@
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
-/// Reads and writes files in VTK's formats, which the extension determines. Each function throws
-/// Failure.
+/// Reads and writes files in VTK's formats, which the extension determines, and in solvers' own
+/// formats. Each function throws Failure.
 namespace morph_mesh
 {
-/// Composite files (Exodus II) become one grid, coincident points merged.
+/// Composite files become one grid, coincident points merged: those of Exodus II, where this was
+/// built without netCDF.
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
 vtkSmartPointer<vtkPointSet> readPoints(const std::string& path);
 
-/// Throws Failure where writeGrid() or writeBoundary() would for the extension, or for the file at
-/// the path, so that the error comes before the work.
+/// Throws Failure where writeGrid(), writeMorphed() or writeBoundary() would for the extension, or
+/// for the file at the path, so that the error comes before the work.
 void requireGridFormat(const std::string& path);
+void requireMorphedFormat(const std::string& original, const std::string& path);
 void requireBoundaryFormat(const std::string& path);
 
-/// Write a file. Both replace it as a whole, or leave it as it was.
+/// Write a file. They replace it as a whole, or leave it as it was.
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& path);
 void writeBoundary(vtkPointSet* boundary, const std::string& path);
+
+/// Writes a morphed grid: in VTK's format by the extension .vtu or .vtk, or else as a copy of the
+/// solver's file `original`, which the grid was read from, with other coordinates. Returns the
+/// largest rounding of a coordinate.
+double writeMorphed(
+  vtkUnstructuredGrid* grid, const std::string& original, const std::string& path);
 }

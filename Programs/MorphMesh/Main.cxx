@@ -12,13 +12,16 @@
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphAlgorithm.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkScaledJacobian.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 namespace
@@ -88,6 +91,10 @@ void setBoundary(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arg
   Messages messages(displacement);
   messages.update("Cannot move the boundary of " + arguments.grid);
   printWarnings(messages);
+  if (!motion.target.empty() && !arguments.quiet)
+  {
+    printTargetDistances(displacement->GetOutputDataObject(0));
+  }
   filter->SetBoundaryData(displacement->GetOutputDataObject(0));
 }
 
@@ -96,6 +103,16 @@ std::string numbered(const std::string& path, int step)
 {
   const std::size_t dot = path.find_last_of('.');
   return path.substr(0, dot) + "-" + std::to_string(step) + path.substr(dot);
+}
+
+/// The grid with the points of the morphed one: its arrays stay as they were.
+vtkSmartPointer<vtkUnstructuredGrid> withPoints(
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* morphed)
+{
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  result->ShallowCopy(grid);
+  result->SetPoints(morphed->GetPoints());
+  return result;
 }
 
 /// Morphs by a part of the motion, and writes and reports the mesh.
@@ -113,7 +130,9 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
   {
     std::cerr << "morph-mesh: " << partial << "\n";
   }
-  writeGrid(filter->GetOutput(), output);
+  vtkUnstructuredGrid* morphed = filter->GetOutput();
+  const double rounding = writeMorphed(
+    arguments.results ? morphed : withPoints(grid, morphed).Get(), arguments.grid, output);
   if (!arguments.quiet)
   {
     vtkNew<vtkScaledJacobian> before;
@@ -121,6 +140,10 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
     before->SetNumberOfThreads(arguments.threads);
     before->Update();
     printReport(before, filter);
+    if (rounding > 0)
+    {
+      std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
+    }
   }
   const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
   return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
@@ -129,7 +152,11 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
 int morphMesh(const Arguments& arguments)
 {
   const vtkSmartPointer<vtkMorphAlgorithm> filter = makeFilter(arguments);
-  requireGridFormat(arguments.output);
+  requireMorphedFormat(arguments.grid, arguments.output);
+  if (arguments.steps > 0 && !std::filesystem::path(arguments.output).has_extension())
+  {
+    throw UsageError("--steps needs an output with an extension, before which it puts the number.");
+  }
   const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
   filter->SetInputData(grid);
   setBoundary(filter, grid, arguments);
@@ -170,6 +197,15 @@ int run(int argc, char* argv[])
   }
   return morphMesh(arguments);
 }
+
+/// Ends the program after an error. Libraries are not unloaded: with a damaged file that could not
+/// be closed, HDF5 would print errors of its own.
+int fail(int status)
+{
+  std::cout.flush();
+  std::cerr.flush();
+  std::_Exit(status);
+}
 }
 
 int main(int argc, char* argv[])
@@ -182,15 +218,15 @@ int main(int argc, char* argv[])
   catch (const UsageError& error)
   {
     std::cerr << "morph-mesh: " << error.what() << "\nTry morph-mesh --help.\n";
-    return 2;
+    return fail(2);
   }
   catch (const Reported&)
   {
-    return 1;
+    return fail(1);
   }
   catch (const std::exception& error)
   {
     std::cerr << "morph-mesh: " << error.what() << "\n";
-    return 1;
+    return fail(1);
   }
 }

@@ -111,7 +111,7 @@ void handleSignals()
 ReadingGuard::ReadingGuard(const std::string& path, std::uintmax_t bytes)
 {
   const std::uintmax_t seconds = 3 + 2 * (bytes / 1000000);
-  const std::string start = "morph-mesh: Cannot read " + path + ": VTK's reader ";
+  const std::string start = "morph-mesh: Cannot read " + path + ": its reader ";
   const std::string end = ". The file is damaged, or not what its extension says.\n";
   // Many readers go on without the memory that they did not get, and crash then.
   state.crashed = start + "crashed, or did not get the memory that it asked for" + end;

@@ -6,9 +6,10 @@
 
 namespace morph_mesh
 {
-/// Ends the program with exit status 1 and one message where one of VTK's readers misbehaves. These
-/// readers trust their files: on a damaged file some crash, take all memory or never end. The
-/// message names the file. It comes, during the object's lifetime,
+/// Ends the program with exit status 1 and one message where a reader of VTK, or one through a
+/// library of others, misbehaves. These readers trust their files: on a damaged file some crash,
+/// take all memory or never end. The message names the file. It comes, during the object's
+/// lifetime,
 /// - after a signal of the processor, or abort();
 /// - after 3 s of computing and 2 s more for each megabyte of the file.
 /// Memory is limited to the current use, 1 GiB and 1100 times the size of the file, the maximum

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a small grid and its boundary in the formats that morph-mesh reads and VTK writes, each
 // in several encodings. The tests break these files.
+#ifdef MESHMORPHING_HAS_CGNS
+#include "CgnsSamples.h"
+#endif
+
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkExodusIIWriter.h>
@@ -190,6 +194,9 @@ void writeSamples(const std::string& folder)
     write(ply.Get(), boundary, name + ".ply");
   }
   write(vtkNew<vtkOBJWriter>().Get(), boundary, folder + "/boundary.obj");
+#ifdef MESHMORPHING_HAS_CGNS
+  writeCgnsSamples(folder);
+#endif
 }
 }
 

@@ -21,7 +21,10 @@ import tempfile
 import time
 from pathlib import Path
 
+import exodus_models
+import gmsh_models
 import mutations
+import solver_models as models
 
 PROGRAM = os.environ["MORPH_MESH"]
 SAMPLES = os.environ["SAMPLE_FILES"]
@@ -63,6 +66,32 @@ def write_text_samples(folder):
     (folder / "grid.neu").write_text("\n".join(lines) + "\n")
 
 
+def write_solver_samples(folder):
+    """Solvers' own files, of a small model. Their names begin with "solver"."""
+    model, rng = models.random_model("malformed", sizes=(2, 2, 2))
+    for name, pieces in (("solver.inp", models.abaqus(model, rng)),
+                         ("solver.bdf", models.nastran(model, rng)),
+                         ("solver.su2", models.su2(model, rng)),
+                         ("solver22.msh", gmsh_models.gmsh(model, rng, version="2.2")),
+                         ("solver41.msh", gmsh_models.gmsh(model, rng, version="4.1"))):
+        (folder / name).write_bytes(models.text_of(pieces))
+    for version in ("2.2", "4.1"):
+        (folder / f"solver_binary{version[0]}.msh").write_bytes(
+            gmsh_models.gmsh_binary(model, version)[0])
+    if shutil.which("ncgen"):
+        cdl = folder.parent / "solver.cdl"
+        cdl.write_text(exodus_models.exodus(model))
+        for kind in ("classic", "64-bit offset", "64-bit data", "netCDF-4"):
+            subprocess.run(["ncgen", "-k", kind, "-o", folder / f"solver_{kind[:6]}.exo", cdl],
+                           check=True)
+    for path in folder.glob("cube*.cgns"):
+        path.rename(path.with_name("solver_" + path.name))
+
+
+#: The names of what moves in these files; "wall" in the others.
+WALLS = {".inp": "Wall", ".bdf": "PID 2"}
+
+
 def finite_mesh(path):
     """Why the legacy file that morph-mesh wrote is no valid mesh; empty if it is one."""
     data = path.read_bytes()
@@ -90,6 +119,7 @@ class Cases:
         self.folder, self.seed = folder, seed
         subprocess.run([SAMPLES, str(folder)], check=True)
         write_text_samples(folder)
+        write_solver_samples(folder)
         self.grid = str(folder / "grid_zlib.vtu")
         self.boundaries = {}
         names = "grid_zlib.vtu", "grid.exo", "grid.inp", "grid.neu"
@@ -106,6 +136,9 @@ class Cases:
     def arguments(self, sample, file, output):
         if sample.name.startswith("boundary"):
             return [self.grid, str(file), str(output)]
+        if sample.name.startswith("solver"):
+            return ["--move", WALLS.get(sample.suffix, "wall"), "--translate", "0.05,0.02,-0.03",
+                    str(file), str(output)]
         boundary = self.boundaries.get(sample.name, self.boundaries["grid_zlib.vtu"])
         return [str(file), boundary, str(output)]
 
@@ -128,7 +161,8 @@ class Cases:
         with tempfile.TemporaryDirectory(dir=self.folder.parent) as name:
             folder = Path(name)
             sample, file, ways = self.make(index, folder)
-            output = folder / "out.vtk"
+            own = sample.name.startswith("solver") and index // len(self.samples) % 2
+            output = folder / ("out" + (file.suffix if own else ".vtk"))
             command = ["prlimit", f"--as={MEGABYTES << 20}", f"--cpu={SECONDS}", PROGRAM,
                        "--quiet", "--threads", "1", *self.arguments(sample, file, output)]
             try:
@@ -149,7 +183,13 @@ class Cases:
             cut = file.read_bytes().rstrip() != sample.read_bytes().rstrip()
             if xml and ways == "truncated" and cut:
                 return "a truncated XML file is taken for a whole one"
-            return finite_mesh(output) if output.exists() else "status 0 without a file"
+            if not output.exists():
+                return "status 0 without a file"
+            if output.suffix == ".vtk":
+                return finite_mesh(output)
+            again = subprocess.run([PROGRAM, "--list-surfaces", output], capture_output=True,
+                                   timeout=WALL_SECONDS)
+            return "" if again.returncode == 0 else f"the copy cannot be read: {again.stderr!r}"
         if result.returncode != 1:
             return f"status {result.returncode}: {text.strip()[-300:]}"
         if output.exists():

@@ -7,6 +7,7 @@ Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small mo
 """
 import os
 import re
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -93,7 +94,13 @@ class MorphMesh(unittest.TestCase):
                 (2, "three numbers", "--move", "Surface 1", "--translate", "1,2", BORE, moved),
                 (2, "an axis", "--move", "Surface 1", "--rotate", "w,3", BORE, moved),
                 (2, "need --move", "--translate", "1,2,3", BORE, moved),
-                (2, "only one", "--move", "Surface 1", "--target", "x.stl", BORE, moved),
+                (2, "cannot be combined", "--move", "Surface 1", "--displacements", "x.csv", BORE,
+                 moved),
+                (2, "cannot be combined", "--move", "Surface 1", "--scale", "2", "--target",
+                 "x.stl", BORE, moved),
+                (2, "need --move or --target", "--free", "Surface 1", BORE, moved),
+                (2, "--align needs --target", "--move", "Surface 1", "--scale", "2", "--align",
+                 BORE, moved),
                 (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
@@ -129,6 +136,85 @@ class MorphMesh(unittest.TestCase):
         nodes.write_text("id,dx,dy,dz\n1,0,0,0\n", encoding="utf-8")
         self.fails(1, "has no node numbers", "--displacements", nodes, "--node-numbers", BORE,
                    self.folder / "x.vtu")
+
+    def test_displacements_by_the_numbers_of_the_file(self):
+        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+
+        def values(kind, name, numbers, components=1):
+            return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" '
+                    f'format="ascii">{" ".join(map(str, numbers))}</DataArray>')
+
+        grid = self.folder / "cube.vtu"
+        grid.write_text(
+            '<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid>'
+            '<Piece NumberOfPoints="8" NumberOfCells="1"><PointData GlobalIds="GlobalNodeId">'
+            + values("Int64", "GlobalNodeId", range(18, 10, -1)) + "</PointData><Points>"
+            + values("Float64", "Points", (x for corner in corners for x in corner), 3)
+            + "</Points><Cells>" + values("Int64", "connectivity", range(8))
+            + values("Int64", "offsets", [8]) + values("UInt8", "types", [12])
+            + "</Cells></Piece></UnstructuredGrid></VTKFile>", encoding="utf-8")
+        nodes = self.folder / "nodes.csv"
+        nodes.write_text("id,dx,dy,dz\n12,0,0,0.25\n", encoding="utf-8")
+        moved = self.folder / "moved.vtk"
+        for options, point in ((("--node-numbers",), 6), ((), None)):
+            result = run("--displacements", nodes, *options, grid, moved)
+            if point is None:  # the mesh has points 0 to 7
+                self.assertIn("no node '12'", result.stderr)
+                continue
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            content = moved.read_bytes()
+            start = content.index(b"\n", content.index(b"\nPOINTS 8 double") + 1) + 1
+            found = struct.unpack(">24d", content[start:start + 24 * 8])
+            for i, corner in enumerate(corners):
+                expected = (*corner[:2], corner[2] + 0.25 * (i == point))
+                self.assertEqual(found[3 * i:3 * i + 3], expected)
+
+    def test_a_chosen_surface_is_fitted_to_a_target(self):
+        listed = run("--list-surfaces", BORE).stdout.splitlines()[1:]
+        rows = [line.split(None, 4) for line in listed]
+        heights = {" ".join(r[:2]): float(r[4].split(",")[2]) for r in rows}
+        top = max(heights, key=heights.get)
+
+        def lid(height):
+            file = self.folder / f"lid{height}.stl"
+            corners = [f"vertex {x} {y} {height}" for x, y in ((-9, -9), (9, -9), (9, 9), (-9, 9))]
+            facets = [["facet normal 0 0 1", "outer loop", *(corners[i] for i in triangle),
+                       "endloop", "endfacet"] for triangle in ((0, 1, 2), (0, 2, 3))]
+            file.write_text("\n".join(["solid lid", *sum(facets, []), "endsolid lid", ""]),
+                            encoding="utf-8")
+            return file
+
+        moved = self.folder / "moved.vtu"
+        for options, height in (((), heights[top] + 0.3), (("--align",), 40)):
+            with self.subTest(options=options):
+                result = run("--move", top, "--target", lid(height), *options, "--require-valid",
+                             BORE, moved)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                distances = [tuple(map(float, found)) for found in re.findall(
+                    r"distance from the target (?:before|after): maximum (\S+), mean (\S+)",
+                    result.stdout)]
+                self.assertEqual(len(distances), 2)
+                shift = 0.3 if height < 40 else 0  # an aligned one lies on the surface itself
+                for found in distances[0]:
+                    self.assertAlmostEqual(found, shift, delta=1e-4)
+                for found in distances[1]:
+                    self.assertLess(found, 1e-5)
+                after = run("--list-surfaces", moved).stdout.splitlines()[1:]
+                center = [line.split(None, 4)[4] for line in after if line.startswith(top)]
+                self.assertAlmostEqual(float(center[0].split(",")[2]), heights[top] + shift,
+                                       delta=1e-3)
+        self.fails(1, "no surface", "--target", BORE, BORE, moved)
+
+    def test_a_free_surface_is_solved_with_the_interior(self):
+        options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
+        prescribed = []
+        for free in ((), ("--free", "Surface 0"), ("--free", "Surface 1")):
+            result = run(*free, *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            prescribed.append(int(re.search(r"(\d+) of them prescribed", result.stdout).group(1)))
+        self.assertLess(prescribed[1], prescribed[0])
+        self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
+        self.fails(1, "FreePatches names 'Wall'", "--free", "Wall", *options)
 
     def test_the_boundary_is_fitted_to_a_target(self):
         # Its own boundary as target: nothing moves, beyond rounding.
@@ -169,6 +255,22 @@ class MorphMesh(unittest.TestCase):
                 result = self.morph(boundary=self.folder / written, output=output)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
                 self.assertGreater((self.folder / output).stat().st_size, 10000)
+
+    def test_arrays_are_those_of_the_grid_unless_results_are_asked_for(self):
+        names = lambda name: re.findall(r'Name="(\w+)"', (self.folder / name).read_text())
+        grid = re.findall(r'Name="(\w+)"', Path(BORE).read_text(encoding="latin-1"))
+        self.assertEqual(self.morph().returncode, 0)
+        self.assertEqual(sorted(names("out.vtu")), sorted(grid))
+        self.assertEqual(self.morph("--results", output="results.vtu").returncode, 0)
+        self.assertIn("ScaledJacobian", set(names("results.vtu")) - set(grid))
+        # Nothing but the arrays differs.
+        parts = []
+        for name in ("out.vtu", "results.vtu"):
+            boundary = self.folder / "b.vtk"
+            self.assertEqual(run("--extract-boundary", self.folder / name, boundary).returncode, 0)
+            content = boundary.read_bytes()
+            parts.append(content[content.index(b"POINTS "):content.index(b"POLYGONS")])
+        self.assertEqual(parts[0] == parts[1], True)
 
     def test_a_grid_of_another_program(self):
         # AVS UCD: a cube of eight hexahedra; ids from 1.

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Formats/SolverMesh.h"
+
+#include <array>
+#include <list>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace morph::io
+{
+/// The sets and surfaces of an Abaqus or CalculiX input file while it is read. Sets may name
+/// others, and elements that come later. Names are compared without case.
+class AbaqusSets
+{
+public:
+  struct Entries
+  {
+    std::vector<Index> numbers;
+    std::vector<std::array<Index, 3>> ranges; ///< first, last, step
+    std::vector<std::string> names;           ///< of other sets, in upper case
+  };
+  /// Element number or set name, and face: "S3".
+  using Surface = std::vector<std::pair<std::string, std::string>>;
+
+  /// The entries to add to; null for an empty name. They stay where they are.
+  Entries* nodeSet(const std::string& name) { return entriesOf(this->nodeSets_, name); }
+  Entries* elementSet(const std::string& name) { return entriesOf(this->elementSets_, name); }
+  Surface* surface(const std::string& name, bool ofNodes);
+  /// A node set gets the nodes of an element set.
+  void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
+
+  /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: positions of node
+  /// numbers. Numbers and names that the file does not define are left out, as they may belong to
+  /// elements that are left out.
+  void addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes) const;
+
+private:
+  struct NamedEntries
+  {
+    std::string name; ///< as written first
+    Entries entries;
+    std::vector<std::string> elementSets; ///< whose nodes belong to it
+  };
+  using Sets = std::map<std::string, NamedEntries>;
+  struct NamedSurface
+  {
+    std::string name;
+    bool ofNodes;
+    Surface lines;
+  };
+
+  static Entries* entriesOf(Sets& sets, const std::string& name);
+  /// The positions in a set and in those that it names.
+  static std::vector<Index> positions(const Sets& sets, const std::string& name,
+    const std::unordered_map<Index, Index>& positionOf, int depth);
+  std::vector<Index> nodesOf(const std::string& name, const SolverMesh& mesh,
+    const std::unordered_map<Index, Index>& nodes,
+    const std::unordered_map<Index, Index>& elements) const;
+  void addSurface(const NamedSurface& surface, SolverMesh& mesh,
+    const std::unordered_map<Index, Index>& nodes,
+    const std::unordered_map<Index, Index>& elements) const;
+
+  Sets nodeSets_, elementSets_;
+  std::list<NamedSurface> surfaces_;
+};
+}

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/FoamList.h"
+
+#include "Files/Gzip.h"
+#include "Files/ReadFile.h"
+#include "Support/Error.h"
+#include "Text/NumberText.h"
+#include "Text/Printable.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+namespace morph::io
+{
+namespace
+{
+template <typename Value>
+Value valueAt(const char* bytes)
+{
+  Value value;
+  std::memcpy(&value, bytes, sizeof(Value));
+  return value;
+}
+}
+
+FoamList::FoamList(const std::string& path)
+  : path_(path)
+{
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && std::filesystem::exists(path + ".gz", error))
+  {
+    this->path_ += ".gz";
+  }
+  this->content_ = readFile(this->path_);
+  if (this->content_.rfind("\x1f\x8b", 0) == 0)
+  {
+    this->content_ = gunzip(this->content_, this->path_);
+  }
+  this->readHeader();
+}
+
+void FoamList::fail(const std::string& reason) const
+{
+  throw Error(printable("Cannot read " + this->path_ + ": " + reason));
+}
+
+void FoamList::skipBlanks()
+{
+  const std::string& text = this->content_;
+  while (this->at_ < text.size())
+  {
+    if (std::strchr(" \t\r\n", text[this->at_]) && text[this->at_] != '\0')
+    {
+      ++this->at_;
+    }
+    else if (text.compare(this->at_, 2, "//") == 0)
+    {
+      this->at_ = std::min(text.find('\n', this->at_), text.size());
+    }
+    else if (text.compare(this->at_, 2, "/*") == 0)
+    {
+      const std::size_t end = text.find("*/", this->at_ + 2);
+      this->at_ = end == std::string::npos ? text.size() : end + 2;
+    }
+    else
+    {
+      return;
+    }
+  }
+}
+
+char FoamList::peek()
+{
+  this->skipBlanks();
+  if (this->at_ >= this->content_.size())
+  {
+    this->fail("it ends too soon.");
+  }
+  return this->content_[this->at_];
+}
+
+void FoamList::expect(char character)
+{
+  if (this->peek() != character)
+  {
+    this->fail(
+      std::string("a '") + character + "' is missing at byte " + std::to_string(this->at_) + ".");
+  }
+  ++this->at_;
+}
+
+Span FoamList::word()
+{
+  this->peek();
+  Span span{ this->at_, this->at_ };
+  const std::size_t end = this->content_.find_first_of(" \t\r\n(){};", this->at_);
+  span.end = std::min(end, this->content_.size());
+  this->at_ = span.end;
+  return span;
+}
+
+Index FoamList::integer()
+{
+  const Span span = this->word();
+  const auto value = parseInteger(span.of(this->content_));
+  if (!value)
+  {
+    this->fail("a whole number is missing at byte " + std::to_string(span.begin) + ".");
+  }
+  return *value;
+}
+
+Index FoamList::count(std::size_t leastBytes)
+{
+  const Index value = this->integer();
+  const std::size_t left = this->content_.size() - this->at_;
+  if (value < 0 || static_cast<std::size_t>(value) > left / leastBytes)
+  {
+    this->fail("it names " + std::to_string(value) + " entries, for which it is too short.");
+  }
+  if (this->peek() == '{')
+  {
+    this->fail("it has a list in the form 'N{value}', which is not supported.");
+  }
+  return value;
+}
+
+const char* FoamList::bytes(std::size_t size)
+{
+  if (this->content_.size() - this->at_ < size)
+  {
+    this->fail("it ends too soon.");
+  }
+  const char* result = this->content_.data() + this->at_;
+  this->at_ += size;
+  return result;
+}
+
+void FoamList::readHeader()
+{
+  const Span name = this->word();
+  if (name.of(this->content_) != "FoamFile")
+  {
+    this->fail("it has no header FoamFile.");
+  }
+  this->expect('{');
+  std::map<std::string, std::string> entries;
+  while (this->peek() != '}')
+  {
+    const std::string key(this->word().of(this->content_));
+    this->skipBlanks();
+    // A value may be quoted, and hold semicolons.
+    bool isQuoted = false;
+    std::string value;
+    for (; this->at_ < this->content_.size(); ++this->at_)
+    {
+      const char c = this->content_[this->at_];
+      isQuoted = c == '"' ? !isQuoted : isQuoted;
+      if (c == ';' && !isQuoted)
+      {
+        break;
+      }
+      value += c == '"' ? std::string() : std::string(1, c);
+    }
+    this->expect(';');
+    entries[key] = trimmed(value);
+  }
+  this->expect('}');
+  this->type_ = entries["class"];
+  this->isBinary_ = entries["format"] == "binary";
+  const std::string& arch = entries["arch"];
+  this->bytesOfLabel_ = arch.find("label=64") != std::string::npos ? 8 : 4;
+  this->bytesOfScalar_ = arch.find("scalar=32") != std::string::npos ? 4 : 8;
+  if (this->isBinary_ && arch.find("MSB") != std::string::npos)
+  {
+    this->fail("it is binary, and of a processor with another order of bytes (MSB).");
+  }
+}
+
+std::vector<Index> FoamList::labels()
+{
+  std::vector<Index> result(
+    static_cast<std::size_t>(this->count(this->isBinary_ ? this->bytesOfLabel_ : 2)));
+  this->expect('(');
+  if (!this->isBinary_)
+  {
+    std::generate(result.begin(), result.end(), [&] { return this->integer(); });
+  }
+  else
+  {
+    const char* from = this->bytes(result.size() * this->bytesOfLabel_);
+    for (Index& label : result)
+    {
+      label = this->bytesOfLabel_ == 8 ? valueAt<std::int64_t>(from) : valueAt<std::int32_t>(from);
+      from += this->bytesOfLabel_;
+    }
+  }
+  this->expect(')');
+  return result;
+}
+
+FoamList::Vectors FoamList::vectors()
+{
+  Vectors result;
+  const std::size_t size = 3 * this->bytesOfScalar_;
+  const auto vectors = static_cast<std::size_t>(this->count(this->isBinary_ ? size : 7));
+  result.values.reserve(3 * vectors);
+  this->expect('(');
+  result.first = this->at_;
+  if (this->isBinary_)
+  {
+    const char* from = this->bytes(vectors * size);
+    for (std::size_t i = 0; i < 3 * vectors; ++i, from += this->bytesOfScalar_)
+    {
+      result.values.push_back(
+        this->bytesOfScalar_ == 4 ? valueAt<float>(from) : valueAt<double>(from));
+    }
+  }
+  for (std::size_t i = 0; !this->isBinary_ && i < vectors; ++i)
+  {
+    this->expect('(');
+    for (int j = 0; j < 3; ++j)
+    {
+      result.places.push_back(this->word());
+      const std::string_view text = result.places.back().of(this->content_);
+      const auto value = parseNumber(text);
+      if (!value)
+      {
+        this->fail("point " + std::to_string(i) + " has the coordinate '" +
+                   std::string(text.substr(0, 40)) + "', which is no number.");
+      }
+      result.values.push_back(*value);
+    }
+    this->expect(')');
+  }
+  this->expect(')');
+  return result;
+}
+
+std::vector<std::vector<Index>> FoamList::faces()
+{
+  std::vector<std::vector<Index>> result;
+  if (!this->isBinary_)
+  {
+    result.resize(static_cast<std::size_t>(this->count(4)));
+    this->expect('(');
+    for (std::vector<Index>& face : result)
+    {
+      face = this->labels();
+    }
+    this->expect(')');
+    return result;
+  }
+  if (this->type_ != "faceCompactList")
+  {
+    this->fail("its class is " + this->type_ + ", where faceCompactList is read of binary files.");
+  }
+  const std::vector<Index> offsets = this->labels();
+  const std::vector<Index> all = this->labels();
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f)
+  {
+    if (offsets[f] < 0 || offsets[f] > offsets[f + 1] ||
+        offsets[f + 1] > static_cast<Index>(all.size()))
+    {
+      this->fail("the offsets of face " + std::to_string(f) + " are out of range.");
+    }
+    result.emplace_back(all.begin() + offsets[f], all.begin() + offsets[f + 1]);
+  }
+  return result;
+}
+
+std::vector<FoamList::Patch> FoamList::patches()
+{
+  std::vector<Patch> result(static_cast<std::size_t>(this->count(4)));
+  this->expect('(');
+  for (Patch& patch : result)
+  {
+    patch.name = std::string(this->word().of(this->content_));
+    this->expect('{');
+    int depth = 1;
+    while (depth > 0)
+    {
+      const char c = this->peek();
+      if (c == '{' || c == '}')
+      {
+        depth += c == '{' ? 1 : -1;
+        ++this->at_;
+        continue;
+      }
+      if (std::strchr("();", c))
+      {
+        ++this->at_;
+        continue;
+      }
+      const std::string key(this->word().of(this->content_));
+      if (depth == 1 && (key == "nFaces" || key == "startFace"))
+      {
+        (key == "nFaces" ? patch.count : patch.first) = this->integer();
+      }
+    }
+  }
+  return result;
+}
+}

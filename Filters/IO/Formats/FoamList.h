@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Types.h"
+#include "Text/Lines.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace morph::io
+{
+/// A file of OpenFOAM, unpacked: its header, and the lists that follow. See "Basic input/output
+/// file format" in OpenFOAM's User Guide.
+class FoamList
+{
+public:
+  /// Reads `path` or, where there is no such file, `path` with ".gz". Throws Error where neither
+  /// can be read, or where it has no header FoamFile.
+  explicit FoamList(const std::string& path);
+
+  const std::string& path() const { return this->path_; } ///< with ".gz" where it has that
+  const std::string& content() const { return this->content_; }
+  const std::string& type() const { return this->type_; } ///< its class: "vectorField"
+  bool isBinary() const { return this->isBinary_; }
+  std::size_t bytesOfScalar() const { return this->bytesOfScalar_; }
+
+  /// The next list, of labels, of coordinates, or of faces. Each throws Error where it is damaged.
+  std::vector<Index> labels();
+  struct Vectors
+  {
+    std::vector<double> values; ///< 3 x #vectors
+    std::vector<Span> places;   ///< of each number in the content, of a text
+    std::size_t first = 0;      ///< where the numbers begin, of a binary file
+  };
+  Vectors vectors();
+  std::vector<std::vector<Index>> faces();
+
+  /// The patches of polyMesh/boundary.
+  struct Patch
+  {
+    std::string name;
+    Index first = 0, count = 0; ///< faces
+  };
+  std::vector<Patch> patches();
+
+private:
+  void readHeader();
+  void skipBlanks();
+  char peek();
+  void expect(char character);
+  Span word();
+  Index integer();
+  Index count(std::size_t leastBytes);
+  const char* bytes(std::size_t size);
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string path_, content_, type_;
+  bool isBinary_ = false;
+  std::size_t bytesOfLabel_ = 4, bytesOfScalar_ = 8, at_ = 0;
+};
+}

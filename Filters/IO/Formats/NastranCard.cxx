@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/NastranCard.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace morph::io
+{
+namespace
+{
+constexpr std::size_t NameWidth = 8;
+
+/// The name of an entry, in upper case, with the star of the large format.
+std::string nameOf(std::string_view line)
+{
+  const std::size_t comma = line.find(',');
+  std::string name(trimmed(line.substr(0, std::min(comma, NameWidth))));
+  std::transform(name.begin(), name.end(), name.begin(),
+    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+}
+
+NumberRules NastranCard::rules(std::size_t field) const
+{
+  NumberRules rules;
+  rules.shortExponent = true;
+  rules.separator = this->fields[field].width > 0 ? ' ' : ',';
+  rules.width = this->fields[field].width;
+  rules.field = rules.width > 0 ? NumberRules::Field::Fixed : NumberRules::Field::Free;
+  rules.longest = this->isLarge ? 16 : 8;
+  return rules;
+}
+
+bool NastranCards::nextLine()
+{
+  while (!this->isHeld_)
+  {
+    if (!this->lines_.next())
+    {
+      return false;
+    }
+    this->line_ = this->lines_.span();
+    const std::size_t comment = this->line_.of(this->text_).find('$');
+    if (comment != std::string_view::npos)
+    {
+      this->line_.end = this->line_.begin + comment;
+    }
+    this->isHeld_ = !trimmed(this->line_.of(this->text_)).empty();
+  }
+  return true;
+}
+
+bool NastranCards::continues() const
+{
+  const std::string_view line = this->line_.of(this->text_);
+  return line[0] == '+' || line[0] == '*' || line[0] == ',' || nameOf(line).empty();
+}
+
+bool NastranCards::next(NastranCard& card)
+{
+  if (!this->nextLine())
+  {
+    return false;
+  }
+  card = NastranCard();
+  card.at = this->line_.begin;
+  card.name = nameOf(this->line_.of(this->text_));
+  do
+  {
+    const std::string_view line = this->line_.of(this->text_);
+    card.isFree = line.find(',') != std::string_view::npos;
+    const std::string start = nameOf(line);
+    card.isLarge = !start.empty() && (start.back() == '*' || start.front() == '*');
+    this->addFields(card, this->line_);
+    this->isHeld_ = false;
+  } while (this->nextLine() && this->continues());
+  if (!card.name.empty() && card.name.back() == '*')
+  {
+    card.name.pop_back();
+  }
+  return true;
+}
+
+void NastranCards::addFields(NastranCard& card, Span line) const
+{
+  if (!card.isFree)
+  {
+    this->addFixed(card, line);
+    return;
+  }
+  std::vector<Span> parts;
+  splitAtCommas(this->text_, line, parts);
+  const std::size_t most = card.isLarge ? 4 : 8;
+  for (std::size_t i = 0; i < most; ++i)
+  {
+    NastranField field;
+    const bool isThere = i + 1 < parts.size();
+    field.span = isThere ? parts[i + 1] : Span{ parts.back().end, parts.back().end };
+    field.place.begin = field.span.begin;
+    field.place.length = static_cast<std::uint32_t>(field.span.size());
+    field.place.missing = isThere ? 0 : 1;
+    card.fields.push_back(field);
+  }
+}
+
+void NastranCards::addFixed(NastranCard& card, Span line) const
+{
+  const std::size_t width = card.isLarge ? 16 : 8, most = card.isLarge ? 4 : 8;
+  for (std::size_t i = 0; i < most; ++i)
+  {
+    const std::size_t column = line.begin + NameWidth + i * width;
+    const std::size_t begin = std::min(column, line.end);
+    const std::size_t end = std::min(column + width, line.end);
+    NastranField field;
+    field.width = width;
+    field.span = trimmed(this->text_, { begin, end });
+    field.place.begin = begin;
+    field.place.length = static_cast<std::uint32_t>(end - begin);
+    field.place.missing = static_cast<std::uint32_t>(column - begin);
+    card.fields.push_back(field);
+  }
+}
+}

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/NastranFile.h"
+
+#include "Files/ReadFile.h"
+#include "Formats/NastranCard.h"
+#include "Formats/TextFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+namespace morph::io
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr int DeepestInclude = 20;
+
+/// An entry of elements: the cells by the number of its nodes, the first field of its nodes.
+struct Kind
+{
+  std::map<std::size_t, std::uint8_t> cellTypes;
+  std::size_t firstNode = 2;
+};
+
+const std::map<std::string, Kind>& kinds()
+{
+  static const std::map<std::string, Kind> table = {
+    { "CTETRA", { { { 4, Tetra }, { 10, QuadraticTetra } }, 2 } },
+    { "CPYRAM", { { { 5, Pyramid }, { 13, QuadraticPyramid } }, 2 } },
+    { "CPYRA", { { { 5, Pyramid }, { 13, QuadraticPyramid } }, 2 } },
+    { "CPENTA", { { { 6, Wedge }, { 15, QuadraticWedge } }, 2 } },
+    { "CHEXA", { { { 8, Hexahedron }, { 20, QuadraticHexahedron } }, 2 } },
+    { "CTRIA3", { { { 3, Triangle } }, 2 } },
+    { "CTRIA6", { { { 6, QuadraticTriangle } }, 2 } },
+    { "CQUAD4", { { { 4, Quad } }, 2 } },
+    { "CQUAD8", { { { 8, QuadraticQuad } }, 2 } },
+    { "CBAR", { { { 2, Line } }, 2 } },
+    { "CBEAM", { { { 2, Line } }, 2 } },
+    { "CROD", { { { 2, Line } }, 2 } },
+  };
+  return table;
+}
+
+/// Nastran's nodes between corners go bottom, sides, top; VTK's bottom, top, sides.
+void toVtkOrder(std::uint8_t type, std::vector<Index>& nodes)
+{
+  if (type == QuadraticHexahedron)
+  {
+    std::rotate(nodes.begin() + 12, nodes.begin() + 16, nodes.end());
+  }
+  else if (type == QuadraticWedge)
+  {
+    std::rotate(nodes.begin() + 9, nodes.begin() + 12, nodes.end());
+  }
+}
+
+class NastranFile : public TextFile
+{
+public:
+  explicit NastranFile(const std::string& path)
+    : TextFile(path)
+  {
+    this->parse(this->addPart(path, ""), 0);
+    this->finish();
+  }
+
+private:
+  struct Element
+  {
+    Index number = 0, property = 0;
+    std::vector<Index> nodes;
+    std::uint8_t type = 0;
+    std::size_t part = 0, at = 0;
+  };
+
+  void parse(std::size_t part, int depth);
+  void include(std::size_t part, std::size_t at, int depth);
+  void takeGrid(std::size_t part, const NastranCard& card);
+  void takeElement(std::size_t part, const NastranCard& card, const Kind& kind);
+  Index integerIn(std::size_t part, const NastranCard& card, std::size_t field) const;
+  void finish();
+
+  std::vector<Element> elements_;
+};
+
+/// The file that a statement names: INCLUDE 'name', which may go over several lines. `at`: after
+/// the statement.
+std::string includedName(std::string_view text, std::size_t& at)
+{
+  const std::size_t begin = text.find_first_not_of(" \t=", at + 7);
+  if (begin == std::string_view::npos)
+  {
+    return "";
+  }
+  const char quote = text[begin];
+  if (quote != '\'' && quote != '"')
+  {
+    const std::size_t end = std::min(text.find_first_of("\r\n$", begin), text.size());
+    at = end;
+    return std::string(trimmed(text.substr(begin, end - begin)));
+  }
+  const std::size_t end = std::min(text.find(quote, begin + 1), text.size());
+  std::string name;
+  for (const char c : text.substr(begin + 1, end - begin - 1))
+  {
+    if (c != '\n' && c != '\r')
+    {
+      name += c;
+    }
+  }
+  at = std::min(text.find('\n', end), text.size());
+  return std::string(trimmed(name));
+}
+
+bool startsWith(const std::string& text, const char* start)
+{
+  return text.rfind(start, 0) == 0;
+}
+
+void NastranFile::parse(std::size_t part, int depth)
+{
+  const std::string& text = this->parts_[part].text;
+  // Executive and case control come before BEGIN BULK, in the file itself.
+  std::string upper = text;
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::size_t at = 0;
+  if (part == 0)
+  {
+    const std::size_t bulk = upper.find("BEGIN BULK");
+    at = bulk == std::string::npos ? 0 : std::min(text.find('\n', bulk), text.size());
+  }
+  NastranCards cards(text, at);
+  NastranCard card;
+  while (cards.next(card))
+  {
+    if (startsWith(card.name, "INCLUDE"))
+    {
+      std::size_t after = card.at;
+      const std::string name = includedName(text, after);
+      if (name.empty() || depth >= DeepestInclude)
+      {
+        this->failAt(part, card.at,
+          name.empty() ? "the name of the included file is missing."
+                       : "files include each other more than 20 levels deep.");
+      }
+      // A relative name is that from the folder of the including file.
+      const fs::path relative = fs::path(this->parts_[part].name).parent_path() / name;
+      const fs::path folder = fs::path(this->parts_[part].path).parent_path();
+      this->parse(this->addPart((folder / name).string(), relative.string()), depth + 1);
+      cards = NastranCards(text, after);
+    }
+    else if (startsWith(card.name, "ENDDATA"))
+    {
+      return;
+    }
+    else if (card.name == "GRID")
+    {
+      this->takeGrid(part, card);
+    }
+    else if (card.name == "GRDSET" && this->integerIn(part, card, 1) != 0)
+    {
+      this->failAt(part, card.at, "GRDSET puts nodes into another coordinate system (CP).");
+    }
+    else if (const auto kind = kinds().find(card.name); kind != kinds().end())
+    {
+      this->takeElement(part, card, kind->second);
+    }
+  }
+}
+
+Index NastranFile::integerIn(std::size_t part, const NastranCard& card, std::size_t field) const
+{
+  const bool isBlank = field >= card.fields.size() || card.fields[field].span.size() == 0;
+  return isBlank ? 0 : this->integerAt(part, card.fields[field].span);
+}
+
+void NastranFile::takeGrid(std::size_t part, const NastranCard& card)
+{
+  const std::string& text = this->parts_[part].text;
+  const std::string_view line =
+    std::string_view(text).substr(card.at, card.fields.back().place.begin - card.at);
+  if (!card.isFree && line.find('\t') != std::string_view::npos)
+  {
+    this->failAt(part, card.at, "there are tabs between its fields. Write blanks.");
+  }
+  if (card.fields.size() < 5)
+  {
+    this->failAt(part, card.at, "GRID has no third coordinate: a continuation line is missing.");
+  }
+  const Index number = this->integerIn(part, card, 0);
+  if (this->integerIn(part, card, 1) != 0)
+  {
+    this->failAt(part, card.at,
+      "node " + std::to_string(number) + " is in another coordinate system (CP " +
+        std::to_string(this->integerIn(part, card, 1)) + "). Write all nodes in the basic one.");
+  }
+  NodePlace place;
+  place.part = part;
+  place.rules = card.rules(2);
+  std::array<double, 3> x = { 0, 0, 0 };
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    const NastranField& field = card.fields[2 + j];
+    place.numbers[j] = field.place;
+    // A coordinate that its line ends in is written in full before the next one.
+    const bool hasNewLine = card.isLarge && j == 2;
+    if (field.width > 0 && j > 0 && !hasNewLine && card.fields[1 + j].place.length < field.width)
+    {
+      place.numbers[j].missing = 0;
+    }
+    x[j] = field.span.size() == 0 ? 0 : this->numberAt(part, field.span);
+  }
+  this->mesh_.addNode(number, x[0], x[1], x[2]);
+  this->places_.push_back(place);
+}
+
+void NastranFile::takeElement(std::size_t part, const NastranCard& card, const Kind& kind)
+{
+  Element element;
+  element.part = part;
+  element.at = card.at;
+  element.number = this->integerIn(part, card, 0);
+  element.property = this->integerIn(part, card, 1);
+  const std::size_t most = kind.cellTypes.rbegin()->first;
+  for (std::size_t i = kind.firstNode;
+       i < card.fields.size() && element.nodes.size() < most && card.fields[i].span.size() > 0; ++i)
+  {
+    element.nodes.push_back(this->integerAt(part, card.fields[i].span));
+  }
+  const auto type = kind.cellTypes.find(element.nodes.size());
+  if (type == kind.cellTypes.end())
+  {
+    this->failAt(part, card.at,
+      card.name + " " + std::to_string(element.number) + " has " +
+        std::to_string(element.nodes.size()) +
+        " nodes. Elements with some of their nodes "
+        "between corners are not supported.");
+  }
+  element.type = type->second;
+  toVtkOrder(element.type, element.nodes);
+  this->elements_.push_back(std::move(element));
+}
+
+void NastranFile::finish()
+{
+  if (this->mesh_.nodes() == 0)
+  {
+    this->fail("it has no GRID.");
+  }
+  const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  std::vector<Index> nodes;
+  std::map<Index, std::vector<Index>> properties;
+  for (const Element& element : this->elements_)
+  {
+    nodes.clear();
+    for (const Index number : element.nodes)
+    {
+      const auto found = positions.find(number);
+      if (found == positions.end())
+      {
+        this->failAt(element.part, element.at,
+          "element " + std::to_string(element.number) + " has the node " + std::to_string(number) +
+            ", which is not defined.");
+      }
+      nodes.push_back(found->second);
+    }
+    properties[element.property].push_back(
+      this->mesh_.addCell(element.type, nodes, element.number));
+  }
+  positionsOf(this->mesh_.cellNumbers, "element", this->path());
+  for (auto& [property, cells] : properties)
+  {
+    this->mesh_.set("PID " + std::to_string(property)).cells = std::move(cells);
+  }
+}
+}
+
+bool isNastranFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension != ".bdf" && extension != ".nas" && extension != ".fem" && extension != ".dat")
+  {
+    return false;
+  }
+  const std::string head = readHead(path, 1 << 20);
+  Lines lines(head);
+  while (lines.next())
+  {
+    std::string line(lines.line().substr(0, 10));
+    std::transform(line.begin(), line.end(), line.begin(),
+      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    for (const char* start : { "GRID ", "GRID,", "GRID*", "BEGIN BULK", "INCLUDE " })
+    {
+      if (startsWith(line, start))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::unique_ptr<SolverFile> readNastranFile(const std::string& path)
+{
+  return std::make_unique<NastranFile>(path);
+}
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Formats/SolverFile.h"
+
+namespace morph::io
+{
+/// Whether a file holds bulk data of Nastran: a .bdf, .nas, .fem or .dat that has a line GRID,
+/// BEGIN BULK or INCLUDE.
+bool isNastranFile(const std::string& path);
+
+/// Reads GRID and the elements CTETRA, CPYRAM, CPENTA, CHEXA, CTRIA3, CTRIA6, CQUAD4, CQUAD8,
+/// CBAR, CBEAM and CROD of a file and of those that it includes. The elements of a property are a
+/// set, "PID 7". Nodes in other coordinate systems (CP) are refused by name.
+std::unique_ptr<SolverFile> readNastranFile(const std::string& path);
+}

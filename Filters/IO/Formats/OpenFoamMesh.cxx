@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/OpenFoamMesh.h"
+
+#include "Files/Gzip.h"
+#include "Files/ReadFile.h"
+#include "Formats/FoamCells.h"
+#include "Formats/FoamList.h"
+#include "Support/Error.h"
+#include "Text/NumberPlaces.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace morph::io
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool isPointsFile(const fs::path& path)
+{
+  return path.filename() == "points" || path.filename() == "points.gz";
+}
+
+bool isThere(const fs::path& path)
+{
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+bool hasFile(const fs::path& folder, const char* name)
+{
+  return isThere(folder / name) || isThere(folder / (std::string(name) + ".gz"));
+}
+
+/// The folder polyMesh with the points that a path means; empty where it means none.
+fs::path pointsFolder(const std::string& path)
+{
+  std::error_code error;
+  fs::path folder = path;
+  if (fs::is_regular_file(folder, error))
+  {
+    if (isPointsFile(folder))
+    {
+      return folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+    }
+    if (extensionOf(path) != ".foam")
+    {
+      return {};
+    }
+    folder = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  }
+  for (const fs::path& candidate :
+    { folder / "constant" / "polyMesh", folder / "polyMesh", folder })
+  {
+    if (hasFile(candidate, "points"))
+    {
+      return candidate;
+    }
+  }
+  return {};
+}
+
+/// The folder with the faces: that of the points, or that of constant/ for a time's points.
+fs::path facesFolder(const fs::path& points)
+{
+  if (hasFile(points, "faces"))
+  {
+    return points;
+  }
+  // <time>/polyMesh, or <time>/<region>/polyMesh.
+  const fs::path name = points.filename(), up = fs::absolute(points).parent_path();
+  const fs::path candidates[] = { up.parent_path() / "constant" / name,
+    up.parent_path().parent_path() / "constant" / up.filename() / name };
+  for (const fs::path& candidate : candidates)
+  {
+    if (hasFile(candidate, "faces"))
+    {
+      return candidate;
+    }
+  }
+  return points;
+}
+
+class OpenFoamMesh : public SolverFile
+{
+public:
+  explicit OpenFoamMesh(const std::string& path)
+    : SolverFile(path)
+    , list_((pointsFolder(path) / "points").string())
+    , points_(list_.vectors())
+  {
+    for (std::size_t i = 0; 3 * i < this->points_.values.size(); ++i)
+    {
+      const double* x = this->points_.values.data() + 3 * i;
+      this->mesh_.addNode(static_cast<Index>(i), x[0], x[1], x[2]);
+    }
+    this->readCells(facesFolder(pointsFolder(path)));
+  }
+
+  std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
+    const std::string& out, double& largestRounding) const override
+  {
+    std::string content = this->list_.isBinary() ? this->asBytes(coordinates, largestRounding)
+                                                 : this->asText(coordinates, largestRounding);
+    if (fs::path(out).extension() == ".gz")
+    {
+      content = gzip(content, out);
+    }
+    std::vector<NewFile> files = { { out, std::move(content) } };
+    files.front().makeFolder = true; // of a new time
+    return files;
+  }
+
+private:
+  void readCells(const fs::path& folder);
+  void addPatches(
+    const fs::path& folder, const std::vector<std::vector<Index>>& faces, Index inner);
+  std::string asText(const std::vector<double>& coordinates, double& largestRounding) const;
+  std::string asBytes(const std::vector<double>& coordinates, double& largestRounding) const;
+
+  FoamList list_;
+  FoamList::Vectors points_;
+};
+
+void OpenFoamMesh::readCells(const fs::path& folder)
+{
+  const auto faces = FoamList((folder / "faces").string()).faces();
+  const auto owner = FoamList((folder / "owner").string()).labels();
+  const auto neighbour = FoamList((folder / "neighbour").string()).labels();
+  if (owner.size() != faces.size() || neighbour.size() > faces.size())
+  {
+    this->fail("faces, owner and neighbour do not belong together: they have " +
+               std::to_string(faces.size()) + ", " + std::to_string(owner.size()) + " and " +
+               std::to_string(neighbour.size()) + " entries.");
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    for (const Index node : faces[f])
+    {
+      if (node < 0 || node >= this->mesh_.nodes())
+      {
+        this->fail("face " + std::to_string(f) + " has the point " + std::to_string(node) +
+                   ", which does not exist.");
+      }
+    }
+  }
+  std::vector<std::vector<std::vector<Index>>> facesOfCell;
+  const auto add = [&](Index cell, std::vector<Index> face, std::size_t number)
+  {
+    if (cell < 0 || cell > static_cast<Index>(faces.size()))
+    {
+      this->fail("face " + std::to_string(number) + " has the cell " + std::to_string(cell) +
+                 ", which is out of range.");
+    }
+    const auto at = static_cast<std::size_t>(cell);
+    facesOfCell.resize(std::max(facesOfCell.size(), at + 1));
+    facesOfCell[at].push_back(std::move(face));
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    add(owner[f], faces[f], f);
+    if (f < neighbour.size() && neighbour[f] >= 0)
+    {
+      add(neighbour[f], { faces[f].rbegin(), faces[f].rend() }, f);
+    }
+  }
+  for (std::size_t c = 0; c < facesOfCell.size(); ++c)
+  {
+    const FoamCell cell = foamCell(facesOfCell[c]);
+    if (cell.type == 0)
+    {
+      this->mesh_.addPolyhedron(facesOfCell[c], static_cast<Index>(c));
+      continue;
+    }
+    this->mesh_.addCell(cell.type, cell.nodes, static_cast<Index>(c));
+  }
+  this->addPatches(folder, faces, static_cast<Index>(neighbour.size()));
+}
+
+void OpenFoamMesh::addPatches(
+  const fs::path& folder, const std::vector<std::vector<Index>>& faces, Index inner)
+{
+  for (const FoamList::Patch& patch : FoamList((folder / "boundary").string()).patches())
+  {
+    if (patch.first < 0 || patch.count < 0 ||
+        patch.first + patch.count > static_cast<Index>(faces.size()) ||
+        (patch.count > 0 && patch.first < inner))
+    {
+      this->fail("the faces of the patch " + patch.name + " are out of range.");
+    }
+    for (Index f = patch.first; f < patch.first + patch.count; ++f)
+    {
+      const std::vector<Index>& face = faces[static_cast<std::size_t>(f)];
+      const std::uint8_t type = face.size() == 3   ? std::uint8_t(Triangle)
+                                : face.size() == 4 ? std::uint8_t(Quad)
+                                                   : std::uint8_t(Polygon);
+      const Index cell = this->mesh_.addCell(type, face, -1);
+      this->mesh_.set(patch.name).cells.push_back(cell);
+    }
+  }
+}
+
+std::string OpenFoamMesh::asText(
+  const std::vector<double>& coordinates, double& largestRounding) const
+{
+  std::vector<NumberChange> changes;
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+  {
+    if (coordinates[i] != this->points_.values[i])
+    {
+      NumberChange change;
+      change.place.begin = this->points_.places[i].begin;
+      change.place.length = static_cast<std::uint32_t>(this->points_.places[i].size());
+      change.value = coordinates[i];
+      changes.push_back(change);
+    }
+  }
+  return withNumbers(this->list_.content(), changes, largestRounding);
+}
+
+std::string OpenFoamMesh::asBytes(
+  const std::vector<double>& coordinates, double& largestRounding) const
+{
+  std::string content = this->list_.content();
+  const std::size_t size = this->list_.bytesOfScalar();
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+  {
+    char* to = content.data() + this->points_.first + i * size;
+    if (size == sizeof(double))
+    {
+      std::memcpy(to, &coordinates[i], size);
+      continue;
+    }
+    const auto value = static_cast<float>(coordinates[i]);
+    if (!std::isfinite(value))
+    {
+      throw Error("The coordinate " + std::to_string(coordinates[i]) + " of point " +
+                  std::to_string(i / 3) + " does not fit into single precision.");
+    }
+    std::memcpy(to, &value, size);
+    largestRounding = std::max(largestRounding, std::abs(double(value) - coordinates[i]));
+  }
+  return content;
+}
+}
+
+bool isOpenFoamMesh(const std::string& path)
+{
+  return !pointsFolder(path).empty();
+}
+
+std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path)
+{
+  return std::make_unique<OpenFoamMesh>(path);
+}
+
+std::string openFoamTarget(const std::string& original, const std::string& out)
+{
+  fs::path file = out;
+  std::error_code error;
+  if (fs::is_directory(file, error) || extensionOf(out) == ".foam")
+  {
+    const fs::path folder = pointsFolder(out);
+    if (folder.empty())
+    {
+      throw Error("Cannot write " + out +
+                  ": there is no mesh of OpenFOAM in it. Name the file to "
+                  "write, as in case/0.1/polyMesh/points.");
+    }
+    file = folder / (isThere(folder / "points") ? "points" : "points.gz");
+  }
+  if (!isPointsFile(file))
+  {
+    throw Error("Cannot write " + out + ": a copy of the points of " + original +
+                " is called points or points.gz, as in case/0.1/polyMesh/points.");
+  }
+  const bool isPacked = file.extension() == ".gz";
+  const fs::path twin = file.parent_path() / (isPacked ? "points" : "points.gz");
+  if (isThere(twin))
+  {
+    throw Error("Cannot write " + file.string() + ": " + twin.string() +
+                " lies beside it, and OpenFOAM would read either. Name that one, or remove it.");
+  }
+  return file.string();
+}
+}

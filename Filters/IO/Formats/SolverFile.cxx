@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/SolverFile.h"
+
+#include "Files/ReadFile.h"
+#include "Formats/AbaqusFile.h"
+#include "Formats/CgnsFile.h"
+#include "Formats/ExodusFile.h"
+#include "Formats/GmshFile.h"
+#include "Formats/NastranFile.h"
+#include "Formats/OpenFoamMesh.h"
+#include "Formats/Su2File.h"
+#include "Support/Error.h"
+#include "Text/Printable.h"
+
+#include <cmath>
+
+namespace morph::io
+{
+namespace
+{
+struct Format
+{
+  const char* name;
+  bool (*matches)(const std::string& path);
+  std::unique_ptr<SolverFile> (*read)(const std::string& path);
+  /// The file that is meant by the path of a copy. Throws Error for another format.
+  std::string (*target)(const std::string& original, const std::string& out);
+  bool makesFolder = false; ///< where the copy's folder is missing
+  bool isBuilt = true;      ///< its library was there
+};
+
+/// The copy has the extension of the original.
+std::string sameExtension(const std::string& original, const std::string& out)
+{
+  const std::string extension = extensionOf(original);
+  if (extensionOf(out) != extension)
+  {
+    throw Error("Cannot write " + out + ": a copy of " + original + " with other coordinates is " +
+                extension + " too.");
+  }
+  return out;
+}
+
+#ifdef MESHMORPHING_HAS_NETCDF
+constexpr bool HasNetCdf = true;
+#else
+constexpr bool HasNetCdf = false;
+#endif
+#ifdef MESHMORPHING_HAS_CGNS
+constexpr bool HasCgns = true;
+#else
+constexpr bool HasCgns = false;
+#endif
+
+constexpr Format Formats[] = {
+  { "Abaqus or CalculiX", isAbaqusFile, readAbaqusFile, sameExtension },
+  { "CGNS", isCgnsFile, readCgnsFile, sameExtension, false, HasCgns },
+  { "Exodus II", isExodusFile, readExodusFile, sameExtension, false, HasNetCdf },
+  { "Gmsh", isGmshFile, readGmshFile, sameExtension },
+  { "Nastran", isNastranFile, readNastranFile, sameExtension },
+  { "OpenFOAM", isOpenFoamMesh, readOpenFoamMesh, openFoamTarget, true },
+  { "SU2", isSu2File, readSu2File, sameExtension },
+};
+
+const Format* formatOf(const std::string& path)
+{
+  for (const Format& format : Formats)
+  {
+    if (format.matches(path))
+    {
+      return &format;
+    }
+  }
+  return nullptr;
+}
+
+const Format& requireFormat(const std::string& path)
+{
+  const Format* format = formatOf(path);
+  if (!format)
+  {
+    readFile(path); // says where there is none
+    throw Error("Cannot read " + path + ": it is no file of a solver that is known here.");
+  }
+  return *format;
+}
+
+/// `coordinates` in the order of the file's nodes.
+std::vector<double> inOrder(
+  const SolverFile& file, const std::vector<Index>& numbers, const std::vector<double>& coordinates)
+{
+  const SolverMesh& mesh = file.mesh();
+  const std::string start = "Cannot write the coordinates into a copy of " + file.path() + ": ";
+  if (static_cast<Index>(numbers.size()) != mesh.nodes())
+  {
+    throw Error(start + "the file has " + std::to_string(mesh.nodes()) + " nodes, and the mesh " +
+                std::to_string(numbers.size()) + ". Give the mesh that was read from it.");
+  }
+  const auto positions = positionsOf(mesh.nodeNumbers, "node", file.path());
+  std::vector<double> result(coordinates.size());
+  std::vector<std::uint8_t> isGiven(numbers.size(), 0);
+  std::vector<Index> wrong, notFinite;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    const auto found = positions.find(numbers[i]);
+    if (found == positions.end() || isGiven[static_cast<std::size_t>(found->second)])
+    {
+      wrong.push_back(numbers[i]);
+      continue;
+    }
+    const auto position = static_cast<std::size_t>(found->second);
+    isGiven[position] = 1;
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      result[3 * position + j] = coordinates[3 * i + j];
+      if (!std::isfinite(coordinates[3 * i + j]))
+      {
+        notFinite.push_back(numbers[i]);
+        break;
+      }
+    }
+  }
+  if (!wrong.empty())
+  {
+    throw Error(start + "the mesh has node numbers that the file lacks, or has them twice: " +
+                listIds(wrong) + ".");
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(
+      start + "they are not finite (NaN or infinite) at the nodes " + listIds(notFinite) + ".");
+  }
+  return result;
+}
+}
+
+void SolverFile::fail(const std::string& reason) const
+{
+  throw Error(printable("Cannot read " + this->path() + ": " + reason));
+}
+
+std::string solverFormat(const std::string& path)
+{
+  const Format* format = formatOf(path);
+  return format && format->isBuilt ? format->name : "";
+}
+
+std::unique_ptr<SolverFile> readSolverFile(const std::string& path)
+{
+  return requireFormat(path).read(path);
+}
+
+double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
+  const std::vector<double>& coordinates, const std::string& out, Signals signals)
+{
+  const Format& format = requireFormat(original);
+  const std::string target = format.target(original, out);
+  const std::unique_ptr<SolverFile> file = format.read(original);
+  double largestRounding = 0;
+  replaceFiles(
+    file->withCoordinates(inOrder(*file, numbers, coordinates), target, largestRounding), signals);
+  return largestRounding;
+}
+
+void requireWritable(const std::string& original, const std::string& out)
+{
+  const Format& format = requireFormat(original);
+  if (!format.isBuilt)
+  {
+    format.read(original); // says what is missing
+  }
+  requireReplaceable(format.target(original, out), format.makesFolder);
+}
+}

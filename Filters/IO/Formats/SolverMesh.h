@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/CellShape.h"
+#include "Support/Types.h"
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace morph::io
+{
+/// Nodes and cells that a file names: a node set, element set, surface, marker, patch or physical
+/// group.
+struct NamedSet
+{
+  std::string name;
+  std::vector<Index> nodes; ///< positions in the mesh
+  std::vector<Index> cells; ///< positions in the mesh, of cells of any dimension
+};
+
+/// The mesh of a solver's file, with the numbers that the file gives to nodes and cells.
+struct SolverMesh
+{
+  std::vector<Index> nodeNumbers;
+  std::vector<double> coordinates;     ///< 3 x #nodes, in the unit of the file
+  std::vector<std::uint8_t> cellTypes; ///< VTK's
+  std::vector<Index> offsets = { 0 };  ///< #cells + 1, into `connectivity`
+  std::vector<Index> connectivity;     ///< positions of nodes, in VTK's order
+  /// #cells + 1, into `faces`; empty in a mesh without polyhedra
+  std::vector<Index> faceOffsets;
+  /// each face of a polyhedron: its number of nodes, then their positions, outward
+  std::vector<Index> faces;
+  std::vector<Index> cellNumbers; ///< -1: a face that is no element of the file, but of a set
+  std::vector<NamedSet> sets;
+  std::vector<std::string> warnings; ///< of what was left out
+
+  Index nodes() const { return static_cast<Index>(this->nodeNumbers.size()); }
+  Index cells() const { return static_cast<Index>(this->cellTypes.size()); }
+  void addNode(Index number, double x, double y, double z);
+  /// Adds a cell; returns its position.
+  Index addCell(std::uint8_t type, const std::vector<Index>& nodes, Index number);
+  /// Adds a polyhedron; returns its position. `faces`: their nodes, outward.
+  Index addPolyhedron(const std::vector<std::vector<Index>>& faces, Index number);
+  /// The set of that name, which is made where there is none.
+  NamedSet& set(const std::string& name);
+};
+
+/// The position of each number. Throws Error where two nodes or elements have one number; `what`:
+/// "node". `file`: for the message.
+std::unordered_map<Index, Index> positionsOf(
+  const std::vector<Index>& numbers, const char* what, const std::string& file);
+
+/// Of a cell of VTK's type: 0 to 3.
+int dimensionOf(std::uint8_t type);
+}

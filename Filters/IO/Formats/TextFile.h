@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Formats/SolverFile.h"
+#include "Text/NumberPlaces.h"
+
+#include <array>
+#include <deque>
+
+namespace morph::io
+{
+/// A file of text, with those that it includes: where its coordinates are.
+class TextFile : public SolverFile
+{
+public:
+  std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
+    const std::string& out, double& largestRounding) const override;
+
+protected:
+  using SolverFile::SolverFile;
+
+  struct Part
+  {
+    std::string path;
+    std::string name; ///< as the file that includes it has it; empty: the file itself
+    std::string text;
+  };
+  struct NodePlace
+  {
+    std::size_t part = 0;
+    std::array<NumberPlace, 3> numbers;
+    NumberRules rules;
+  };
+
+  /// Adds a file to be parsed; returns its number. Throws Error where it cannot be read.
+  std::size_t addPart(const std::string& path, const std::string& name);
+  /// The number at a place; throws Error with its line where there is none.
+  double numberAt(std::size_t part, Span span) const;
+  long long integerAt(std::size_t part, Span span) const;
+  /// "FILE, line 7", for messages.
+  std::string where(std::size_t part, std::size_t at) const;
+  [[noreturn]] void failAt(std::size_t part, std::size_t at, const std::string& reason) const;
+
+  std::deque<Part> parts_;        ///< they stay where they are; the first is the file itself
+  std::vector<NodePlace> places_; ///< of each node
+};
+
+/// The place of a number.
+NumberPlace placeOf(Span span);
+}

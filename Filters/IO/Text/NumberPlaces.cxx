@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Text/NumberPlaces.h"
+
+#include "Support/Error.h"
+#include "Text/NumberText.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace morph::io
+{
+namespace
+{
+using Field = NumberRules::Field;
+
+[[noreturn]] void refuse(const std::string& text, const NumberChange& change)
+{
+  const auto line = 1 + std::count(text.begin(),
+                          text.begin() + static_cast<std::ptrdiff_t>(change.place.begin), '\n');
+  throw Error("The coordinate " + std::to_string(change.value) + " does not fit into line " +
+              std::to_string(line) + ". Choose a format with wider fields, or another unit.");
+}
+
+std::string fixedField(
+  const std::string& text, const NumberChange& change, std::string_view old, std::string& number)
+{
+  const NumberPlace& place = change.place;
+  const std::size_t width = std::max<std::size_t>(place.length, change.rules.width);
+  const auto fitting = fittingNumber(change.value, width, change.rules.shortExponent);
+  if (!fitting)
+  {
+    refuse(text, change);
+  }
+  number = *fitting;
+  const std::string blanks(width - number.size(), ' ');
+  const bool isLeft = old.empty() || old[0] != ' ';
+  return isLeft ? number + blanks : blanks + number;
+}
+
+std::string freeNumber(const std::string& text, const NumberChange& change, std::string_view old)
+{
+  std::string number = exactNumber(change.value, old);
+  const std::size_t longest = std::max(change.rules.longest, old.size());
+  if (change.rules.longest > 0 && number.size() > longest)
+  {
+    const auto fitting = fittingNumber(change.value, longest, change.rules.shortExponent);
+    if (!fitting)
+    {
+      refuse(text, change);
+    }
+    number = *fitting;
+  }
+  return number;
+}
+
+/// Removes or adds blanks before a free number, so that columns keep their right edge.
+void align(std::string& result, std::size_t written, std::size_t old)
+{
+  const std::size_t end = result.find_last_not_of(' ');
+  const std::size_t blanks = end == std::string::npos ? 0 : result.size() - end - 1;
+  if (blanks < 2)
+  {
+    return;
+  }
+  if (written > old)
+  {
+    result.resize(result.size() - std::min(blanks - 1, written - old));
+  }
+  else
+  {
+    result.append(old - written, ' ');
+  }
+}
+}
+
+std::string withNumbers(
+  const std::string& text, const std::vector<NumberChange>& changes, double& largestRounding)
+{
+  std::string result;
+  result.reserve(text.size() + text.size() / 8);
+  std::size_t at = 0;
+  for (const NumberChange& change : changes)
+  {
+    const NumberPlace& place = change.place;
+    const std::string_view old = std::string_view(text).substr(place.begin, place.length);
+    result.append(text, at, place.begin - at);
+    at = place.begin + place.length;
+    result.append(place.missing, change.rules.separator);
+    if (change.rules.field == Field::Fixed)
+    {
+      std::string number;
+      const std::string field = fixedField(text, change, old, number);
+      result += field;
+      largestRounding =
+        std::max(largestRounding, std::abs(parseNumber(number).value_or(0) - change.value));
+      continue;
+    }
+    const std::string number = freeNumber(text, change, old);
+    if (place.missing == 0)
+    {
+      align(result, number.size(), place.length);
+    }
+    result += number;
+    largestRounding =
+      std::max(largestRounding, std::abs(parseNumber(number).value_or(0) - change.value));
+  }
+  result.append(text, at, std::string::npos);
+  return result;
+}
+}

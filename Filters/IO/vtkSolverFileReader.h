@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSolverFileReader
+ * @brief   reads the mesh of a solver's own file, with its numbers and names
+ *
+ * The formats are those of Documentation/SolverFiles.md; extension and content tell which it is.
+ * The output is one grid in the unit of the file. Its points are the nodes of the file in their
+ * order, those that no cell uses included, at the file's own coordinates.
+ *
+ * - Point array `NodeNumber` (vtkIdType, the global ids): the number of each node in the file.
+ * - Cell array `ElementNumber` (vtkIdType): the number of each element; -1 for a face that is no
+ *   element, but belongs to a surface, a side set or a patch.
+ * - For each named set of nodes a point array, and for each named set of elements or faces a cell
+ *   array, of its name: 1 (unsigned char) in the set, 0 elsewhere.
+ * - Field data `SurfaceNames`: the names of these sets. Boundary Displacement and Morph Mesh offer
+ *   them as surfaces.
+ * - Field data `SolverFile`: the path of the file, for vtkSolverFileWriter.
+ *
+ * Cost: the file is read into memory as a whole; time and memory are linear in its size.
+ *
+ * Errors (a file that is missing or damaged, a planar mesh, what a format's page refuses) are
+ * reported with file and line. The output is then empty.
+ *
+ * @sa vtkSolverFileWriter
+ */
+#ifndef vtkSolverFileReader_h
+#define vtkSolverFileReader_h
+
+#include "vtkMeshMorphingFiltersIOModule.h" // for export macro
+
+#include <vtkUnstructuredGridAlgorithm.h>
+
+class VTKMESHMORPHINGFILTERSIO_EXPORT vtkSolverFileReader : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkSolverFileReader* New();
+  vtkTypeMacro(vtkSolverFileReader, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file, or the folder of a case. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /**
+   * Whether this class reads the file: 1 or 0. It reads the first bytes.
+   */
+  static int CanReadFile(const char* name);
+
+  /**
+   * The name of the file's format ("Abaqus or CalculiX"); empty where this class does not read it,
+   * or was built without the library that the format needs.
+   */
+  static std::string FormatOf(const char* name);
+
+protected:
+  vtkSolverFileReader();
+  ~vtkSolverFileReader() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkSolverFileReader(const vtkSolverFileReader&) = delete;
+  void operator=(const vtkSolverFileReader&) = delete;
+
+  char* FileName = nullptr;
+};
+
+#endif

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged files of the formats that are read here without a library: each is a mesh in range, or
+// one Error. MORPH_TEST_SEED sets another seed, MORPH_TEST_CASES the number of cases a format.
+#include "Files/ReadFile.h"
+#include "Formats/SolverFile.h"
+#include "Support/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+
+namespace
+{
+namespace fs = std::filesystem;
+using morph::Index;
+
+/// A number from the environment.
+int setting(const char* name, int otherwise)
+{
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+template <typename Value>
+void append(std::string& to, std::initializer_list<Value> values)
+{
+  for (const Value value : values)
+  {
+    to.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+}
+
+const char* const Abaqus =
+  "*HEADING\nA tetrahedron\n*NODE, NSET=All\n"
+  "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 1., 1., 1.\n"
+  "*ELEMENT, TYPE=C3D4, ELSET=Solid\n1, 1, 2, 3, 4\n2, 2, 5, 3, 4\n"
+  "*NSET, NSET=Some, GENERATE\n1, 3, 2\n*ELSET, ELSET=Both\nSolid, 2\n"
+  "*SURFACE, NAME=Bottom\nSolid, S1\n*STEP\n*END STEP\n";
+const char* const Nastran =
+  "SOL 101\nCEND\nBEGIN BULK\n"
+  "GRID    1               0.0     0.0     0.0\n"
+  "GRID*                  2                              1.              0.\n"
+  "*                     0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.0+0\n"
+  "CTETRA  1       7       1       2       3       4\nCTRIA3,2,8,1,2,3\n"
+  "ENDDATA\n";
+const char* const Su2 = "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n1. 0 0 1\n0 1 0 2\n"
+                        "0 0 1e0 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
+const char* const Gmsh2 =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"wall\"\n3 2 \"body\"\n"
+  "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n2\n"
+  "1 2 2 1 1 1 2 3\n2 4 2 2 1 1 2 3 4\n$EndElements\n";
+const char* const Gmsh4 =
+  "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"wall\"\n$EndPhysicalNames\n"
+  "$Entities\n0 0 1 1\n1 0 0 0 1 1 1 1 1 0\n1 0 0 0 1 1 1 0 1 1\n$EndEntities\n$Nodes\n1 4 1 4\n"
+  "3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n2 2 1 2\n2 1 2 1\n"
+  "1 1 2 3\n3 1 4 1\n2 1 2 3 4\n$EndElements\n";
+
+std::string binaryGmsh(bool isVersion4)
+{
+  std::string text = isVersion4 ? "$MeshFormat\n4.1 1 8\n" : "$MeshFormat\n2.2 1 8\n";
+  append<std::int32_t>(text, { 1 });
+  text += "\n$EndMeshFormat\n$Nodes\n";
+  if (isVersion4)
+  {
+    append<std::int64_t>(text, { 1, 4, 1, 4 });
+    append<std::int32_t>(text, { 3, 1, 0 });
+    append<std::int64_t>(text, { 4, 1, 2, 3, 4 });
+    append<double>(text, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 });
+    text += "\n$EndNodes\n$Elements\n";
+    append<std::int64_t>(text, { 1, 1, 1, 1 });
+    append<std::int32_t>(text, { 3, 1, 4 });
+    append<std::int64_t>(text, { 1, 1, 1, 2, 3, 4 });
+    return text + "\n$EndElements\n";
+  }
+  text += "4\n";
+  for (const std::int32_t node : { 1, 2, 3, 4 })
+  {
+    append<std::int32_t>(text, { node });
+    append<double>(text, { node == 2 ? 1. : 0., node == 3 ? 1. : 0., node == 4 ? 1. : 0. });
+  }
+  text += "\n$EndNodes\n$Elements\n1\n";
+  append<std::int32_t>(text, { 4, 1, 2, 1, 5, 5, 1, 2, 3, 4 });
+  return text + "\n$EndElements\n";
+}
+
+/// Cut, or with bytes that are changed, removed, doubled or moved.
+std::string broken(const std::string& whole, std::mt19937& engine)
+{
+  const auto below = [&](std::size_t most)
+  { return std::uniform_int_distribution<std::size_t>(0, most - 1)(engine); };
+  std::string text = whole;
+  for (std::size_t i = 1 + below(3); i > 0 && !text.empty(); --i)
+  {
+    const std::size_t at = below(text.size()),
+                      length = 1 + below(std::min<std::size_t>(40, text.size()));
+    static const char* const Words[] = { "-1", "0", "1e999", "99999999999", "nan", ",", "\n", " ",
+      "4294967295", "-9223372036854775808", "*", "$", "'", "\"", "." };
+    switch (below(7))
+    {
+      case 0:
+        text.resize(at);
+        break;
+      case 1:
+        text[at] = static_cast<char>(below(256));
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(below(text.size()), text.substr(at, length));
+        break;
+      case 4:
+        text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
+        break;
+      case 5:
+        text.replace(
+          at, std::min<std::size_t>(1, text.size() - at), Words[below(std::size(Words))]);
+        break;
+      default:
+        text.insert(at, Words[below(std::size(Words))]);
+    }
+  }
+  return text;
+}
+
+void expectInRange(const morph::io::SolverMesh& mesh)
+{
+  ASSERT_EQ(mesh.coordinates.size(), 3 * mesh.nodeNumbers.size());
+  ASSERT_EQ(mesh.offsets.size(), mesh.cellTypes.size() + 1);
+  ASSERT_EQ(mesh.cellNumbers.size(), mesh.cellTypes.size());
+  ASSERT_EQ(mesh.offsets.back(), static_cast<Index>(mesh.connectivity.size()));
+  ASSERT_TRUE(std::is_sorted(mesh.offsets.begin(), mesh.offsets.end()));
+  const auto isNode = [&](Index node) { return node >= 0 && node < mesh.nodes(); };
+  const auto isCell = [&](Index cell) { return cell >= 0 && cell < mesh.cells(); };
+  ASSERT_TRUE(std::all_of(mesh.connectivity.begin(), mesh.connectivity.end(), isNode));
+  ASSERT_TRUE(std::all_of(
+    mesh.coordinates.begin(), mesh.coordinates.end(), [](double x) { return std::isfinite(x); }));
+  for (const morph::io::NamedSet& set : mesh.sets)
+  {
+    ASSERT_TRUE(std::all_of(set.nodes.begin(), set.nodes.end(), isNode)) << set.name;
+    ASSERT_TRUE(std::all_of(set.cells.begin(), set.cells.end(), isCell)) << set.name;
+  }
+}
+
+class BrokenSolverFiles : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    this->Folder = fs::temp_directory_path() /
+                   (std::string("morph-broken-") + test->name() + std::to_string(getpid()));
+    fs::create_directories(this->Folder);
+  }
+  void TearDown() override { fs::remove_all(this->Folder); }
+
+  void Write(const fs::path& path, const std::string& content) const
+  {
+    std::ofstream(path, std::ios::binary) << content;
+  }
+
+  /// Reads the mesh at `path`, and asks for a copy of it. `whole`: it must be read.
+  bool Try(const fs::path& path, bool whole = false)
+  {
+    try
+    {
+      const auto file = morph::io::readSolverFile(path.string());
+      expectInRange(file->mesh());
+      double rounding = 0;
+      std::vector<double> coordinates = file->mesh().coordinates;
+      for (const auto& copy : file->withCoordinates(
+             coordinates, (path.parent_path() / "copy" / path.filename()).string(), rounding))
+      {
+        if (fs::path(copy.path).filename() == path.filename())
+        {
+          EXPECT_EQ(copy.content, morph::io::readFile(path.string()));
+        }
+      }
+      for (double& x : coordinates)
+      {
+        x += 0.375;
+      }
+      file->withCoordinates(coordinates, path.string(), rounding);
+      return true;
+    }
+    catch (const morph::Error& error)
+    {
+      EXPECT_FALSE(std::string(error.what()).empty());
+      EXPECT_FALSE(whole) << error.what();
+    }
+    return false;
+  }
+
+  /// Breaks `broken` many times, and reads the mesh at `path`.
+  void Break(const fs::path& brokenFile, const fs::path& path, const std::string& what)
+  {
+    const int cases = setting("MORPH_TEST_CASES", 2000), seed = setting("MORPH_TEST_SEED", 1);
+    const std::string whole = morph::io::readFile(brokenFile.string());
+    int read = 0;
+    ASSERT_TRUE(this->Try(path, true)) << what;
+    for (int i = 0; i < cases && !this->HasFailure(); ++i)
+    {
+      std::mt19937 engine(static_cast<std::mt19937::result_type>(seed + 1000003 * i));
+      this->Write(brokenFile, broken(whole, engine));
+      SCOPED_TRACE(what + ", seed " + std::to_string(seed) + ", case " + std::to_string(i));
+      read += this->Try(path);
+    }
+    this->Write(brokenFile, whole);
+    std::cout << what << ": seed " << seed << ", " << cases << " cases, " << read << " read\n";
+    EXPECT_LT(read, cases);
+  }
+
+  fs::path Folder;
+};
+
+TEST_F(BrokenSolverFiles, OneFile)
+{
+  const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus }, { "a.bdf", Nastran },
+    { "a.su2", Su2 }, { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
+    { "b4.msh", binaryGmsh(true) } };
+  for (const auto& [name, content] : samples)
+  {
+    this->Write(this->Folder / name, content);
+    this->Break(this->Folder / name, this->Folder / name, name);
+  }
+}
+
+TEST_F(BrokenSolverFiles, OpenFoam)
+{
+  const auto header = [](const char* type)
+  { return "FoamFile\n{\n version 2.0;\n format ascii;\n class " + std::string(type) + ";\n}\n"; };
+  const fs::path mesh = this->Folder / "case" / "constant" / "polyMesh";
+  fs::create_directories(mesh);
+  this->Write(mesh / "points", header("vectorField") + "4\n((0 0 0)\n(1 0 0)\n(0 1 0)\n(0 0 1))\n");
+  this->Write(mesh / "faces", header("faceList") + "4\n(3(0 2 1)\n3(0 1 3)\n3(1 2 3)\n3(2 0 3))\n");
+  this->Write(mesh / "owner", header("labelList") + "4\n(0 0 0 0)\n");
+  this->Write(mesh / "neighbour", header("labelList") + "0\n()\n");
+  this->Write(mesh / "boundary",
+    header("polyBoundaryMesh") + "1\n(\nwall\n{\n type wall;\n nFaces 4;\n startFace 0;\n}\n)\n");
+  for (const char* name : { "points", "faces", "owner", "neighbour", "boundary" })
+  {
+    this->Break(mesh / name, mesh / "points", name);
+  }
+}
+}

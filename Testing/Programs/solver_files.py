@@ -1,0 +1,608 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""morph-mesh on solvers' own files: what it writes is the original with other coordinates, and with
+no other byte changed. Random models, node numbers, spellings and line ends.
+
+Run: MORPH_MESH=<path of morph-mesh> python3 solver_files.py
+MORPH_TEST_SEED sets another first seed; MORPH_TEST_CASES the number of random cases a format.
+Readers and solvers of others are used where they are installed, and skipped by name elsewhere:
+meshio (python3-meshio), CalculiX (calculix-ccx), OpenFOAM (openfoam).
+"""
+import gzip
+import os
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import gmsh_models
+import solver_models as models
+from legacy_files import points_of, types_of
+
+try:
+    import meshio
+except ImportError:
+    meshio = None
+
+PROGRAM = os.environ["MORPH_MESH"]
+SEED = int(os.environ.get("MORPH_TEST_SEED", "1"))
+CASES = int(os.environ.get("MORPH_TEST_CASES", "6"))
+WRITERS = {".inp": models.abaqus, ".su2": models.su2, ".bdf": models.nastran,
+           ".msh": gmsh_models.gmsh}
+WALL = {".inp": "Wall", ".su2": "wall", ".bdf": "PID 2", ".msh": "wall"}
+# CalculiX reads 20 characters of a number, and a small field of Nastran has 8.
+ROUNDING = {".inp": 1e-16, ".su2": 1e-300, ".bdf": 1e-6, ".msh": 1e-300}
+needs_meshio = unittest.skipUnless(meshio, "meshio is not installed (python3-meshio)")
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120, **options)
+
+
+class SolverFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def write(self, extension, seed=SEED, name="model", end="\n", writing={}, **options):
+        """A random model in a file: model, pieces of the file, path."""
+        model, rng = models.random_model(f"{extension} {seed}", **options)
+        pieces = WRITERS[extension](model, rng, end, **writing)
+        path = self.folder / (name + extension)
+        path.write_bytes(models.text_of(pieces))
+        return model, pieces, path
+
+    def morph(self, path, out, *arguments):
+        arguments = arguments or ("--move", WALL[path.suffix], "--translate", "0.05,0.02,-0.03")
+        result = run(*arguments, path, out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for line in result.stderr.splitlines():  # of the motion, not of the file
+            self.assertRegex(line, "^morph-mesh: warning: (What moves|The motion|Quality)")
+        return result.stdout
+
+    def refuse(self, message, *arguments):
+        before = {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
+        result = run(*arguments)
+        errors = [line for line in result.stderr.splitlines() if "warning: " not in line]
+        self.assertEqual((result.returncode, len(errors)), (1, 1), result.stderr)
+        self.assertRegex(errors[0], message)
+        self.assertEqual(before,
+                         {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()})
+
+    def test_nothing_but_coordinates_is_changed(self):
+        """The coordinates are those of the .vtu of the same morph; nodes that stay keep theirs."""
+        for extension in WRITERS:
+            for case in range(CASES):
+                seed = SEED + case
+                end = ("\n", "\r\n")[case % 2]
+                kind = ("mixed", "tetrahedra", "hexahedra")[case % 3]
+                with self.subTest(extension=extension, seed=seed, kind=kind):
+                    print(f"{extension} seed {seed}")
+                    model, pieces, path = self.write(extension, seed, end=end, kind=kind)
+                    out = self.folder / ("out" + extension)
+                    printed = self.morph(path, out)
+                    match = re.search("rounding of a coordinate: (.*)", printed)
+                    self.assertLess(float(match[1]) if match else 0, ROUNDING[extension])
+                    found = models.coordinates_in(pieces, out.read_bytes())
+                    old = models.coordinates_in(pieces, path.read_bytes())
+                    self.assertEqual(found.keys(), old.keys())
+                    kept = sum(found[key].strip() == old[key].strip() for key in old)
+                    self.assertGreater(kept, 0)
+                    self.assertLess(kept, len(old))
+                    if meshio:
+                        self.compare_with_vtu(model, path, found, ROUNDING[extension])
+
+    def compare_with_vtu(self, model, path, found, rounding):
+        vtu = self.folder / "out.vtu"
+        self.morph(path, vtu)
+        # meshio knows no text in field data.
+        text = vtu.read_text(encoding="ascii")
+        vtu.write_text(re.sub("<FieldData>.*?</FieldData>", "", text, flags=re.S), encoding="ascii")
+        grid = meshio.read(vtu)
+        rank = {number: i for i, number in enumerate(grid.point_data["NodeNumber"])}
+        moved = 0
+        for i, node in enumerate(model.order):
+            number = i if path.suffix == ".su2" else model.numbers[node]
+            for axis in range(3):
+                written = models.value(found[node, axis])
+                exact = grid.points[rank[number]][axis]
+                self.assertLessEqual(abs(written - exact), rounding)
+                moved += written != model.points[node][axis]
+        self.assertGreater(moved, 0)
+
+    @needs_meshio
+    def test_another_reader_finds_the_same_cells(self):
+        for extension in (".inp", ".su2"):
+            with self.subTest(extension=extension):
+                # SU2's reader in meshio takes no comments and no tabs.
+                model, rng = models.random_model(SEED)
+                style = models.number_text
+                models.number_text = lambda rng, x, style=None: repr(x)
+                try:
+                    pieces = WRITERS[extension](model, rng)
+                finally:
+                    models.number_text = style
+                text = models.text_of(pieces).decode()
+                if extension == ".su2":
+                    text = re.sub(r"%.*", "", text).replace("\t", " ")
+                    text = re.sub(r"\n[ \n]+", "\n", text)
+                else:  # Abaqus's takes one list of nodes, and neither comments nor commas at ends.
+                    text = re.sub(r"\*Node,\n nset = NALL\n|\*\* .*\n", "", text)
+                    nodes, elements = text.split("*ELEMENT", 1)
+                    text = re.sub(r", *\n", "\n", nodes) + "*ELEMENT" + elements
+                path, out = self.folder / ("plain" + extension), self.folder / ("o" + extension)
+                path.write_text(text.lstrip())
+                self.morph(path, out)
+                before, after = meshio.read(path), meshio.read(out)
+                self.assertEqual([b.type for b in before.cells], [b.type for b in after.cells])
+                for old, new in zip(before.cells, after.cells):
+                    self.assertTrue((old.data == new.data).all())
+                self.assertEqual(sum(len(b.data) for b in after.cells if b.type in
+                                     ("hexahedron", "wedge")), len(model.cells))
+                self.assertGreater(abs(before.points - after.points).max(), 0.03)
+                self.assertEqual(before.points.shape, after.points.shape)
+
+    def test_names_of_the_file_are_surfaces(self):
+        for extension, names in ((".inp", ("Wall", "Inlet", "Outlet")),
+                                 (".su2", ("wall", "inlet", "outlet")),
+                                 (".msh", ("wall", "inlet", "outlet")),
+                                 (".bdf", ("PID 2", "PID 3", "PID 4"))):
+            with self.subTest(extension=extension):
+                model, _, path = self.write(extension)
+                listed = run("--list-surfaces", path)
+                self.assertEqual(listed.returncode, 0, listed.stderr)
+                rows = dict(re.findall(r"^(.+?)  +(\d+) ", listed.stdout, re.MULTILINE))
+                for name, faces in zip(names, (model.wall, model.inlet, model.outlet)):
+                    self.assertEqual(int(rows[name]), len(faces), name)
+                out = self.folder / ("out" + extension)
+                self.morph(path, out, "--move", names[1], "--translate", "0,0,-0.1", "--fix",
+                           names[2])
+                self.refuse(f"Nothing'.*{names[1]}", "--move", "Nothing", "--translate", "1,0,0",
+                            path, out)
+
+    def test_nodes_are_chosen_by_the_numbers_of_the_file(self):
+        for extension in (".inp", ".su2", ".msh"):
+            with self.subTest(extension=extension):
+                model, pieces, path = self.write(extension)
+                moves = model.wall_nodes[:4]
+                rows = [(model.order.index(n) if extension == ".su2" else model.numbers[n])
+                        for n in moves]
+                csv, out = self.folder / "moves.csv", self.folder / ("out" + extension)
+                csv.write_text("id,dx,dy,dz\n" + "".join(f"{r},0.01,-0.02,0.5\n" for r in rows))
+                self.morph(path, out, "--displacements", csv, "--node-numbers", "--validity",
+                           "None")
+                found = models.coordinates_in(pieces, out.read_bytes())
+                old = models.coordinates_in(pieces, path.read_bytes())
+                for node in moves:
+                    for axis, shift in enumerate((0.01, -0.02, 0.5)):
+                        self.assertAlmostEqual(models.value(found[node, axis]),
+                                               models.value(old[node, axis]) + shift, delta=1e-14)
+
+    def test_the_output_may_be_the_original(self):
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                _, pieces, path = self.write(extension)
+                out = self.folder / ("out" + extension)
+                self.morph(path, out)
+                self.morph(path, path)
+                self.assertEqual(path.read_bytes(), out.read_bytes())
+                models.coordinates_in(pieces, path.read_bytes())
+
+    def test_steps_are_files_of_the_same_kind(self):
+        _, pieces, path = self.write(".inp")
+        self.morph(path, self.folder / "out.inp", "--move", "Wall", "--translate", "0.1,0.05,0.02",
+                   "--steps", "2")
+        for i in (1, 2):
+            models.coordinates_in(pieces, (self.folder / f"out-{i}.inp").read_bytes())
+
+    def test_another_format_is_refused(self):
+        _, _, path = self.write(".inp")
+        for name in ("out.su2", "out.stl", "out"):
+            self.refuse(f"Cannot write .*{name}: ", "--move", "Wall", "--translate", "1,0,0", path,
+                        self.folder / name)
+
+    def test_lines_of_nastran_that_end_before_the_coordinates_do(self):
+        """Blank coordinates are zero; what is written fills the fields from there on."""
+        corners = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
+        lines = []
+        for i, x in enumerate(corners):
+            line = f"GRID    {i + 1:8d}{'':8s}"
+            line += "".join(f"{c}.      " if c else " " * 8 for c in x)
+            lines.append(line.rstrip())
+        text = "\n".join(lines) + "\nCHEXA,1,1,1,2,4,3,5,6\n,8,7\n"
+        path, out = self.folder / "short.bdf", self.folder / "out.bdf"
+        path.write_text("BEGIN BULK\n" + text)
+        for move in ((0.25, 0.5, 0.125), (0, 0, 0.125), (0, 0.5, 0), (0.25, 0, 0)):
+            self.morph(path, out, "--move", "PID 1", "--translate", ",".join(map(str, move)))
+            again = out.read_text().splitlines()[1:9]
+            for line, x in zip(again, corners):
+                written = [float(line[24 + 8 * a:32 + 8 * a].strip() or 0) for a in range(3)]
+                self.assertEqual(written, [c + d for c, d in zip(x, move)], line)
+            self.assertEqual(out.read_text().splitlines()[9:], text.splitlines()[8:])
+
+    def test_a_file_of_avs_is_told_apart_by_its_content(self):
+        cube = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1".split("\n")
+        path = self.folder / "avs.inp"
+        path.write_text("# AVS\n8 1 0 0 0\n" + "".join(
+            f"{i + 1} {x}\n" for i, x in enumerate(cube)) + "1 1 hex 1 2 3 4 5 6 7 8\n")
+        self.morph(path, self.folder / "out.vtu", "--move", "Surface 0", "--translate", "1,0,0")
+        self.refuse("a grid is written as .vtu or .vtk", "--move", "Surface 0", "--translate",
+                    "1,0,0", path, self.folder / "out.inp")
+
+    def test_damaged_files_are_refused_with_their_line(self):
+        """Nothing is written, and the message names file and line."""
+        nodes = "*NODE\n" + "".join(f"{i + 1}, {i & 1}., {i >> 1 & 1}., {i >> 2}.\n"
+                                    for i in range(8))
+        brick = "*ELEMENT, TYPE=C3D8\n1, 1, 2, 4, 3, 5, 6, 8, 7\n"
+        points = "NPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        grids = "BEGIN BULK\n" + "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(
+            ("0.,0.,0.", "1.,0.,0.", "0.,1.,0.", "0.,0.,1.")))
+        tetra = "CTETRA,1,7,1,2,3,4\n"
+        su2 = "NDIME= 3\n" + points + "NELEM= 1\n10 0 1 2 3\n"
+        msh = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 9\n3 1 0 4\n1\n2\n3\n4\n"
+               "0 0 0\n1 0 0\n0 0 1\n0 1 0\n$EndNodes\n$Elements\n1 1 9 9\n3 1 4 1\n9 1 2 3 4\n"
+               "$EndElements\n")
+        cases = (
+            ("m.inp", nodes.replace("7, 0., 1.", "7, nan, 1.") + brick, "line 8: 'nan' is no num"),
+            ("m.inp", nodes.replace("7, 0., 1.", "7, 1e999, 1.") + brick, "line 8: '1e999'"),
+            ("m.inp", nodes.replace("8, 1.", "7, 1.") + brick, "more than one node .* 7"),
+            ("m.inp", nodes + brick.replace(" 8, 7", " 8, 99"), "element 1 has the node 99"),
+            ("m.inp", nodes + brick.replace(", 8, 7", ""), "element 1 are not complete"),
+            ("m.inp", "*PART, NAME=P\n" + nodes + brick, "line 1: .*parts and instances .*PART"),
+            ("m.inp", nodes + "*NGEN\n1, 8, 1\n" + brick, "line 10: .*NGEN"),
+            ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=C") + brick,
+             "line 1: .*coordinate sys"),
+            ("m.inp", "*SYSTEM\n1,2,3,4,5,6\n" + nodes + brick, "line 1: .*coordinate system"),
+            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n", "CPE4 make a planar model"),
+            ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "planar models are not morphed"),
+            ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
+            ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
+            ("m.inp", "*STEP\n", "has no .NODE"),
+            ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra,
+             "line 3: node 2 is in another coordinate system .CP 5"),
+            ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "line 2: GRDSET"),
+            ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
+            ("m.bdf", grids + tetra.replace("3,4", "3,44"), "element 1 has the node 44"),
+            ("m.bdf", grids + tetra.replace("3,4", "3"), "line 6: CTETRA 1 has 3 nodes"),
+            ("m.bdf", grids + tetra + "GRID,2,,0.,0.,0.\n", "more than one node .* 2"),
+            ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
+            ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
+            ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
+            ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
+            ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
+            ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),
+            ("m.su2", su2.replace("1 0 0", "1 0"), "line 4: a point needs three"),
+            ("m.su2", su2.replace("NPOIN= 4", "NPOIN= 5"), "line 7: a point needs three"),
+            ("m.su2", su2.replace("NPOIN= 4", "NPOIN= 999999999"), "is out of range"),
+            ("m.su2", su2.replace("10 0 1 2 3", "10 0 1 2 4"), "line 8: there is no point 4"),
+            ("m.su2", su2.replace("10 0 1 2 3", "10 0 1 2"), "line 8: .*needs 4 nodes"),
+            ("m.su2", su2.replace("10 0 1", "99 0 1"), "element type 99 is not known"),
+            ("m.su2", su2.replace("NELEM= 1", "NELEM= 2"), "ends where an element"),
+            ("m.su2", points, "has no elements"),
+            ("m.msh", msh.replace("4.1", "4.0", 1), "line 2: its version 4.0 is not supported"),
+            ("m.msh", msh.replace("4.1 0 8", "4.1 0 4"), "line 2: .*8 bytes"),
+            ("m.msh", msh.replace("0 0 1\n", "0 nan 1\n"), "line 13: 'nan' is no number"),
+            ("m.msh", msh.replace("1 4 1 9\n3", "1 5 1 9\n3").replace("0 4\n", "0 5\n"),
+             "line 15: the section ends"),
+            ("m.msh", msh.replace("0 4\n", "0 99999\n"), "line 6: the number 99999 is out of ran"),
+            ("m.msh", msh.replace("\n4\n", "\n3\n"), "more than one node .* 3"),
+            ("m.msh", msh.replace("9 1 2 3 4", "9 1 2 3 44"), "element 9 has the node 44"),
+            ("m.msh", msh.replace("3 1 4 1", "3 1 29 1"), "line 18: the element type 29"),
+            ("m.msh", msh.replace("3 1 4 1", "2 1 2 1"), "no volume elements"),
+            ("m.msh", msh.replace("$EndElements\n", ""), "section .Elements has no end"),
+            ("m.msh", msh + "$Nodes\n0 0 0 0\n$EndNodes\n", "the section .Nodes twice"),
+            ("m.msh", msh.replace("$Nodes", "$Modes").replace("$EndNodes", "$EndModes"),
+             "no section .Nodes"),
+            ("m.msh", msh + "$PartitionedEntities\n$EndPartitionedEntities\n", "partitioned"))
+        for name, content, message in cases:
+            with self.subTest(message=message):
+                path = self.folder / name
+                path.write_text(content)
+                self.refuse(message, "--list-surfaces", path)
+                self.refuse(message, "--move", "Surface 0", "--translate", "1,0,0", path, path)
+
+
+def forget_tests_of_superclass(case):
+    for name in dir(SolverFiles):
+        if name.startswith("test_"):
+            setattr(case, name, None)
+
+
+class Includes(SolverFiles):
+    """Nodes in other files than the one that is named."""
+
+    def setUp(self):
+        super().setUp()
+        self.model, self.pieces, whole = self.write(".inp", name="whole")
+        text = whole.read_text()
+        at = text.index("*ELEMENT")
+        (self.folder / "in").mkdir()
+        (self.folder / "in" / "mesh").mkdir()
+        self.nodes = self.folder / "in" / "mesh" / "nodes.inc"
+        self.nodes.write_text(text[:at])
+        self.other = self.folder / "in" / "loads.inc"
+        self.other.write_text("** nothing\n")
+        self.deck = self.folder / "in" / "deck.inp"
+        self.deck.write_text('*INCLUDE, INPUT="mesh/nodes.inc"\n' + text[at:] +
+                             "*INCLUDE, INPUT=loads.inc\n")
+        self.whole = whole
+        self.out = self.folder / "out.inp"
+        self.morph(whole, self.out)
+
+    def changed(self):
+        """The nodes' part of the same model in one file."""
+        text = self.out.read_text()
+        return text[:text.index("*ELEMENT")]
+
+    def test_another_folder_gets_all_files(self):
+        folder = self.folder / "there"
+        folder.mkdir()
+        self.morph(self.deck, folder / "deck.inp")
+        self.assertEqual((folder / "mesh" / "nodes.inc").read_text(), self.changed())
+        self.assertEqual((folder / "deck.inp").read_text(), self.deck.read_text())
+        self.assertEqual((folder / "loads.inc").read_text(), self.other.read_text())
+
+    def test_in_place_the_included_file_alone_is_written(self):
+        deck, loads = self.deck.stat(), self.other.stat()
+        self.morph(self.deck, self.deck)
+        self.assertEqual(self.nodes.read_text(), self.changed())
+        self.assertEqual((deck.st_mtime_ns, deck.st_ino),
+                         (self.deck.stat().st_mtime_ns, self.deck.stat().st_ino))
+        self.assertEqual(loads.st_ino, self.other.stat().st_ino)
+
+    def test_a_second_deck_beside_the_first_would_overwrite_its_nodes(self):
+        self.refuse("nodes.inc, which would be overwritten", "--move", "Wall", "--translate",
+                    "0.05,0.02,0.01", self.deck, self.folder / "in" / "second.inp")
+
+
+forget_tests_of_superclass(Includes)
+
+
+class NastranIncludes(SolverFiles):
+    """INCLUDE of Nastran, with the nodes one folder down, and a second level."""
+
+    def setUp(self):
+        super().setUp()
+        _, self.pieces, self.whole = self.write(".bdf", name="whole")
+        lines = self.whole.read_text().splitlines(keepends=True)
+        begin = lines.index("BEGIN BULK\n") + 1
+        end = next(i for i, line in enumerate(lines) if i > begin and line.startswith("C"))
+        folder = self.folder / "in" / "mesh"
+        folder.mkdir(parents=True)
+        self.nodes, self.deck = folder / "nodes.bdf", self.folder / "in" / "deck.bdf"
+        self.nodes.write_text("".join(lines[begin:end]))
+        (folder / "all.bdf").write_text("$ two levels\nINCLUDE 'nodes.bdf'\n")
+        self.deck.write_text("".join(lines[:begin]) + "include 'mesh/all.bdf' $ the nodes\n" +
+                             "".join(lines[end:]))
+        self.out = self.folder / "out.bdf"
+        self.morph(self.whole, self.out)
+        self.changed = "".join(self.out.read_text().splitlines(keepends=True)[begin:end])
+
+    def test_another_folder_gets_all_files(self):
+        there = self.folder / "there"
+        there.mkdir()
+        self.morph(self.deck, there / "deck.bdf")
+        self.assertNotEqual(self.changed, self.nodes.read_text())
+        for name in ("deck.bdf", "mesh/all.bdf"):
+            self.assertEqual((there / name).read_text(), (self.folder / "in" / name).read_text())
+        self.assertEqual((there / "mesh" / "nodes.bdf").read_text(), self.changed)
+
+    def test_in_place_the_included_file_alone_is_written(self):
+        deck = self.deck.stat()
+        self.morph(self.deck, self.deck)
+        self.assertEqual(self.nodes.read_text(), self.changed)
+        self.assertEqual(deck.st_ino, self.deck.stat().st_ino)
+
+    def test_files_that_include_each_other(self):
+        self.nodes.write_text("INCLUDE 'all.bdf'\n")
+        self.refuse("20 levels deep", "--list-surfaces", self.deck)
+
+
+forget_tests_of_superclass(NastranIncludes)
+
+
+class OpenFoam(SolverFiles):
+    MOVE = ("--move", "wall", "--translate", "0.05,0.02,-0.03")
+
+    def case(self, name="case", seed=SEED, **options):
+        model, rng = models.random_model(f"foam {seed}", **options)
+        return models.OpenFoam(model, rng), self.folder / name
+
+    def exact(self, case):
+        """The morphed coordinates of each point."""
+        vtu = self.folder / "exact.vtk"
+        self.morph(case, vtu, *self.MOVE)
+        return points_of(vtu)
+
+    def test_text_keeps_all_but_coordinates(self):
+        for seed in range(SEED, SEED + CASES):
+            with self.subTest(seed=seed):
+                foam, case = self.case(f"case{seed}", seed,
+                                       kind=("mixed", "tetrahedra", "hexahedra")[seed % 3])
+                mesh = foam.write(case)
+                exact = self.exact(case)
+                others = {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"}
+                old = models.coordinates_in(foam.pieces, (mesh / "points").read_bytes())
+                out = case / "0.5" / "polyMesh" / "points"  # of a new time
+                self.morph(case, out, *self.MOVE)
+                found = models.coordinates_in(foam.pieces, out.read_bytes())
+                values = [models.value(found[n, a]) for n in foam.model.order for a in range(3)]
+                self.assertEqual(tuple(values), exact)
+                self.assertNotEqual(old, found)
+                self.morph(mesh / "points", mesh, *self.MOVE)  # in place, by other names
+                self.assertEqual((mesh / "points").read_bytes(), out.read_bytes())
+                self.assertEqual(others,
+                                 {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"})
+                # The time's points are read with the faces of constant/polyMesh.
+                listed = run("--list-surfaces", out).stdout
+                self.assertEqual(listed, run("--list-surfaces", mesh).stdout)
+                self.assertRegex(listed, f"wall +{len(foam.model.wall)} ")
+
+    def test_binary_files_keep_all_but_coordinates(self):
+        for label, scalar in ((4, 8), (8, 8), (4, 4)):
+            with self.subTest(label=label, scalar=scalar):
+                foam, case = self.case(f"binary{label}{scalar}")
+                mesh, before, after = foam.write_binary(case, label, scalar)
+                exact = self.exact(case)
+                out = self.folder / "points"
+                printed = self.morph(case, out, *self.MOVE)
+                content = out.read_bytes()
+                self.assertTrue(content.startswith(before) and content.endswith(after))
+                numbers = content[len(before):-len(after)]
+                code = "d" if scalar == 8 else "f"
+                values = struct.unpack(f"<{len(numbers) // scalar}{code}", numbers)
+                error = max(abs(a - b) for a, b in zip(values, exact))
+                if scalar == 8:
+                    self.assertEqual(values, exact)
+                    self.assertNotIn("rounding", printed)
+                else:
+                    self.assertLess(error, 1e-6)
+                    rounding = float(re.search("rounding of a coordinate: (.*)", printed)[1])
+                    self.assertAlmostEqual(rounding / error, 1, delta=1e-3)
+                out.unlink()
+
+    def test_packed_files_and_regions(self):
+        foam, case = self.case()
+        region = case / "constant" / "fluid"
+        mesh = foam.write(case).rename(region.parent / "polyMesh2")
+        region.mkdir()
+        mesh = mesh.rename(region / "polyMesh")
+        for name in ("points", "faces", "owner"):
+            (mesh / (name + ".gz")).write_bytes(gzip.compress((mesh / name).read_bytes()))
+            (mesh / name).unlink()
+        out = case / "0.1" / "fluid" / "polyMesh" / "points.gz"
+        self.morph(region, out, *self.MOVE)
+        models.coordinates_in(foam.pieces, gzip.decompress(out.read_bytes()))
+        plain = self.folder / "points"
+        self.morph(mesh / "points.gz", plain, *self.MOVE)
+        self.assertEqual(plain.read_bytes(), gzip.decompress(out.read_bytes()))
+        self.assertEqual(run("--list-surfaces", out).returncode, 0)
+        (mesh / "points.gz").write_bytes(b"\x1f\x8b damaged")
+        self.refuse("points.gz: it is damaged", "--list-surfaces", mesh)
+
+    def test_what_is_refused(self):
+        foam, case = self.case()
+        mesh = foam.write(case)
+        whole = {p.name: p.read_text() for p in mesh.iterdir()}
+        move = (*self.MOVE, case)
+        self.refuse("called points or points.gz", *move, self.folder / "out.foam2")
+        self.refuse("lies beside it", *move, mesh / "points.gz")
+        self.refuse("there is no mesh of OpenFOAM in it", *move, self.folder)
+        cases = (
+            ("points", lambda s: s.replace("(\n(", "(\n(nan ", 1), "point 0 .*'nan"),
+            ("points", lambda s: s[:-400], "it ends too soon|is no number|missing"),
+            ("points", lambda s: re.sub(r"\n(\d+)\n\(", r"\n99999\n(", s, 1), "is too short"),
+            ("points", lambda s: s.replace("FoamFile", "File"), "no header FoamFile"),
+            ("owner", lambda s: s.replace("\n0\n", "\n-7\n", 1), "cell -7"),
+            ("owner", lambda s: s.replace("\n0\n", "\n99999999\n", 1), "cell 99999999"),
+            ("faces", lambda s: re.sub(r"4\((\d+)", "4(9999", s, 1), "the point 9999"),
+            ("boundary", lambda s: s.replace("startFace ", "startFace 9", 1), "patch wall"),
+            ("neighbour", lambda s: s.replace("\n(\n", "\n(\nx", 1), "whole number is missing"))
+        for name, damage, message in cases:
+            with self.subTest(name=name, message=message):
+                (mesh / name).write_text(damage(whole[name]))
+                self.assertNotEqual((mesh / name).read_text(), whole[name])
+                self.refuse(message, "--list-surfaces", case)
+                (mesh / name).write_text(whole[name])
+
+    def test_polyhedra(self):
+        """Two hexahedra side by side, as one cell of ten faces."""
+        foam, case = self.case(kind="hexahedra")
+        mesh = foam.write(case)
+        inner = len(foam.neighbour)
+        first, second = foam.owner[0], foam.neighbour[0]
+
+        def joined(cell):
+            return first if cell == second else cell - (cell > second)
+
+        foam.owner = [joined(cell) for cell in foam.owner[1:]]
+        foam.neighbour = [joined(cell) for cell in foam.neighbour[1:]]
+        foam.faces = foam.faces[1:]
+        foam.boundary = re.sub(r"startFace (\d+)",
+                               lambda m: f"startFace {int(m[1]) - 1}", foam.boundary)
+        self.assertEqual(len(foam.neighbour), inner - 1)
+        shutil.rmtree(case)
+        mesh = foam.write(case)
+        others = {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"}
+        grid = self.folder / "grid.vtk"
+        self.morph(case, grid, *self.MOVE)
+        self.assertIn(42, types_of(grid))
+        exact = self.exact(case)
+        self.morph(case, mesh, *self.MOVE)
+        found = models.coordinates_in(foam.pieces, (mesh / "points").read_bytes())
+        values = [models.value(found[n, a]) for n in foam.model.order for a in range(3)]
+        self.assertEqual(tuple(values), exact)
+        self.assertEqual(others,
+                         {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"})
+
+    @unittest.skipUnless(shutil.which("checkMesh"), "OpenFOAM is not installed (openfoam)")
+    def test_check_mesh_passes_what_it_passed(self):
+        foam, case = self.case(kind="mixed", sizes=(4, 5, 6))
+        mesh = foam.write(case)
+        (case / "system").mkdir()
+        for name, entries in (
+                ("controlDict", "application x; startFrom startTime; startTime 0; stopAt endTime; "
+                                "endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;"),
+                ("fvSchemes", "ddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{} "
+                              "interpolationSchemes{} snGradSchemes{}"), ("fvSolution", "")):
+            (case / "system" / name).write_text(models.foam_header("dictionary", name) + entries)
+        self.assertEqual(self.failed_checks(case), 0)
+        for _ in range(2):
+            self.morph(case, mesh, "--move", "wall", "--translate", "0.05,0.02,-0.03",
+                       "--validity", "Refuse")
+            self.assertEqual(self.failed_checks(case), 0)
+
+    def failed_checks(self, case):
+        environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}  # where Debian has it
+        result = subprocess.run(["checkMesh", "-case", case], capture_output=True, text=True,
+                                timeout=120, env=environment)
+        self.assertIn("Checking geometry", result.stdout, result.stdout + result.stderr)
+        match = re.search(r"Failed (\d+) mesh checks", result.stdout)
+        if not match:
+            self.assertIn("Mesh OK", result.stdout)
+        return int(match[1]) if match else 0
+
+
+forget_tests_of_superclass(OpenFoam)
+
+
+@unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (calculix-ccx)")
+class CalculiX(SolverFiles):
+    def volume(self, path):
+        """The volume of all elements, as CalculiX prints it."""
+        result = subprocess.run(["ccx", "-i", path.stem], cwd=path.parent, capture_output=True,
+                                text=True, timeout=120)
+        self.assertNotIn("*ERROR", result.stdout, result.stdout[-2000:])
+        printed = path.with_suffix(".dat").read_text()
+        return float(printed[printed.index("volume"):].split("\n")[2].split()[0])
+
+    def test_it_solves_the_morphed_deck(self):
+        """A translation of the wall moves no other boundary node: the volume follows from the
+        corners, by the divergence theorem."""
+        model, pieces, path = self.write(".inp", kind="tetrahedra", name="deck",
+                                          writing={"calculix": True})
+        out = self.folder / "out.inp"
+        self.morph(path, out, "--move", "Wall", "--scale", "1.1", "--center", "3,0,1", "--validity",
+                   "Refuse")
+        for file in (path, out):
+            found = models.coordinates_in(pieces, file.read_bytes())
+            x = [[models.value(found[n, a]) for a in range(3)] for n in range(len(model.points))]
+            exact = sum(self.tetrahedron(*(x[n] for n in nodes)) for _, nodes in model.cells)
+            self.assertAlmostEqual(self.volume(file) / exact, 1, delta=1e-5)
+
+    @staticmethod
+    def tetrahedron(a, b, c, d):
+        u, v, w = ([q - p for p, q in zip(a, other)] for other in (b, c, d))
+        return (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+                u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+
+
+forget_tests_of_superclass(CalculiX)
+
+
+if __name__ == "__main__":
+    unittest.main()
