@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBoundaryDisplacement.h"
 
-#include "Private/Data/Surface.h"
-#include "Private/Displace/BoundaryFields.h"
-#include "Private/Displace/BoundaryModel.h"
-#include "Private/Displace/Choice.h"
-#include "Private/Displace/DisplacedSurface.h"
-#include "Private/Displace/FitToTarget.h"
-#include "Private/Displace/Motion.h"
-#include "Private/Displace/Patches.h"
-#include "Private/Displace/Surroundings.h"
+#include "Private/Displace/Internals.h"
+#include "Private/Displace/Pick.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/UpToDateInput.h"
-#include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
+#include <vtkDoubleArray.h>
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
@@ -30,6 +24,7 @@
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 
@@ -39,66 +34,11 @@ vtkStandardNewMacro(vtkBoundaryDisplacement);
 
 namespace
 {
-/// The inputs of a choice. Modification times distinguish an object from an earlier one at its
-/// address.
-struct ChoiceKey
-{
-  vtkIdType InputVersion = -1;
-  int Moving = -1;
-  std::set<std::string> Patches, HeldPatches;
-  std::string Array;
-  vtkMTimeType Region = 0, Selection = 0;
-
-  bool operator==(const ChoiceKey& other) const
-  {
-    return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
-           this->Patches == other.Patches && this->HeldPatches == other.HeldPatches &&
-           this->Array == other.Array && this->Region == other.Region &&
-           this->Selection == other.Selection;
-  }
-};
-
 vtkMTimeType timeOf(vtkObject* object)
 {
   return object ? object->GetMTime() : 0;
 }
-
-/// Returns whether the names changed.
-bool setStatus(std::set<std::string>& names, const std::string& name, bool status)
-{
-  return status ? names.insert(name).second : names.erase(name) > 0;
 }
-}
-
-struct vtkBoundaryDisplacement::vtkInternals
-{
-  std::set<std::string> Patches, HeldPatches, SlidingPatches;
-  vtkNew<vtkDataArraySelection> PatchList;
-  vtkSmartPointer<vtkImplicitFunction> Region;
-  vtkSmartPointer<vtkAbstractTransform> Transform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
-
-  filters::BoundaryModel Model;
-  std::vector<std::string> Warnings; ///< of the geometry, not reported yet
-  ChoiceKey ChosenFrom;
-  filters::Choice::Result Choice;
-  filters::Surroundings Spread;
-  filters::BoundaryFields Fields;
-  filters::FitToTarget Fit;
-
-  /// Finds the boundary and its geometry, and its patches' names.
-  void Classify(
-    const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor);
-  /// `target`: of MOTION_TARGET, or null.
-  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, vtkPolyData* output, filters::Monitor& monitor);
-
-private:
-  /// The positions of what moves, on the target. Chooses what moves, too.
-  morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, filters::Monitor& monitor);
-  void WriteDistances(const filters::Surroundings::Result& result, vtkPolyData* output);
-};
 
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
@@ -144,58 +84,7 @@ void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extract
   if (this->Internals->Extractor != extractor)
   {
     this->Internals->Extractor = extractor;
-    this->Internals->ChosenFrom = ChoiceKey();
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::SetPatchStatus(const char* name, int status)
-{
-  if (name && setStatus(this->Internals->Patches, name, status != 0))
-  {
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::RemoveAllPatches()
-{
-  if (!this->Internals->Patches.empty())
-  {
-    this->Internals->Patches.clear();
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::SetHeldPatchStatus(const char* name, int status)
-{
-  if (name && setStatus(this->Internals->HeldPatches, name, status != 0))
-  {
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::RemoveAllHeldPatches()
-{
-  if (!this->Internals->HeldPatches.empty())
-  {
-    this->Internals->HeldPatches.clear();
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::SetSlidingPatchStatus(const char* name, int status)
-{
-  if (name && setStatus(this->Internals->SlidingPatches, name, status != 0))
-  {
-    this->Modified();
-  }
-}
-
-void vtkBoundaryDisplacement::RemoveAllSlidingPatches()
-{
-  if (!this->Internals->SlidingPatches.empty())
-  {
-    this->Internals->SlidingPatches.clear();
+    this->Internals->ChosenFrom = filters::ChoiceKey();
     this->Modified();
   }
 }
@@ -203,6 +92,47 @@ void vtkBoundaryDisplacement::RemoveAllSlidingPatches()
 vtkDataArraySelection* vtkBoundaryDisplacement::GetPatchList()
 {
   return this->Internals->PatchList;
+}
+
+void vtkBoundaryDisplacement::FindPatches(
+  vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names)
+{
+  vtkInternals& own = *this->Internals;
+  try
+  {
+    filters::Pick::Find(shown, selection, own.Extractor, own.Blocks, own.Model, names);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Cannot find the surfaces of this selection: " << error.what());
+  }
+}
+
+void vtkBoundaryDisplacement::CopyPatches(vtkDataArraySelection* names, vtkPolyData* output)
+{
+  filters::Pick::Write(this->Internals->Model, names, this->GetOutput(), output);
+}
+
+void vtkBoundaryDisplacement::SetPick(vtkAlgorithm* selection)
+{
+  this->Internals->Picker.Selection = selection;
+}
+
+void vtkBoundaryDisplacement::SetPickPort(int port)
+{
+  this->Internals->Picker.Port = std::max(port, -1);
+}
+
+int vtkBoundaryDisplacement::GetPickPort() const
+{
+  return this->Internals->Picker.Port;
+}
+
+vtkDataArraySelection* vtkBoundaryDisplacement::GetPickedPatches()
+{
+  filters::Picker& picker = this->Internals->Picker;
+  this->FindPatches(picker.Shown(this), picker.Update(), picker.Names);
+  return picker.Names;
 }
 
 void vtkBoundaryDisplacement::SetRegion(vtkImplicitFunction* region)
@@ -231,6 +161,16 @@ void vtkBoundaryDisplacement::SetTransform(vtkAbstractTransform* transform)
 vtkAbstractTransform* vtkBoundaryDisplacement::GetTransform()
 {
   return this->Internals->Transform;
+}
+
+vtkStringArray* vtkBoundaryDisplacement::GetPatchSizes()
+{
+  return this->Internals->PatchSizes;
+}
+
+vtkDoubleArray* vtkBoundaryDisplacement::GetPatchBounds()
+{
+  return this->Internals->PatchBounds;
 }
 
 int vtkBoundaryDisplacement::GetClassifyCount() const
@@ -273,21 +213,23 @@ int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
   // A user who is about to choose patches wants to see their names before the first execution.
-  auto* input = vtkPointSet::SafeDownCast(morph::filters::upToDateInput(this, inputVector));
-  if (!input || input->GetNumberOfCells() == 0)
-  {
-    return 1;
-  }
   filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
-    this->Internals->Classify(
-      this, filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
+    vtkDataObject* data = this->Internals->Blocks.Gather(filters::upToDateInput(this, inputVector),
+      this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
+    monitor.TakeWarnings(); // the execution gives them
+    auto* input = vtkPointSet::SafeDownCast(data);
+    if (input && input->GetNumberOfCells() > 0)
+    {
+      this->Internals->Classify(
+        this, filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
+    }
   }
   catch (const std::exception&)
   {
     // The execution raises the error again, and reports it.
-    this->Internals->PatchList->RemoveAllArrays();
+    this->Internals->ClearList();
   }
   return 1;
 }
@@ -303,9 +245,10 @@ int vtkBoundaryDisplacement::RequestData(
   filters::Monitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
-    const int ranks = filters::Input::RequireOneRankWithCells(vtkDataSet::SafeDownCast(data));
-    vtkPointSet* input = filters::Input::RequireGridOrPolyData(data, "The input");
-    if (ranks == 0 || input->GetNumberOfCells() > 0)
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(
+      data, this->Internals->Blocks, this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
+    vtkPointSet* input = filters::Input::RequireGridOrPolyData(mesh.Data, "The input");
+    if (!mesh.IsElsewhere)
     {
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
       vtkPolyData* target =
@@ -331,218 +274,23 @@ int vtkBoundaryDisplacement::RequestData(
   return 1;
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Classify(
-  const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor)
-{
-  filters::Geometry::Options options;
-  options.FeatureAngle = filter->FeatureAngle;
-  options.CornerAngle = filter->CornerAngle;
-  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
-  options.UseGeometryArrays = filter->UseGeometryArrays;
-  const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, options, monitor);
-  if (this->Model.ClassifyCount() != before || this->PatchList->GetNumberOfArrays() == 0)
-  {
-    this->Warnings = monitor.TakeWarnings();
-    this->PatchList->RemoveAllArrays();
-    for (const std::string& name : filters::Patches::Names(this->Model.Geometry()))
-    {
-      this->PatchList->AddArray(name.c_str(), false);
-    }
-  }
-}
-
-void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
-{
-  vtkInternals& own = *this->Internals;
-  ChoiceKey key;
-  key.InputVersion = own.Model.InputVersion();
-  key.Moving = this->Moving;
-  key.HeldPatches = own.HeldPatches;
-  filters::Choice::Options options;
-  options.How = static_cast<filters::Choice::By>(this->Moving);
-  options.HeldPatches = own.HeldPatches;
-  vtkSmartPointer<vtkExtractSelection> extractor = own.Extractor;
-  if (this->Moving == MOVE_SELECTION)
-  {
-    key.Selection = timeOf(selection);
-    if (!extractor)
-    {
-      extractor = vtkSmartPointer<vtkExtractSelection>::New();
-    }
-    options.Selection = selection;
-    options.Extractor = extractor;
-  }
-  else if (this->Moving == MOVE_PATCHES)
-  {
-    const bool byTarget = own.Patches.empty() && this->Motion == MOTION_TARGET;
-    key.Patches = options.Patches = byTarget ? own.Fit.NearestSurfaces(own.Model) : own.Patches;
-  }
-  else if (this->Moving == MOVE_REGION)
-  {
-    key.Region = timeOf(own.Region);
-    options.Region = own.Region;
-  }
-  else if (this->Moving == MOVE_ARRAY)
-  {
-    key.Array = options.ArrayName = filters::Input::ArrayName(this->MovingArray);
-  }
-  if (!(key == own.ChosenFrom))
-  {
-    own.ChosenFrom = ChoiceKey(); // in case the choice throws
-    own.Choice = filters::Choice::Choose(input, own.Model, options);
-    own.ChosenFrom = key;
-    ++this->ChooseCount;
-  }
-}
-
-morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, filters::Monitor& monitor)
-{
-  filters::FitToTarget::Options options;
-  options.Align = filter->AlignTarget;
-  options.FeatureAngle = filter->FeatureAngle;
-  options.Angle = filter->TargetAngle;
-  options.Reach = filter->TargetReach * this->Model.Size();
-  if (filter->Moving == MOVE_PATCHES && this->Patches.empty())
-  {
-    this->Fit.Update(target, this->Model, nullptr, options, monitor);
-    filter->Choose(input, selection);
-  }
-  else
-  {
-    filter->Choose(input, selection);
-    this->Fit.Update(target, this->Model, &this->Choice, options, monitor);
-  }
-  return this->Fit.Targets(this->Model, this->Choice, monitor);
-}
-
-void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
-  const filters::Surroundings::Result& result, vtkPolyData* output)
-{
-  std::vector<morph::Index> points, nodes;
-  for (std::size_t i = 0; i < this->Model.NodeOfPoint().size(); ++i)
-  {
-    const morph::Index node = this->Model.NodeOfPoint()[i];
-    if (result.Roles[node] == filters::Surroundings::Moves)
-    {
-      points.push_back(static_cast<morph::Index>(i));
-      nodes.push_back(node);
-    }
-  }
-  filters::TargetDistance::Write(this->Fit.Surface(), points,
-    this->Model.Points()(nodes, morph::allColumns), result.Moved(nodes, morph::allColumns), output);
-}
-
-void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkPolyData* output,
-  filters::Monitor& monitor)
-{
-  try
-  {
-    monitor.SetRange(0, 0.5);
-    this->Classify(filter, input, monitor);
-  }
-  catch (...)
-  {
-    this->PatchList->RemoveAllArrays();
-    throw;
-  }
-  for (const std::string& warning : this->Warnings)
-  {
-    monitor.warn(warning);
-  }
-  this->Warnings.clear();
-  filters::Surface::WarnOfNone(this->Model.Faces(), monitor);
-  if (this->Model.Faces().nodes.empty())
-  {
-    return;
-  }
-  morph::Points fitted;
-  if (target)
-  {
-    monitor.SetRange(0.5, 0.7);
-    fitted = this->Fitted(filter, input, selection, target, monitor);
-  }
-  else
-  {
-    filter->Choose(input, selection);
-  }
-  monitor.check();
-
-  filters::Motion::Options motion;
-  motion.Fitted = &fitted;
-  motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
-  motion.Transform = this->Transform;
-  motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
-  motion.Distance = filter->Distance;
-  motion.ArrayName = filters::Input::ArrayName(filter->DisplacementArray);
-  std::copy(filter->Translation, filter->Translation + 3, motion.Translation.begin());
-  std::copy(filter->Rotation, filter->Rotation + 3, motion.Rotation.begin());
-  std::copy(filter->Scale, filter->Scale + 3, motion.Scale.begin());
-  motion.AutoCenter = filter->AutoCenter;
-  std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
-  motion.RadiusChange = filter->RadiusChange;
-  motion.ScaleFactor = filter->ScaleFactor;
-  const morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
-
-  filters::Surroundings::Options rest;
-  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
-  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
-  rest.Sliding =
-    filters::Patches::Surfaces(this->Model.Geometry(), this->SlidingPatches, "SlidingPatches");
-  rest.Radius = filter->FalloffRadius * this->Model.Size();
-  monitor.SetRange(target ? 0.7 : 0.5, 0.9);
-  const filters::Surroundings::Result result =
-    this->Spread.Spread(this->Model, this->Choice, targets, rest, monitor);
-  const std::vector<morph::Index> collapsed =
-    filters::Motion::Collapsed(this->Model, this->Choice, result.Moved);
-  if (!collapsed.empty())
-  {
-    monitor.warn(
-      "The motion leaves faces of the boundary without area, and no cell behind them can "
-      "be valid: the output's cell ids " +
-      morph::listIds(collapsed) + ". Is a scale zero?");
-  }
-  filters::DisplacedSurface::Write(
-    this->Model, result, input, filter->OutputPointsPrecision, output);
-  this->Fields.Write(
-    this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
-  if (target)
-  {
-    this->WriteDistances(result, output);
-  }
-  const auto count = [&result](filters::Surroundings::Role role)
-  { return std::count(result.Roles.begin(), result.Roles.end(), role); };
-  filter->MovingPoints = count(filters::Surroundings::Moves);
-  filter->HeldPoints = count(filters::Surroundings::IsHeld);
-  filter->FollowingPoints = count(filters::Surroundings::Follows);
-}
-
 void vtkBoundaryDisplacement::ResetResults()
 {
-  this->MovingPoints = this->HeldPoints = this->FollowingPoints = 0;
+  this->MovingPoints = this->HeldPoints = this->FollowingPoints = this->FreePoints = 0;
 }
 
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto text = [](const char* name) { return name ? name : "(none)"; };
-  const auto list = [&](const char* name, const std::set<std::string>& values)
-  {
-    os << indent << name << ": ";
-    for (const std::string& value : values)
-    {
-      os << (value == *values.begin() ? "" : ", ") << value;
-    }
-    os << "\n";
-  };
+  const auto list = [&](const char* name, const filters::NameSet::Names& values)
+  { filters::NameSet::Print(os, indent, name, values); };
   os << indent << "Moving: " << this->Moving << "\n";
   os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   list("Patches", this->Internals->Patches);
   list("HeldPatches", this->Internals->HeldPatches);
   list("SlidingPatches", this->Internals->SlidingPatches);
+  list("FreePatches", this->Internals->FreePatches);
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "Motion: " << this->Motion << "\n";
   os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
@@ -572,24 +320,31 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "PickPort: " << this->GetPickPort() << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";
   os << indent << "HeldPoints: " << this->HeldPoints << "\n";
   os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
+  os << indent << "FreePoints: " << this->FreePoints << "\n";
   os << indent << "ClassifyCount: " << this->GetClassifyCount() << "\n";
   os << indent << "ChooseCount: " << this->ChooseCount << "\n";
   os << indent << "PrepareCount: " << this->GetPrepareCount() << "\n";
 }
 
-morphSetNumberMacro(vtkBoundaryDisplacement, Distance)
-  morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor)
-    morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange)
-      morphSetNumberMacro(vtkBoundaryDisplacement, TargetReach, 0.0, 10.0)
-        morphSetNumberMacro(vtkBoundaryDisplacement, TargetAngle, 0.0, 180.0)
-          morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0)
-            morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0)
-              morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0)
-                morphSetVectorMacro(vtkBoundaryDisplacement, Vector)
-                  morphSetVectorMacro(vtkBoundaryDisplacement, Translation)
-                    morphSetVectorMacro(vtkBoundaryDisplacement, Rotation)
-                      morphSetVectorMacro(vtkBoundaryDisplacement, Scale)
-                        morphSetVectorMacro(vtkBoundaryDisplacement, Center)
+morphNameSetMacro(vtkBoundaryDisplacement, Patch, Patches);
+morphNameSetMacro(vtkBoundaryDisplacement, HeldPatch, HeldPatches);
+morphNameSetMacro(vtkBoundaryDisplacement, SlidingPatch, SlidingPatches);
+morphNameSetMacro(vtkBoundaryDisplacement, FreePatch, FreePatches);
+morphSetNumberMacro(vtkBoundaryDisplacement, Distance);
+morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor);
+morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange);
+morphSetNumberMacro(vtkBoundaryDisplacement, TargetReach, 0.0, 10.0);
+morphSetNumberMacro(vtkBoundaryDisplacement, TargetAngle, 0.0, 180.0);
+morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0);
+morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0);
+morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0);
+morphSetVectorMacro(vtkBoundaryDisplacement, Vector);
+morphSetVectorMacro(vtkBoundaryDisplacement, Translation);
+morphSetVectorMacro(vtkBoundaryDisplacement, Rotation);
+morphSetVectorMacro(vtkBoundaryDisplacement, Scale);
+morphSetVectorMacro(vtkBoundaryDisplacement, Center);

@@ -15,7 +15,8 @@
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
  *   HeldPatches stay in any case, except for the nodes that they share with what moves.
  *
- * Port 0 takes the mesh (vtkUnstructuredGrid), or its boundary (vtkPolyData) as
+ * Port 0 takes the mesh (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm), or its
+ * boundary (vtkPolyData) as
  * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
  * in a row move several parts, each in its own way. Such a boundary moves from its current
  * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
@@ -63,10 +64,13 @@
 class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkDataObject;
+class vtkDoubleArray;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkPointSet;
+class vtkPolyData;
 class vtkSelection;
+class vtkStringArray;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkPolyDataAlgorithm
 {
@@ -127,7 +131,9 @@ public:
   ///@{
   /**
    * The patches that move, by name: "Surface 3" or "Curve 7", with the ids that vtkClassifyBoundary
-   * writes. A status other than 0 adds one, and 0 removes it. Default: none.
+   * writes, or a name of the input. The input's field data `SurfaceNames` (vtkStringArray) lists
+   * these; a point array or cell array of each name marks its nodes or cells by values other than
+   * 0. A status other than 0 adds one, and 0 removes it. Default: none.
    */
   void SetPatchStatus(const char* name, int status);
   void AddPatch(const char* name) { this->SetPatchStatus(name, 1); }
@@ -153,12 +159,64 @@ public:
   void RemoveAllSlidingPatches();
   ///@}
 
+  ///@{
+  /**
+   * The surfaces that are free, by name: a morph solves their nodes with the interior. A node is
+   * free only if all of its surfaces are, and if it neither moves nor is held. Where nodes are free
+   * the output has the point array `MorphFree`. Default: none.
+   */
+  void SetFreePatchStatus(const char* name, int status);
+  void AddFreePatch(const char* name) { this->SetFreePatchStatus(name, 1); }
+  void RemoveAllFreePatches();
+  ///@}
+
   /**
    * Names of all patches, surfaces first, as a list to choose from, with nothing enabled. They are
    * those of the last execution or, after an update of the information, of input data that are up
    * to date. Empty after an error.
    */
   vtkDataArraySelection* GetPatchList();
+
+  /**
+   * Writes into `names` all names of GetPatchList(), and enables the surfaces that a selection lies
+   * on, as a user who clicks on surfaces expects. `shown`: the data that were selected on: the
+   * input, a morphed mesh, or the boundary. Where selected cells and points lie on several
+   * surfaces, as at an edge, the fewest surfaces are taken that explain the selection. A selection
+   * that cannot be evaluated is an error. Cost: that of the selection, and a pass over the
+   * boundary's faces.
+   */
+  void FindPatches(vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names);
+
+  /**
+   * Makes `output` the polygons and lines of the patches that are enabled in `names`, where the
+   * output has them or, before the first execution, undeformed. Unknown names are left out.
+   */
+  void CopyPatches(vtkDataArraySelection* names, vtkPolyData* output);
+
+  ///@{
+  /**
+   * FindPatches() for ParaView's window, which knows objects of a server by name alone. Pick: an
+   * algorithm whose first output is the selection. PickPort: the output of this filter that it is
+   * of, or -1, the default, for the input. GetPickedPatches() finds them. Neither causes an
+   * execution.
+   */
+  void SetPick(vtkAlgorithm* selection);
+  void SetPickPort(int port);
+  int GetPickPort() const;
+  vtkDataArraySelection* GetPickedPatches();
+  ///@}
+
+  /**
+   * The size of each patch of the list: its name, how many faces it has, and their area, three
+   * strings each. Of a curve: edges and length.
+   */
+  vtkStringArray* GetPatchSizes();
+
+  /**
+   * The bounding box of each patch of the list, undeformed: six numbers as in
+   * vtkDataSet::GetBounds().
+   */
+  vtkDoubleArray* GetPatchBounds();
 
   ///@{
   /**
@@ -450,11 +508,22 @@ public:
 
   ///@{
   /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
+  ///@}
+
+  ///@{
+  /**
    * The number of points with each Role in the last execution. 0 where there was no result.
    */
   vtkGetMacro(MovingPoints, vtkIdType);
   vtkGetMacro(HeldPoints, vtkIdType);
   vtkGetMacro(FollowingPoints, vtkIdType);
+  vtkGetMacro(FreePoints, vtkIdType);
   ///@}
 
   ///@{
@@ -513,10 +582,12 @@ private:
   bool UseGeometryArrays = true;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
 
   vtkIdType MovingPoints;
   vtkIdType HeldPoints;
   vtkIdType FollowingPoints;
+  vtkIdType FreePoints;
   int ChooseCount = 0;
 };
 

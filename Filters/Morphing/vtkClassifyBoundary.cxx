@@ -2,12 +2,14 @@
 #include "vtkClassifyBoundary.h"
 
 #include "Mesh/Topology.h"
+#include "Private/Blocks/Blocks.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
 #include "Support/ProgressRange.h"
 
@@ -25,10 +27,14 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkClassifyBoundary);
 
-morphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
-  morphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)
+class vtkClassifyBoundary::vtkInternals
+{
+public:
+  filters::Blocks Blocks;
+};
 
-    vtkClassifyBoundary::vtkClassifyBoundary()
+vtkClassifyBoundary::vtkClassifyBoundary()
+  : Internals(new vtkInternals)
 {
   this->SetNumberOfOutputPorts(3);
 }
@@ -48,6 +54,13 @@ vtkPolyData* vtkClassifyBoundary::GetCurves()
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
 }
 
+vtkTypeBool vtkClassifyBoundary::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
+         this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkClassifyBoundary::FillInputPortInformation(int, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
@@ -57,7 +70,7 @@ int vtkClassifyBoundary::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkClassifyBoundary::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkDataObject" : "vtkPolyData");
   return 1;
 }
 
@@ -69,10 +82,10 @@ int vtkClassifyBoundary::RequestData(
   this->Clear(outputVector);
   const auto classify = [&]
   {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = filters::Input::RequireOneRankWithCells(grid);
-    grid = filters::Input::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
+    vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
+    if (!mesh.IsElsewhere)
     {
       this->Classify(grid, outputVector, monitor);
     }
@@ -83,6 +96,7 @@ int vtkClassifyBoundary::RequestData(
   {
     vtkWarningMacro(<< warning);
   }
+  this->Internals->Blocks.Scatter(outputVector);
   return 1;
 }
 
@@ -106,7 +120,7 @@ void vtkClassifyBoundary::Classify(
     filters::Geometry::Classify(grid, mesh, faces, options, classifying);
   monitor.check();
 
-  auto* classified = vtkUnstructuredGrid::GetData(outputVector, 0);
+  vtkUnstructuredGrid* classified = this->Internals->Blocks.Output(outputVector);
   classified->ShallowCopy(grid);
   std::vector<morph::Index> all(mesh.numberOfNodes());
   std::iota(all.begin(), all.end(), morph::Index(0));
@@ -129,6 +143,7 @@ void vtkClassifyBoundary::Clear(vtkInformationVector* outputVector)
   {
     vtkDataObject::GetData(outputVector, port)->Initialize();
   }
+  this->Internals->Blocks.Output(outputVector)->Initialize();
   this->NumberOfVertices = this->NumberOfCurves = this->NumberOfSurfaces = 0;
 }
 
@@ -142,7 +157,11 @@ void vtkClassifyBoundary::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
   os << indent << "FeaturesInside: " << this->FeaturesInside << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
   os << indent << "NumberOfCurves: " << this->NumberOfCurves << "\n";
   os << indent << "NumberOfSurfaces: " << this->NumberOfSurfaces << "\n";
 }
+
+morphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
+  morphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)

@@ -28,8 +28,10 @@
  * polygonal data, with the cell arrays `GeometryDimension` and `GeometryId`. A mid-side or face
  * node of a quadratic cell belongs to the entity of its edge or face.
  *
- * A mesh without any outer face gives a warning. Errors, with empty outputs: composite data (use
- * Merge Blocks first), no volume cells, cells that a morph does not support, coordinates that are
+ * Output 0 of composite data is composite data of the same structure, see vtkMorphAlgorithm.
+ *
+ * A mesh without any outer face gives a warning. Errors, with empty outputs: overlapping AMR,
+ * no volume cells, cells that a morph does not support, coordinates that are
  * not finite or above 1e50, an extent below 1e-50, arrays of the wrong type or length or that
  * contradict the mesh, cells on more than one MPI rank. An execution that is aborted gives empty
  * outputs and no message. With several MPI processes an execution is collective. Cost: a pass over
@@ -46,6 +48,8 @@
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <vtkUnstructuredGridAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
 
 namespace morph
 {
@@ -91,8 +95,8 @@ public:
   ///@{
   /**
    * Name of a cell array of one component with whole numbers: the surface ids. A boundary face
-   * takes the id of the two-dimensional cell on it (Gmsh's physical or geometrical ids; side sets,
-   * after Merge Blocks). In a grid without two-dimensional cells it takes the id of the volume cell
+   * takes the id of the two-dimensional cell on it (Gmsh's physical or geometrical ids, for
+   * instance). In a grid without two-dimensional cells it takes the id of the volume cell
    * behind it. Faces without a two-dimensional cell on them are grouped by FeatureAngle. Takes
    * precedence over UseGeometryArrays. Empty or "None": none. Default: none.
    */
@@ -130,6 +134,16 @@ public:
 
   ///@{
   /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
+  ///@}
+
+  ///@{
+  /**
    * The numbers of vertices, curves and surfaces in the last execution. Several connected parts
    * with one given id count separately.
    */
@@ -137,6 +151,9 @@ public:
   vtkGetMacro(NumberOfCurves, vtkIdType);
   vtkGetMacro(NumberOfSurfaces, vtkIdType);
   ///@}
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 protected:
   vtkClassifyBoundary();
@@ -160,7 +177,11 @@ private:
   char* SurfaceIdArray = nullptr;
   bool UseGeometryArrays = true;
   bool FeaturesInside = false;
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
   vtkIdType NumberOfVertices = 0;
   vtkIdType NumberOfCurves = 0;
   vtkIdType NumberOfSurfaces = 0;

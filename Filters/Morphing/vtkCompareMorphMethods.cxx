@@ -207,7 +207,8 @@ int vtkCompareMorphMethods::RequestData(
     vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
     return 1;
   }
-  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads, reset,
+  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
+    this->CoincidentPoints, reset,
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
@@ -354,6 +355,7 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "BestMethod: " << this->GetBestMethod() << "\n";
   os << indent << "BestStepping: " << this->GetBestStepping() << "\n";
 }

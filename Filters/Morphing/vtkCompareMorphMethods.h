@@ -153,6 +153,8 @@ public:
   vtkGetMacro(RestTime, double);
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
   ///@}
 
   ///@{
@@ -207,6 +209,7 @@ private:
   bool HoldUnnamedBoundary = true;
   double RestTime = -1e300;
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
 };
 
 #endif

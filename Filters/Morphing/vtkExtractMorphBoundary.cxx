@@ -2,6 +2,7 @@
 #include "vtkExtractMorphBoundary.h"
 
 #include "Mesh/Topology.h"
+#include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Pipeline/Execution.h"
@@ -20,7 +21,17 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkExtractMorphBoundary);
 
-vtkExtractMorphBoundary::vtkExtractMorphBoundary() = default;
+class vtkExtractMorphBoundary::vtkInternals
+{
+public:
+  filters::Blocks Blocks;
+};
+
+vtkExtractMorphBoundary::vtkExtractMorphBoundary()
+  : Internals(new vtkInternals)
+{
+}
+
 vtkExtractMorphBoundary::~vtkExtractMorphBoundary() = default;
 
 int vtkExtractMorphBoundary::FillInputPortInformation(int, vtkInformation* info)
@@ -38,10 +49,10 @@ int vtkExtractMorphBoundary::RequestData(
   filters::Monitor monitor(this, this->NumberOfThreads);
   const auto extract = [&]
   {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = filters::Input::RequireOneRankWithCells(grid);
-    grid = filters::Input::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
+    vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
+    if (!mesh.IsElsewhere)
     {
       this->Extract(grid, output, monitor);
     }
@@ -72,4 +83,5 @@ void vtkExtractMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
 }

@@ -22,8 +22,11 @@
  * that owns the face are passed, except for global ids, since a cell may own several faces. The
  * cell array `MorphCellId` (vtkIdType) is added, the owning cell's id in the input.
  *
+ * The blocks of composite data are one mesh, see vtkMorphAlgorithm; ids are those of the merged
+ * mesh, and the cell array `MorphBlockId` has the flat index of the block.
+ *
  * A mesh without any outer face, for instance with every cell twice, gives a warning. Errors, with
- * an empty output: composite data (use Merge Blocks first), no points, no volume cells, cells that
+ * an empty output: overlapping AMR, no points, no volume cells, cells that
  * a morph does not support, arrays shorter than there are points or cells, coordinates that are not
  * finite or above 1e50, an extent below 1e-50, cells on more than one MPI rank. An execution that
  * is aborted gives an empty output and no message. With several MPI processes an execution is
@@ -37,6 +40,8 @@
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <vtkPolyDataAlgorithm.h>
+
+#include <memory> // for std::unique_ptr
 
 namespace morph
 {
@@ -61,6 +66,16 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
+  ///@}
+
 protected:
   vtkExtractMorphBoundary();
   ~vtkExtractMorphBoundary() override;
@@ -75,7 +90,11 @@ private:
 
   void Extract(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor);
 
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
 };
 
 #endif

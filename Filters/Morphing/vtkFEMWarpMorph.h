@@ -7,7 +7,7 @@
  * The boundary's displacement is its Dirichlet data. Affine motions of the boundary are reproduced
  * exactly. Small or smooth motions keep the cells valid; large rotations and strong compressions
  * may invert some near the boundary, which InvertedCells counts. Tetrahedra, hexahedra, wedges,
- * pyramids, mixed meshes, and their quadratic forms, whose corners move as the linear cell.
+ * pyramids, polyhedra, mixed meshes; corners of quadratic cells move as those of linear ones.
  *
  * Each connected body needs at least one prescribed node. Inverted or flat cells of the undeformed
  * mesh give a warning and get a positive stiffness, so that the mesh can still be morphed.

@@ -9,8 +9,9 @@
  * moved boundary asks for. The minimum scaled Jacobian is never below that of FEMWARP's mesh if
  * that is valid. With the target Stretched, the same holds for simplex-linear's mesh. Where one of
  * these meshes has the higher minimum, it is the result. Tetrahedra, hexahedra, wedges, pyramids,
- * mixed meshes, and their quadratic forms, whose corners move as the linear cell. Not linear in the
- * boundary's motion: there is no adjoint.
+ * mixed meshes, and their quadratic forms, whose corners move as the linear cell. Polyhedra by
+ * their pieces, without ImproveWorst and without the promise of a minimum, which would be that of
+ * the pieces. Not linear in the boundary's motion: there is no adjoint.
  *
  * The default of Validity is VALIDITY_SUB_STEP here. A boundary that inverts cells by itself is
  * refused, with the ids of the cells. Where no valid mesh is found for the whole motion, there is

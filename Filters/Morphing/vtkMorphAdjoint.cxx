@@ -207,10 +207,16 @@ int vtkMorphAdjoint::RequestData(
   vtkDataObject* carrier = vtkDataObject::GetData(inputVector[2]);
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   const filters::Ports::Task task = { "apply the adjoint", morph ? morph->GetNumberOfThreads() : 0,
+    morph    ? morph->GetCoincidentPoints()
+    : shapes ? shapes->GetCoincidentPoints()
+             : 0,
     [] {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
     {
-      vtkDataObject* holder = carrier ? carrier : rest;
+      const std::string name = filters::Input::ArrayName(this->GradientArray);
+      vtkDataObject* holder =
+        carrier ? this->Internals->Ports.AsOne(carrier, "The gradient's data set", name.c_str())
+                : rest;
       if (shapes)
       {
         this->ExecuteShapes(shapes, rest, holder, output, monitor);

@@ -104,6 +104,13 @@ void vtkMorphAlgorithm::SetBoundaryData(vtkDataObject* boundary)
   this->SetInputDataObject(1, boundary);
 }
 
+vtkTypeBool vtkMorphAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
+         this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkMorphAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   return filters::Ports::FillInformation(port, info);
@@ -161,10 +168,10 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
 int vtkMorphAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkInternals& kept = *this->Internals;
+  vtkUnstructuredGrid* output = kept.Ports.Output(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
-  vtkInternals& kept = *this->Internals;
   std::string partial;
   // A process without cells has no series, and would not know which step to ask the boundary for.
   if (kept.IsSeries() && kept.Steps.FromBoundary() && filters::Ranks::Count(true) > 1)
@@ -173,10 +180,11 @@ int vtkMorphAlgorithm::RequestData(
     vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
                   "Run on one, or set Stepping to Absolute.");
     kept.WriteUndeformed(nullptr, "Failed", output, surface);
+    kept.Ports.WriteOutput(outputVector);
     return 1;
   }
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
-    [&] { kept.Results.Reset(); },
+    this->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       try
@@ -252,6 +260,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
 {
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   this->Session.SetGrid(grid, monitor);
+  this->Session.SetFeatureLines(this->Filter->FeatureLines);
   this->Session.ReportMirroredBodies(monitor);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   const filters::Session::Options options = this->Options(grid);
@@ -354,12 +363,14 @@ void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
+  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
   os << indent << "Certify: " << this->Certify << "\n";
   os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
   os << indent << "PostSmooth: " << this->PostSmooth << "\n";
   os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   this->Internals->Results.Print(os, indent);
 }

@@ -8,6 +8,22 @@
  * and arrays, and new points. Boundary nodes go where port 1 puts them; interior nodes follow by
  * the subclass's method. The inputs are never modified.
  *
+ * Port 0 also takes composite data (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, ...).
+ * Output 0 is then composite data of the same structure, and GetOutput() is null;
+ * GetOutputDataObject(0) has it. The blocks with volume cells are one mesh, whose nodes are the
+ * points that coincide, see CoincidentPoints. Names, metadata, field data and arrays of the blocks
+ * stay. Surfaces, side sets and node sets move with the nodes at their points. Blocks without a
+ * point at a node pass unchanged, and a warning counts them. Volume cells of a vtkStructuredGrid,
+ * vtkRectilinearGrid or vtkImageData come out as a vtkStructuredGrid. Cells of two blocks with the
+ * same nodes, such as ghost cells, are one cell.
+ *
+ * All node and cell ids, in messages and arrays, are those of the merged mesh. Where all blocks
+ * have global ids, nodes and cells are in the order of these, else in that of the blocks. The
+ * blocks get them as the point array `MorphPointId` and the cell array `MorphCellId`; output 1
+ * names the block by its flat index, in the cell array `MorphBlockId`. Numbers are field data of
+ * output 0 itself, not of its blocks. Port 1 takes a moved copy of the blocks, or pieces of a
+ * boundary, as composite data; points of one node have to move alike.
+ *
  * Boundary points are matched to nodes by the first of these that exists:
  * 1. the point array named by BoundaryIdArray;
  * 2. the point array `MorphPointId`, which vtkExtractMorphBoundary writes;
@@ -57,8 +73,8 @@
  * After an error there is one message, and output 0 is the undeformed mesh of port 0, or empty if
  * that cannot be read. MorphStatus is then "Failed", and InvertedCells and MinScaledJacobian are
  * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
- * the errors: composite data (use Merge Blocks first), no points, no volume cells, cells of other
- * types than tetrahedra, hexahedra, voxels, wedges, pyramids and their quadratic forms, no way to
+ * the errors: overlapping AMR, no points, no volume cells, cells of other
+ * types (tetrahedra, hexahedra, wedges, pyramids, quadratic ones and polyhedra are read), no way to
  * match the boundary, a node with two targets, ids that RestPosition contradicts, cells on more
  * than one MPI rank, relative steps after a boundary that varies in time on several processes. Data
  * sets on any port are refused if an array has fewer values than there are points or cells, if
@@ -269,6 +285,17 @@ public:
 
   ///@{
   /**
+   * Whether output 2 has lines along the edges at which the undeformed faces turn by more than 25
+   * degrees. They come before the polygons; their MorphCellId is -1 and their ScaledJacobian NaN.
+   * Default off.
+   */
+  vtkSetMacro(FeatureLines, bool);
+  vtkGetMacro(FeatureLines, bool);
+  vtkBooleanMacro(FeatureLines, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether to prove for each cell of the output that its Jacobian determinant is positive
    * everywhere, not only at its corners. The cell array JacobianCertificate is 1 certified, 0
    * undecided, -1 inverted; the field data are CertifiedCells, UncertifiedCells and UndecidedCells;
@@ -329,6 +356,36 @@ public:
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  enum CoincidentPointsType
+  {
+    COINCIDENT_POINTS_MERGE = 0,
+    COINCIDENT_POINTS_MERGE_BY_POSITION = 1,
+    COINCIDENT_POINTS_KEEP_APART = 2
+  };
+
+  ///@{
+  /**
+   * Which points of the blocks of composite data are one node; see the class description.
+   * Merge: those with equal global ids, where blocks have them; else those with equal coordinates.
+   * MergeByPosition: those with equal coordinates, whatever their ids.
+   * KeepApart: none. Bodies in contact whose nodes coincide, and cracks between blocks, stay apart;
+   * so do blocks that are one body.
+   *
+   * With Merge, bodies in contact stay apart if their nodes have global ids of their own. Points of
+   * one unstructured block that coincide without a common id, such as the sides of a crack, are
+   * never one node. Those of a structured block are, since it has no other way to close a seam.
+   * Default COINCIDENT_POINTS_MERGE.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, COINCIDENT_POINTS_MERGE, COINCIDENT_POINTS_KEEP_APART);
+  vtkGetMacro(CoincidentPoints, int);
+  void SetCoincidentPointsToMerge() { this->SetCoincidentPoints(COINCIDENT_POINTS_MERGE); }
+  void SetCoincidentPointsToMergeByPosition()
+  {
+    this->SetCoincidentPoints(COINCIDENT_POINTS_MERGE_BY_POSITION);
+  }
+  void SetCoincidentPointsToKeepApart() { this->SetCoincidentPoints(COINCIDENT_POINTS_KEEP_APART); }
   ///@}
 
   ///@{
@@ -444,6 +501,9 @@ public:
   bool ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary, vtkDataArray* gradient,
     vtkDoubleArray* boundaryGradient);
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
   vtkMorphAlgorithm();
   ~vtkMorphAlgorithm() override;
@@ -489,6 +549,7 @@ protected:
 
   int Validity = VALIDITY_REPORT;
   int Quality = QUALITY_ALL;
+  bool FeatureLines = false;
   bool Certify = false;
 
 private:
@@ -522,6 +583,7 @@ private:
   int PostSmoothIterations = 20;
   double RestTime = -1e300;
   int NumberOfThreads = 0;
+  int CoincidentPoints = COINCIDENT_POINTS_MERGE;
   int OutputPointsPrecision = DEFAULT_PRECISION;
 };
 

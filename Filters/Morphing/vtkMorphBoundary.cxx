@@ -242,7 +242,7 @@ int vtkMorphBoundary::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
-    [&] { kept.Results.Reset(); },
+    this->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     { kept.Morph(grid, boundary, target, output, monitor); },
     [&](vtkDataObject*, const char*) { kept.Results.Write(output); } };
@@ -418,5 +418,6 @@ void vtkMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RestTime: " << this->RestTime << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   this->Internals->Results.Print(os, indent);
 }

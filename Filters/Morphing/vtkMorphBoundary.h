@@ -21,7 +21,8 @@
  *   target. Where this does not help, they keep their unprojected position, and a warning names
  *   them.
  *
- * Port 0 takes the undeformed mesh (vtkUnstructuredGrid). Its geometry is found as
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid, or composite data, see
+ * vtkMorphAlgorithm). Its geometry is found as
  * vtkClassifyBoundary finds it; the output of that filter is accepted too. Port 1 takes the moved
  * nodes (vtkPointSet), matched to the mesh as vtkMorphAlgorithm matches a boundary. Nodes on
  * geometry of a dimension up to PrescribedDimension are given; the others are ignored. Vertices
@@ -226,6 +227,16 @@ public:
 
   ///@{
   /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
+  ///@}
+
+  ///@{
+  /**
    * Quality of the moved faces in the last execution. Where there was no result, the mean is NaN
    * and the others are -1.
    */
@@ -288,6 +299,7 @@ private:
   double RestTime = -1e300;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
 };
 
 #endif

@@ -5,6 +5,7 @@
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
@@ -36,7 +37,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 
 namespace filters = morph::filters;
@@ -66,11 +66,6 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
     default:
       return vtkSmartPointer<vtkFEMWarpMorph>::New();
   }
-}
-
-bool setStatus(std::set<std::string>& names, const char* name, int status)
-{
-  return name && (status != 0 ? names.insert(name).second : names.erase(name) > 0);
 }
 }
 
@@ -118,60 +113,63 @@ void vtkMorphMesh::SetSelectionExtractor(vtkExtractSelection* extractor)
   }
 }
 
-void vtkMorphMesh::SetSurfaceStatus(const char* name, int status)
-{
-  if (setStatus(this->Internals->Surfaces, name, status))
-  {
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::RemoveAllSurfaces()
-{
-  if (!this->Internals->Surfaces.empty())
-  {
-    this->Internals->Surfaces.clear();
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::SetFixedSurfaceStatus(const char* name, int status)
-{
-  if (setStatus(this->Internals->FixedSurfaces, name, status))
-  {
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::RemoveAllFixedSurfaces()
-{
-  if (!this->Internals->FixedSurfaces.empty())
-  {
-    this->Internals->FixedSurfaces.clear();
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::SetSlidingSurfaceStatus(const char* name, int status)
-{
-  if (setStatus(this->Internals->SlidingSurfaces, name, status))
-  {
-    this->Modified();
-  }
-}
-
-void vtkMorphMesh::RemoveAllSlidingSurfaces()
-{
-  if (!this->Internals->SlidingSurfaces.empty())
-  {
-    this->Internals->SlidingSurfaces.clear();
-    this->Modified();
-  }
-}
-
 vtkDataArraySelection* vtkMorphMesh::GetSurfaceList()
 {
   return this->Internals->Displacement->GetPatchList();
+}
+
+void vtkMorphMesh::FindSurfaces(
+  vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names)
+{
+  vtkInternals& own = *this->Internals;
+  own.Displacement->SetSelectionExtractor(own.Extractor);
+  try
+  {
+    const filters::BlockPick::OnGrid ofBlocks = own.OfBlocks(shown, selection);
+    own.Displacement->FindPatches(ofBlocks.Shown ? ofBlocks.Shown.Get() : shown,
+      ofBlocks.Shown ? ofBlocks.Selection.Get() : selection, names);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Cannot find the surfaces of this selection: " << error.what());
+  }
+}
+
+void vtkMorphMesh::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
+{
+  this->Internals->CopySurfaces(names, output);
+}
+
+void vtkMorphMesh::SetPick(vtkAlgorithm* selection)
+{
+  this->Internals->Picker.Selection = selection;
+}
+
+void vtkMorphMesh::SetPickPort(int port)
+{
+  this->Internals->Picker.Port = std::max(port, -1);
+}
+
+int vtkMorphMesh::GetPickPort() const
+{
+  return this->Internals->Picker.Port;
+}
+
+vtkDataArraySelection* vtkMorphMesh::GetPickedSurfaces()
+{
+  filters::Picker& picker = this->Internals->Picker;
+  this->FindSurfaces(picker.Shown(this), picker.Update(), picker.Names);
+  return picker.Names;
+}
+
+vtkStringArray* vtkMorphMesh::GetSurfaceSizes()
+{
+  return this->Internals->Displacement->GetPatchSizes();
+}
+
+vtkDoubleArray* vtkMorphMesh::GetSurfaceBounds()
+{
+  return this->Internals->Displacement->GetPatchBounds();
 }
 
 void vtkMorphMesh::SetRegion(vtkImplicitFunction* region)
@@ -245,6 +243,13 @@ vtkMTimeType vtkMorphMesh::GetMTime()
   return time;
 }
 
+vtkTypeBool vtkMorphMesh::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
+         this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkMorphMesh::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
@@ -273,12 +278,7 @@ int vtkMorphMesh::RequestInformation(
     steps.Write(output);
   }
   // A user who is about to choose surfaces wants to see their names before the first execution.
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(filters::upToDateInput(this, inputVector));
-  if (grid && grid->GetNumberOfCells() > 0)
-  {
-    this->Internals->TakeGrid(grid);
-    this->Internals->List();
-  }
+  this->Internals->List(filters::upToDateInput(this, inputVector));
   return 1;
 }
 
@@ -293,10 +293,10 @@ int vtkMorphMesh::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& own = *this->Internals;
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkUnstructuredGrid* output = own.Blocks.Output(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
   filters::Monitor monitor(this, this->NumberOfThreads);
@@ -308,6 +308,8 @@ int vtkMorphMesh::RequestData(
     {
       throw morph::Error("Morph Mesh runs on a single MPI process only. Run on one.");
     }
+    input = own.Blocks.Gather(
+      input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
     if (!grid)
     {
@@ -315,8 +317,8 @@ int vtkMorphMesh::RequestData(
     }
     own.TakeGrid(grid);
     own.TakeTarget(target);
-    partial = own.Run(
-      selection, filters::Ports::Asked(request, outputVector), output, badCells, surface, monitor);
+    partial = own.Run(own.OfGrid(selection), filters::Ports::Asked(request, outputVector), output,
+      badCells, surface, monitor);
   };
   const auto clear = [&]
   {
@@ -329,13 +331,17 @@ int vtkMorphMesh::RequestData(
     filters::Execution::Run(this, "morph this mesh", work, clear);
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    vtkWarningMacro(<< warning);
+    if (!this->Live) // they would come with every step of a drag
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   if (outcome != filters::Execution::Outcome::Done)
   {
     own.WriteUndeformed(input,
       outcome == filters::Execution::Outcome::Cancelled ? "Cancelled" : "Failed", output, surface);
   }
+  own.Blocks.Scatter(outputVector);
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
@@ -357,45 +363,41 @@ const char* vtkMorphMesh::GetMorphStatus() const
   {                                                                 \
     return static_cast<type>(this->Internals->Results.kind(#name)); \
   }
-morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
-  MeanScaledJacobian, double, Number) morphResultMacro(InvertedCells, vtkIdType, Integer)
-  morphResultMacro(DegenerateCells, vtkIdType, Integer) morphResultMacro(
-    WorstCellId, vtkIdType, Integer) morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer)
-    morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer)
-      morphResultMacro(MirroredBodies, vtkIdType, Integer)
-        morphResultMacro(CertifiedCells, vtkIdType, Integer)
-          morphResultMacro(UncertifiedCells, vtkIdType, Integer)
-            morphResultMacro(UndecidedCells, vtkIdType, Integer)
-              morphResultMacro(LargestValidStep, double, Number)
-                morphResultMacro(PrepareSeconds, double, Number)
-                  morphResultMacro(EvaluateSeconds, double, Number)
-                    morphResultMacro(SubSteps, vtkIdType, Integer)
-                      morphResultMacro(PrepareCount, int, Integer)
-                        morphResultMacro(PrescribedPoints, vtkIdType, Integer)
-                          morphResultMacro(UnmatchedPoints, vtkIdType, Integer)
-                            morphResultMacro(SolverIterations, int, Integer)
-                              morphResultMacro(MaxTargetDistanceBefore, double, Number)
-                                morphResultMacro(MeanTargetDistanceBefore, double, Number)
-                                  morphResultMacro(MaxTargetDistance, double, Number)
-                                    morphResultMacro(MeanTargetDistance, double, Number)
+morphResultMacro(MinScaledJacobian, double, Number);
+morphResultMacro(MeanScaledJacobian, double, Number);
+morphResultMacro(InvertedCells, vtkIdType, Integer);
+morphResultMacro(DegenerateCells, vtkIdType, Integer);
+morphResultMacro(WorstCellId, vtkIdType, Integer);
+morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer);
+morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer);
+morphResultMacro(MirroredBodies, vtkIdType, Integer);
+morphResultMacro(CertifiedCells, vtkIdType, Integer);
+morphResultMacro(UncertifiedCells, vtkIdType, Integer);
+morphResultMacro(UndecidedCells, vtkIdType, Integer);
+morphResultMacro(LargestValidStep, double, Number);
+morphResultMacro(PrepareSeconds, double, Number);
+morphResultMacro(EvaluateSeconds, double, Number);
+morphResultMacro(SubSteps, vtkIdType, Integer);
+morphResultMacro(PrepareCount, int, Integer);
+morphResultMacro(PrescribedPoints, vtkIdType, Integer);
+morphResultMacro(UnmatchedPoints, vtkIdType, Integer);
+morphResultMacro(SolverIterations, int, Integer);
+morphResultMacro(MaxTargetDistanceBefore, double, Number);
+morphResultMacro(MeanTargetDistanceBefore, double, Number);
+morphResultMacro(MaxTargetDistance, double, Number);
+morphResultMacro(MeanTargetDistance, double, Number);
 
-                                      void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
+void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto text = [](const char* name) { return name ? name : "(none)"; };
-  const auto list = [&](const char* name, const std::set<std::string>& values)
-  {
-    os << indent << name << ": ";
-    for (const std::string& value : values)
-    {
-      os << (value == *values.begin() ? "" : ", ") << value;
-    }
-    os << "\n";
-  };
+  const auto list = [&](const char* name, const filters::NameSet::Names& values)
+  { filters::NameSet::Print(os, indent, name, values); };
   os << indent << "Moving: " << this->Moving << "\n";
   list("Surfaces", this->Internals->Surfaces);
   list("FixedSurfaces", this->Internals->FixedSurfaces);
   list("SlidingSurfaces", this->Internals->SlidingSurfaces);
+  list("FreeSurfaces", this->Internals->FreeSurfaces);
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   os << indent << "Displacement: " << this->Displacement << "\n";
@@ -421,6 +423,7 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
+  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
   os << indent << "Live: " << this->Live << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Stepping: " << this->Stepping << "\n";
@@ -431,15 +434,26 @@ morphResultMacro(MinScaledJacobian, double, Number) morphResultMacro(
   os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "PickPort: " << this->GetPickPort() << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   this->Internals->Results.Print(os, indent);
 }
 
-morphSetNumberMacro(vtkMorphMesh, RestTime) morphSetNumberMacro(vtkMorphMesh, Distance)
-  morphSetNumberMacro(vtkMorphMesh, ScaleFactor) morphSetNumberMacro(vtkMorphMesh, RadiusChange)
-    morphSetNumberMacro(vtkMorphMesh, TargetReach, 0.0, 10.0) morphSetNumberMacro(vtkMorphMesh,
-      TargetAngle, 0.0, 180.0) morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0)
-      morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0)
-        morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0)
-          morphSetVectorMacro(vtkMorphMesh, Vector) morphSetVectorMacro(vtkMorphMesh, Translation)
-            morphSetVectorMacro(vtkMorphMesh, Rotation) morphSetVectorMacro(vtkMorphMesh, Scale)
-              morphSetVectorMacro(vtkMorphMesh, Center)
+morphNameSetMacro(vtkMorphMesh, Surface, Surfaces);
+morphNameSetMacro(vtkMorphMesh, FixedSurface, FixedSurfaces);
+morphNameSetMacro(vtkMorphMesh, SlidingSurface, SlidingSurfaces);
+morphNameSetMacro(vtkMorphMesh, FreeSurface, FreeSurfaces);
+morphSetNumberMacro(vtkMorphMesh, RestTime);
+morphSetNumberMacro(vtkMorphMesh, Distance);
+morphSetNumberMacro(vtkMorphMesh, ScaleFactor);
+morphSetNumberMacro(vtkMorphMesh, RadiusChange);
+morphSetNumberMacro(vtkMorphMesh, TargetReach, 0.0, 10.0);
+morphSetNumberMacro(vtkMorphMesh, TargetAngle, 0.0, 180.0);
+morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0);
+morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0);
+morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0);
+morphSetVectorMacro(vtkMorphMesh, Vector);
+morphSetVectorMacro(vtkMorphMesh, Translation);
+morphSetVectorMacro(vtkMorphMesh, Rotation);
+morphSetVectorMacro(vtkMorphMesh, Scale);
+morphSetVectorMacro(vtkMorphMesh, Center);

@@ -4,10 +4,10 @@
  * @brief   morphs a volume mesh in one step: what moves, how it moves, and by which method
  *
  * It is vtkBoundaryDisplacement and a morph filter in one. Port 0 takes the mesh
- * (vtkUnstructuredGrid); port 1, optional, takes a vtkSelection, and port 2, optional, the target
- * surface of DISPLACEMENT_TARGET. Output 0 is the morphed mesh, and output 1 its inverted cells.
- * Both have the arrays of vtkMorphAlgorithm. Output 2 (vtkPolyData) is the outer boundary, which a
- * view can show in less time; see vtkMorphAlgorithm.
+ * (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm); port 1, optional, takes a
+ * vtkSelection, and port 2, optional, the target surface of DISPLACEMENT_TARGET. Output 0 is the
+ * morphed mesh, and output 1 its inverted cells. Both have the arrays of vtkMorphAlgorithm. Output
+ * 2 (vtkPolyData) is the outer boundary, which a view can show in less time; see vtkMorphAlgorithm.
  *
  * - Moving defines what moves: surfaces, a selection, the inside of a region, everything, or the
  *   nodes that an array marks.
@@ -50,10 +50,13 @@
 class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkDataObject;
+class vtkDoubleArray;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkMorphAlgorithm;
+class vtkPolyData;
 class vtkSelection;
+class vtkStringArray;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphMesh : public vtkUnstructuredGridAlgorithm
 {
@@ -112,7 +115,8 @@ public:
   ///@{
   /**
    * The surfaces (or curves) that move, by name: "Surface 3", "Curve 7", with the ids that
-   * vtkClassifyBoundary writes. A status other than 0 adds one, and 0 removes it. Default: none.
+   * vtkClassifyBoundary writes, or a name of the mesh; see vtkBoundaryDisplacement. A status other
+   * than 0 adds one, and 0 removes it. Default: none.
    */
   void SetSurfaceStatus(const char* name, int status);
   void AddSurface(const char* name) { this->SetSurfaceStatus(name, 1); }
@@ -138,12 +142,59 @@ public:
   void RemoveAllSlidingSurfaces();
   ///@}
 
+  ///@{
+  /**
+   * The surfaces that are free, by name: their nodes are solved with the interior. A node is free
+   * only if all of its surfaces are, and if it neither moves nor is fixed. Default: none.
+   */
+  void SetFreeSurfaceStatus(const char* name, int status);
+  void AddFreeSurface(const char* name) { this->SetFreeSurfaceStatus(name, 1); }
+  void RemoveAllFreeSurfaces();
+  ///@}
+
   /**
    * Names of all surfaces and curves, surfaces first, as a list to choose from, with nothing
    * enabled. They are those of the last execution or, after an update of the information, of input
    * data that are up to date.
    */
   vtkDataArraySelection* GetSurfaceList();
+
+  /**
+   * Writes into `names` all names of GetSurfaceList(), and enables the surfaces that a selection
+   * lies on. `shown`: the data that were selected on: the input or an output. See
+   * vtkBoundaryDisplacement::FindPatches().
+   */
+  void FindSurfaces(vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names);
+
+  /**
+   * Makes `output` the polygons and lines of the surfaces and curves that are enabled in `names`,
+   * where output 0 has them or, before the first execution, undeformed.
+   */
+  void CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output);
+
+  ///@{
+  /**
+   * FindSurfaces() for ParaView's window: an algorithm whose first output is the selection, and the
+   * output of this filter that it is of, or -1, the default, for the input. Neither causes an
+   * execution.
+   */
+  void SetPick(vtkAlgorithm* selection);
+  void SetPickPort(int port);
+  int GetPickPort() const;
+  vtkDataArraySelection* GetPickedSurfaces();
+  ///@}
+
+  /**
+   * The size of each entry of the list: its name, how many faces it has, and their area, three
+   * strings each. Of a curve: edges and length.
+   */
+  vtkStringArray* GetSurfaceSizes();
+
+  /**
+   * The bounding box of each entry of the list, undeformed: six numbers as in
+   * vtkDataSet::GetBounds().
+   */
+  vtkDoubleArray* GetSurfaceBounds();
 
   ///@{
   /**
@@ -346,7 +397,8 @@ public:
   ///@{
   /**
    * Whether the motion is being dragged: inverted cells are then shown and counted, whatever
-   * Validity says. A window sets it while a box is dragged, and resets it on release. Default off.
+   * Validity says, and there are no warnings. A window sets it while a box is dragged, and resets
+   * it on release. Default off.
    */
   vtkSetMacro(Live, bool);
   vtkGetMacro(Live, bool);
@@ -366,6 +418,17 @@ public:
   vtkGetMacro(Quality, int);
   void SetQualityToAll() { this->SetQuality(QUALITY_ALL); }
   void SetQualityToSurface() { this->SetQuality(QUALITY_SURFACE); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether output 2 has lines along the edges at which the undeformed faces turn by more than 25
+   * degrees. They come before the polygons; their MorphCellId is -1 and their ScaledJacobian NaN.
+   * Default off.
+   */
+  vtkSetMacro(FeatureLines, bool);
+  vtkGetMacro(FeatureLines, bool);
+  vtkBooleanMacro(FeatureLines, bool);
   ///@}
 
   ///@{
@@ -421,6 +484,16 @@ public:
 
   ///@{
   /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
+  ///@}
+
+  ///@{
+  /**
    * Results of the last execution; see vtkMorphAlgorithm.
    */
   const char* GetMorphStatus() const;
@@ -455,6 +528,9 @@ public:
   double GetMaxTargetDistance() const;
   double GetMeanTargetDistance() const;
   ///@}
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 protected:
   vtkMorphMesh();
@@ -497,6 +573,7 @@ private:
   int Method = METHOD_FEMWARP;
   int Validity = 3;
   int Quality = QUALITY_ALL;
+  bool FeatureLines = false;
   bool Live = false;
   int NumberOfSteps = 0;
   int Stepping = 0;
@@ -507,6 +584,7 @@ private:
   bool UseGeometryArrays = true;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
 };
 
 #endif

@@ -1,53 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphShapes.h"
 
-#include "LinearMethods/FemWarp.h"
-#include "LinearMethods/LogBarrierWarp.h"
-#include "LinearMethods/SimplexLinear.h"
-#include "LinearMethods/SimplexNaturalNeighbor.h"
-#include "LinearMethods/WeightedResidual.h"
-#include "Private/Data/BadCells.h"
 #include "Private/Data/Gradient.h"
-#include "Private/Data/Output.h"
-#include "Private/Data/Quality.h"
-#include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
-#include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
-#include "Private/Shapes/Designs.h"
-#include "Private/Shapes/ShapeModes.h"
-#include "Private/Shapes/WeightRanges.h"
+#include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
 
 #include <vtkAlgorithmOutput.h>
-#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
-#include <sstream>
-#include <utility>
 
 namespace filters = morph::filters;
 
@@ -58,31 +36,6 @@ morphSetNumberMacro(vtkMorphShapes, Tolerance, 1e-15, 0.999)
 
     namespace
 {
-  std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
-  {
-    switch (method)
-    {
-      case vtkMorphShapes::METHOD_LBWARP:
-      {
-        auto lbwarp = std::make_unique<morph::LogBarrierWarp>();
-        lbwarp->setTolerance(tolerance);
-        lbwarp->setOutsideHull(morph::LogBarrierWarp::OutsideHull::Relax);
-        return lbwarp;
-      }
-      case vtkMorphShapes::METHOD_WEIGHTED_RESIDUAL:
-        return std::make_unique<morph::WeightedResidual>();
-      case vtkMorphShapes::METHOD_SIMPLEX_LINEAR:
-        return std::make_unique<morph::SimplexLinear>();
-      case vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR:
-        return std::make_unique<morph::SimplexNaturalNeighbor>();
-      default:
-        break;
-    }
-    auto femwarp = std::make_unique<morph::FemWarp>();
-    femwarp->setTolerance(tolerance);
-    return femwarp;
-  }
-
   /// Sets element `i` of a list, which grows if need be; returns whether that changed it.
   template <typename Value>
   bool setElement(std::vector<Value> & list, int i, const Value& value)
@@ -107,44 +60,6 @@ morphSetNumberMacro(vtkMorphShapes, Tolerance, 1e-15, 0.999)
     return i >= 0 && static_cast<std::size_t>(i) < list.size() ? list[i] : Value();
   }
 }
-
-class vtkMorphShapes::vtkInternals
-{
-public:
-  filters::Results Results{ filters::ResultTables::vtkMorphShapes() };
-  filters::ShapeModes Modes;
-  filters::Ports Ports;
-  filters::WeightRanges Ranges; ///< of the last execution
-  std::vector<double> Weights;  ///< of the last execution; empty where it had no result
-  filters::Designs Designs;
-  vtkIdType Rows = 0;  ///< of the table, as of the last update of the information
-  vtkIdType Row = 0;   ///< that the outputs are asked for
-  morph::Points Moved; ///< kept for its memory: its content has no effect
-
-  explicit vtkInternals(vtkMorphShapes* filter)
-    : Ports(filter)
-    , Filter(filter)
-  {
-  }
-
-  void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries, vtkDataObject* table,
-    vtkInformationVector* outputs, morph::Monitor& monitor);
-
-private:
-  vtkMorphShapes* Filter;
-
-  filters::ShapeModes::Options Options() const;
-  std::vector<filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
-  void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
-  void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
-    morph::Monitor& monitor);
-  /// The present weights: the filter's, or those of the table's row.
-  std::vector<double> PresentWeights(
-    std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor);
-  void FindRanges(const std::vector<double>& weights, morph::Monitor& monitor);
-  std::vector<std::string> Names(std::size_t number) const;
-  void WriteShapes(const std::vector<double>& weights, vtkUnstructuredGrid* output) const;
-};
 
 vtkMorphShapes::vtkMorphShapes()
   : Internals(new vtkInternals(this))
@@ -262,6 +177,13 @@ int vtkMorphShapes::GetMotion(int shape) const
   return element(this->Motions, shape);
 }
 
+vtkTypeBool vtkMorphShapes::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
+         this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkMorphShapes::FillInputPortInformation(int port, vtkInformation* info)
 {
   const int done = filters::Ports::FillInformation(port, info);
@@ -329,9 +251,10 @@ int vtkMorphShapes::RequestUpdateExtent(
 int vtkMorphShapes::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   vtkInternals& kept = *this->Internals;
+  vtkUnstructuredGrid* output = kept.Ports.Output(outputVector);
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
+    this->CoincidentPoints,
     [&]
     {
       kept.Results.Reset();
@@ -365,193 +288,6 @@ int vtkMorphShapes::RequestData(
   return done;
 }
 
-filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
-{
-  filters::ShapeModes::Options options;
-  options.Matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
-  options.Matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
-  options.Matching.MatchTolerance = this->Filter->MatchTolerance;
-  options.Matching.HoldUnnamedBoundary = this->Filter->HoldUnnamedBoundary;
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Filter->Method << " " << this->Filter->Tolerance;
-  options.Method = text.str();
-  options.CreateMorpher = [filter = this->Filter]
-  { return makeMethod(filter->Method, filter->Tolerance); };
-  return options;
-}
-
-std::vector<filters::ShapeModes::Shape> vtkMorphShapes::vtkInternals::Shapes(
-  vtkInformationVector* boundaries) const
-{
-  const int number = boundaries->GetNumberOfInformationObjects();
-  if (number == 0)
-  {
-    throw morph::Error("There is no shape: connect displaced boundaries to port 1, one for each "
-                       "shape, Boundary Displacement's output for instance.");
-  }
-  std::vector<filters::ShapeModes::Shape> shapes;
-  for (int i = 0; i < number; ++i)
-  {
-    const std::string name = this->Filter->GetShapeName(i);
-    try
-    {
-      shapes.push_back(
-        { name, filters::Input::RequireBoundary(vtkDataObject::GetData(boundaries, i)),
-          this->Filter->GetMotion(i) == MOTION_AS_ROTATION });
-    }
-    catch (const morph::Error& error)
-    {
-      throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
-    }
-  }
-  return shapes;
-}
-
-void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph::Monitor& monitor)
-{
-  const filters::ShapeModes::Effort effort =
-    this->Modes.Solve(this->Shapes(boundaries), this->Options(), monitor);
-  this->Results.SetInteger(
-    "PrepareCount", this->Results.Integer("PrepareCount") + effort.Preparations);
-  this->Results.SetInteger("SolveCount", this->Results.Integer("SolveCount") + effort.Solved);
-  this->Results.SetInteger("SolverIterations", effort.Iterations);
-  this->Results.SetNumber("PrepareSeconds", effort.Seconds);
-  this->Results.SetInteger("PrescribedPoints", effort.Prescribed);
-}
-
-std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
-  std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor)
-{
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < shapes; ++i)
-  {
-    weights.push_back(this->Filter->GetWeight(static_cast<int>(i)));
-  }
-  if (!table)
-  {
-    this->Designs = {};
-    return weights;
-  }
-  filters::Designs designs = filters::Designs::Read(table, this->Names(shapes), weights);
-  designs.KeepAnswer(std::move(this->Designs));
-  this->Designs = std::move(designs);
-  if (this->Filter->CheckDesigns)
-  {
-    std::vector<morph::Index> rows;
-    for (const std::size_t row : this->Designs.Inverted(this->Modes, monitor))
-    {
-      rows.push_back(static_cast<morph::Index>(row));
-    }
-    this->Results.SetText("InvertingDesigns", rows.empty() ? "none" : morph::listIds(rows, 100));
-  }
-  const auto last = static_cast<vtkIdType>(this->Designs.Number()) - 1;
-  return this->Designs[std::min(this->Row, last)];
-}
-
-void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
-  morph::Monitor& monitor)
-{
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputs);
-  this->Modes.SetGrid(grid, monitor);
-  this->Results.SetInteger("MirroredBodies", this->Modes.GetKept().MirroredBodies());
-  morph::ProgressRange solving(monitor, 0, 0.6);
-  this->Solve(boundaries, solving);
-  morph::ProgressRange checking(monitor, 0.6, 0.8);
-  const std::vector<double> weights =
-    this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
-
-  const auto start = std::chrono::steady_clock::now();
-  const morph::Points& rest = this->Modes.GetKept().Mesh().points;
-  morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
-  this->Results.SetNumber("EvaluateSeconds",
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
-  if (this->Filter->FindValidRanges)
-  {
-    this->FindRanges(weights, monitor);
-  }
-  this->Measure(
-    output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
-  this->WriteShapes(weights, output);
-  this->Weights = weights;
-}
-
-void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
-{
-  const bool all = this->Filter->Quality == QUALITY_ALL;
-  const std::vector<std::uint8_t>& inner = this->Modes.GetKept().Surface().InnerCells();
-  const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
-  const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
-  const morph::Quality quality =
-    all ? filters::Quality::Measure(mesh, output, orientation, monitor)
-        : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
-  this->Results.SetInteger("SurfaceInvertedCells",
-    this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
-  filters::Quality::Remove(output);
-  if (all)
-  {
-    filters::Quality::Write(quality, output);
-    filters::BadCells::Extract(quality, output, badCells);
-    this->Results.Set(quality);
-    this->Results.SetText(
-      "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
-  }
-  else
-  {
-    this->Results.SetText("MorphStatus", "Unmeasured");
-  }
-  this->Results.Write(output);
-}
-
-void vtkMorphShapes::vtkInternals::FindRanges(
-  const std::vector<double>& weights, morph::Monitor& monitor)
-{
-  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, this->Moved, monitor);
-  this->Results.SetText("ValidRanges", this->Ranges.Text(this->Names(weights.size())));
-  this->Results.SetNumber("LargestFactor", this->Ranges.LargestFactor);
-}
-
-std::vector<std::string> vtkMorphShapes::vtkInternals::Names(std::size_t number) const
-{
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < number; ++i)
-  {
-    names.push_back(this->Filter->GetShapeName(static_cast<int>(i)));
-  }
-  return names;
-}
-
-void vtkMorphShapes::vtkInternals::WriteShapes(
-  const std::vector<double>& weights, vtkUnstructuredGrid* output) const
-{
-  vtkNew<vtkStringArray> names;
-  names->SetName("ShapeNames");
-  for (const std::string& name : this->Names(weights.size()))
-  {
-    names->InsertNextValue(name);
-  }
-  output->GetFieldData()->AddArray(names);
-  const auto add = [&](const char* name, const auto& valueOf)
-  {
-    vtkNew<vtkDoubleArray> values;
-    values->SetName(name);
-    for (std::size_t i = 0; i < weights.size(); ++i)
-    {
-      values->InsertNextValue(valueOf(i));
-    }
-    output->GetFieldData()->AddArray(values);
-  };
-  add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
-  if (this->Filter->FindValidRanges)
-  {
-    add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
-    add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });
-  }
-}
-
 double vtkMorphShapes::GetLowestWeight(int shape) const
 {
   const auto& ranges = this->Internals->Ranges.Shapes;
@@ -563,6 +299,18 @@ double vtkMorphShapes::GetHighestWeight(int shape) const
   const auto& ranges = this->Internals->Ranges.Shapes;
   return shape >= 0 && static_cast<std::size_t>(shape) < ranges.size() ? ranges[shape].highest
                                                                        : NAN;
+}
+
+vtkDoubleArray* vtkMorphShapes::GetValidWeights()
+{
+  vtkDoubleArray* ends = this->Internals->ValidWeights;
+  ends->SetNumberOfComponents(2);
+  ends->SetNumberOfTuples(0);
+  for (const morph::ValidRange& range : this->Internals->Ranges.Shapes)
+  {
+    ends->InsertNextTuple2(range.isEmpty ? 0 : range.lowest, range.isEmpty ? 0 : range.highest);
+  }
+  return ends;
 }
 
 const char* vtkMorphShapes::GetValidRanges() const
@@ -642,7 +390,9 @@ void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FindValidRanges: " << this->FindValidRanges << "\n";
   os << indent << "CheckDesigns: " << this->CheckDesigns << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
+  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   this->Internals->Results.Print(os, indent);
 }

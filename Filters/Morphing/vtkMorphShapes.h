@@ -7,7 +7,8 @@
  * all weights 0 it is undeformed, and with one weight of 1 its boundary is that shape. Weights
  * below 0 and above 1 extrapolate.
  *
- * Port 0 takes the undeformed mesh (vtkUnstructuredGrid). Port 1 takes the shapes, one connection
+ * Port 0 takes the undeformed mesh (vtkUnstructuredGrid, or composite data, see
+ * vtkMorphAlgorithm). Port 1 takes the shapes, one connection
  * each: the output of vtkBoundaryDisplacement or vtkMorphBoundary, or any other displaced boundary
  * (vtkPointSet). Its points are matched to nodes as vtkMorphAlgorithm does. A node that any shape
  * names is prescribed; where a shape does not name it, it stays in that shape. Output 0 is the
@@ -220,11 +221,32 @@ public:
 
   ///@{
   /**
+   * Whether output 2 has lines along the edges at which the undeformed faces turn by more than 25
+   * degrees. They come before the polygons; their MorphCellId is -1 and their ScaledJacobian NaN.
+   * Default off.
+   */
+  vtkSetMacro(FeatureLines, bool);
+  vtkGetMacro(FeatureLines, bool);
+  vtkBooleanMacro(FeatureLines, bool);
+  ///@}
+
+  ///@{
+  /**
    * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
    * [0, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
   ///@}
 
   ///@{
@@ -258,12 +280,18 @@ public:
   /**
    * As of the last execution, with FindValidRanges on: the ends of a shape's valid range, NaN for a
    * shape that there was not; all ranges as text; and the largest factor of all weights together
-   * with which no cell is inverted. The factor is NaN where a shape that is taken as a rotation has
-   * a weight other than 0: the motion is then no polynomial. It is on the mesh in double precision.
+   * with which no cell is inverted. With several shapes and a rotation among them the factor is on
+   * the safe side, and infinite where no cell is inverted up to one full turn. All are those of the
+   * mesh in double precision.
    */
   double GetLowestWeight(int shape) const;
   double GetHighestWeight(int shape) const;
   const char* GetValidRanges() const;
+  /**
+   * The same ends as an array: #shapes tuples of the lowest and the highest weight, both 0 for an
+   * empty range. No tuples where ranges were not searched.
+   */
+  vtkDoubleArray* GetValidWeights();
   double GetLargestFactor() const { return this->GetNumber("LargestFactor"); }
   ///@}
 
@@ -300,6 +328,9 @@ public:
   int GetPrepareCount() const { return static_cast<int>(this->GetInteger("PrepareCount")); }
   int GetSolveCount() const { return static_cast<int>(this->GetInteger("SolveCount")); }
   ///@}
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 protected:
   vtkMorphShapes();
@@ -344,7 +375,9 @@ private:
   bool FindValidRanges = true;
   bool CheckDesigns = true;
   int Quality = QUALITY_ALL;
+  bool FeatureLines = false;
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
   int OutputPointsPrecision = DEFAULT_PRECISION;
 };
 

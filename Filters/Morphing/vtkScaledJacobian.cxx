@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
+#include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
@@ -10,17 +11,15 @@
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
-#include "Private/Pipeline/Ranks.h"
+#include "Private/Pipeline/Ports.h"
 
 #include <vtkCellData.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkGenericCell.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
-#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -37,6 +36,7 @@ vtkStandardNewMacro(vtkScaledJacobian);
 class vtkScaledJacobian::vtkInternals
 {
 public:
+  filters::Blocks Blocks;
   filters::Results Results{ filters::ResultTables::vtkScaledJacobian() };
 };
 
@@ -44,8 +44,7 @@ namespace
 {
 using DimensionOfType = std::array<int, 256>;
 
-/// Dimension of each cell type that occurs in the mesh; VTK is asked for those the core does not
-/// know.
+/// Dimension of each cell type that occurs in the mesh.
 DimensionOfType dimensions(const morph::Mesh& mesh)
 {
   DimensionOfType result;
@@ -54,10 +53,7 @@ DimensionOfType dimensions(const morph::Mesh& mesh)
   {
     if (result[type] < 0)
     {
-      const morph::CellShape* shape = morph::cellShape(type);
-      const auto cell =
-        vtkSmartPointer<vtkCell>::Take(shape ? nullptr : vtkGenericCell::InstantiateCell(type));
-      result[type] = shape ? shape->dimension : cell ? cell->GetCellDimension() : 0;
+      result[type] = filters::GridMesh::Dimension(type);
     }
   }
   return result;
@@ -80,31 +76,53 @@ vtkScaledJacobian::vtkScaledJacobian()
 
 vtkScaledJacobian::~vtkScaledJacobian() = default;
 
+vtkTypeBool vtkScaledJacobian::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
+         this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkScaledJacobian::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Otherwise the executive would loop over the blocks of composite data, and the numbers would be
-  // those of the last block.
+  // Otherwise the executive would loop over the blocks of composite data.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
+}
+
+int vtkScaledJacobian::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  return filters::Ports::FillOutputInformation(port, info);
 }
 
 int vtkScaledJacobian::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  filters::Blocks& blocks = this->Internals->Blocks;
+  vtkUnstructuredGrid* output = blocks.Output(outputVector);
   const auto clear = [&]
   {
     output->Initialize();
     this->Internals->Results.Reset();
   };
   clear();
-  // On every process, before anything can fail there: a process may have no cells.
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  const bool isEmpty = filters::Ranks::Count(grid && grid->GetNumberOfCells() > 0) == 0;
+  filters::Monitor monitor(this, this->NumberOfThreads);
+  bool isEmpty = false;
   const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "measure this mesh",
-    [&] { this->Measure(filters::Input::RequireGrid(input, "The input"), output); }, clear);
+    [&]
+    {
+      const filters::Input::Mesh mesh = filters::Input::TakeMesh(
+        input, blocks, this->CoincidentPoints, filters::Input::Use::ToMeasure, monitor);
+      isEmpty = mesh.IsEmpty;
+      this->Measure(filters::Input::RequireGrid(mesh.Data, "The input"), output, monitor);
+    },
+    clear);
+  for (const std::string& warning : monitor.TakeWarnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
   if (outcome != filters::Execution::Outcome::Done)
   {
     this->Internals->Results.Write(output);
@@ -113,18 +131,19 @@ int vtkScaledJacobian::RequestData(
   {
     vtkWarningMacro("The input has no cells, so nothing is measured.");
   }
+  blocks.Scatter(outputVector);
   return 1;
 }
 
-void vtkScaledJacobian::Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
+void vtkScaledJacobian::Measure(
+  vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
-  filters::Monitor monitor(this, this->NumberOfThreads);
   const morph::Mesh mesh =
     filters::GridMesh::FromGrid(input, filters::GridMesh::UnknownCells::Keep);
   const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
   const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
 
-  // A polyhedral mesh with boundary triangles must not be judged by its triangles.
+  // A mesh of unknown volume cells must not be judged by its boundary triangles.
   const DimensionOfType dimension = dimensions(mesh);
   const int highest = *std::max_element(dimension.begin(), dimension.end());
   std::vector<std::uint8_t> skip(mesh.types.size());
@@ -190,6 +209,7 @@ void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "Certify: " << this->Certify << "\n";
   this->Internals->Results.Print(os, indent);
 }

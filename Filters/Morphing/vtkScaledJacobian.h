@@ -13,14 +13,19 @@
  * needs.
  *
  * Cells of the highest dimension in the grid are measured: tetrahedra, hexahedra, voxels (as
- * hexahedra in VTK's order), wedges and pyramids, or triangles, quads and pixels where there is no
- * volume cell. A quadratic volume cell has the value of its corners, unless the determinant of its
- * true map is found negative inside: then it has a value below 0 and is inverted. (Where the
- * corners alone are inverted and the cell is positive everywhere, it has the minimum over its
- * nodes.) Quadratic faces are measured by their corners. Cells of lower dimension and ghost cells
- * get NaN and are not counted. Cells of the highest dimension that have no scaled Jacobian here
- * (polyhedra, polygons, Lagrange cells, ...) get NaN and are counted in UnmeasuredCells; one
+ * hexahedra in VTK's order), wedges, pyramids and polyhedra, or triangles, quads and pixels where
+ * there is no volume cell. A quadratic volume cell has the value of its corners, unless the
+ * determinant of its true map is found negative inside: then it has a value below 0 and is
+ * inverted. (Where the corners alone are inverted and the cell is positive everywhere, it has the
+ * minimum over its nodes.) Quadratic faces are measured by their corners. Cells of lower dimension
+ * and ghost cells get NaN and are not counted. Cells of the highest dimension that have no scaled
+ * Jacobian here (polygons, Lagrange cells, ...) get NaN and are counted in UnmeasuredCells; one
  * warning names their types.
+ *
+ * A polyhedron has the minimum over its corners with three edges, and over the edges of its faces:
+ * of the edge and the lines from its middle and from the cell's centre to the face's centre, scaled
+ * to length 1. A positive value means that OpenFOAM's face pyramids are positive, which Certify
+ * tests on its own.
  *
  * Volume cells of one shape in one connected body share a sign, that of their summed volume. So a
  * body that is mirrored as a whole, or wedges in VTK's older node order, are measured as valid (and
@@ -42,13 +47,16 @@
  * are those of each rank's own piece. An execution is then collective: it has to take place on all
  * ranks.
  *
- * A grid without cells gives a warning. Errors: composite data (use Merge Blocks first), cells but
- * no points, node ids or coordinates that are not valid, arrays shorter than there are points or
- * cells, coordinates above 1e50, and a largest extent below 1e-50. The output is then empty, and
- * InvertedCells and MinScaledJacobian are -1. The same holds, without a message, for an execution
- * that was aborted. Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic
- * volume cell), and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a
- * curved quadratic cell.
+ * The input may be composite data, see vtkMorphAlgorithm: its blocks are measured as one mesh, and
+ * come out with their own types.
+ *
+ * A grid without cells gives a warning. Errors: overlapping AMR, cells but no points, node ids or
+ * coordinates that are not valid, arrays shorter than there are points or cells, coordinates above
+ * 1e50, and a largest extent below 1e-50. The output is then empty, and InvertedCells and
+ * MinScaledJacobian are -1. The same holds, without a message, for an execution that was aborted.
+ * Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic volume cell), and a
+ * copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a curved quadratic
+ * cell.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.
@@ -65,6 +73,11 @@
 
 #include <memory> // for std::unique_ptr
 
+namespace morph
+{
+class Monitor;
+}
+
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkScaledJacobian : public vtkUnstructuredGridAlgorithm
 {
 public:
@@ -79,6 +92,16 @@ public:
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which points of the blocks of composite data are one node:
+   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
+   * node.
+   */
+  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
+  vtkGetMacro(CoincidentPoints, int);
   ///@}
 
   ///@{
@@ -141,11 +164,15 @@ public:
   vtkIdType GetUndecidedCells() const { return this->GetInteger("UndecidedCells"); }
   ///@}
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
   vtkScaledJacobian();
   ~vtkScaledJacobian() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -156,7 +183,7 @@ private:
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
-  void Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
+  void Measure(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, morph::Monitor& monitor);
   ///@{
   /// A result of the last execution, by its name in Results.txt.
   double GetNumber(const char* name) const;
@@ -164,6 +191,7 @@ private:
   ///@}
 
   int NumberOfThreads = 0;
+  int CoincidentPoints = 0;
   bool Certify = false;
 };
 

@@ -17,7 +17,7 @@
  * is. With Initial the target is the undeformed shape of each cell: no motion is then the identity,
  * and affine motions are reproduced to the tolerance of the iteration.
  *
- * Tetrahedra, hexahedra, wedges, pyramids and mixed meshes; quadratic cells by their corners. Not
+ * All volume cells; quadratic cells by their corners, polyhedra by their pieces, mixed meshes. Not
  * linear in the boundary's motion: there is no adjoint. Cells that are valid before the improvement
  * stay valid, but the mean is improved: the worst cell may get worse. Where the boundary stays or
  * moves affinely the minimum does not fall: nodes around cells that became worse than the former

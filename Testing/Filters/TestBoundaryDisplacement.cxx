@@ -564,7 +564,7 @@ TEST(BoundaryDisplacement, FloatsAreWrittenAsTheyAre)
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->Update();
   EXPECT_EQ(grids::points(filter->GetOutput())(0, 0), 0.1);
-  EXPECT_EQ(output->GetPointData()->GetScalars()->GetName(), std::string("Role"));
+  EXPECT_EQ(output->GetCellData()->GetScalars()->GetName(), std::string("Role"));
   EXPECT_NE(output->GetPointData()->GetArray("Number"), nullptr);
 }
 

@@ -208,7 +208,6 @@ TEST(BoundaryDisplacementErrors, TheInput)
   vtkNew<vtkImageData> image;
   image->SetDimensions(3, 3, 3);
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, grids::hexes(2));
   vtkNew<vtkUnstructuredGrid> flat;
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
@@ -228,7 +227,7 @@ TEST(BoundaryDisplacementErrors, TheInput)
   broken->GetPoints()->SetPoint(3, NAN, 0, 0);
   const std::vector<std::pair<std::string, vtkSmartPointer<vtkDataObject>>> cases = {
     { "is a vtkImageData", image.Get() },
-    { "Merge Blocks", blocks.Get() },
+    { "no cells", blocks.Get() },
     { "no cells", vtkSmartPointer<vtkUnstructuredGrid>::New() },
     { "is a volume cell", flat.Get() },
     { "without polygons", vtkSmartPointer<vtkPolyData>::New() },

@@ -2,12 +2,16 @@
 // What surfaces do that touch what moves: they keep their shape where they can. The others stay.
 #include "DisplacedBoundaries.h"
 
+#include "vtkFEMWarpMorph.h"
 #include "vtkMorphMesh.h"
 
+#include <vtkDataArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkTransform.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
@@ -308,6 +312,102 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
   check(Row(0, 0, 0));
   filter->SetCenter(1, 2, 3);
   check(Row(1, 2, 3));
+}
+
+TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
+{
+  // A quarter of a block with a hole: the ends are free, and the hole grows more at one of them.
+  auto grid = sector(90, 5);
+  const auto isAtEnd = [](const Row& x) { return isAt(x[2], 0) || isAt(x[2], 1); };
+  const auto isInside = [](const Row& x)
+  { return radius(x) > 1.01 && radius(x) < 1.99 && x[0] > 0.01 && x[1] > 0.01; };
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->AddSurface(surface(grid, onHole).c_str());
+  filter->SetDisplacementToRadius();
+  filter->SetRadiusChange(0.3);
+  grids::Listener listener(filter);
+  filter->Update();
+  const morph::Points x = grids::points(grid), followed = grids::points(filter->GetOutput());
+  const vtkIdType prescribed = filter->GetPrescribedPoints();
+  for (const double end : { 0., 1. })
+  {
+    filter->AddFreeSurface(surface(grid, [&](const Row& at) { return isAt(at[2], end); }).c_str());
+  }
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  const morph::Points y = grids::points(filter->GetOutput());
+  vtkIdType freed = 0;
+  double otherwise = 0;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (isAtEnd(x.row(i)) && isInside(x.row(i)))
+    {
+      // Laplace's equation with natural boundary values: nothing pulls along z.
+      EXPECT_NEAR(y(i, 2), x(i, 2), 1e-6);
+      EXPECT_GT(radius(y.row(i)), radius(x.row(i)) + 1e-3);
+      otherwise = std::max(otherwise, (y.row(i) - followed.row(i)).norm());
+      ++freed;
+    }
+    else if (onHole(x.row(i)))
+    {
+      EXPECT_NEAR(radius(y.row(i)), 1.3, 1e-12); // the rim of the free ends moves
+    }
+    else if (onOuterWall(x.row(i)))
+    {
+      EXPECT_EQ(y.row(i), x.row(i));
+    }
+  }
+  EXPECT_EQ(freed, 2 * 2 * 4);
+  EXPECT_EQ(filter->GetPrescribedPoints(), prescribed - freed);
+  EXPECT_GT(otherwise, 1e-3);
+  EXPECT_LT(otherwise, 0.1);
+
+  // The same answer by the two filters, whose boundary tells which points are free.
+  auto displace = displaced::make(grid);
+  displace->SetMovingToPatches();
+  displace->AddPatch(surface(grid, onHole).c_str());
+  displace->SetMotionToVector();
+  displace->SetVector(0, 0, 0.1);
+  displace->AddFreePatch(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
+  displace->Update();
+  EXPECT_EQ(displace->GetFreePoints(), freed / 2);
+  for (vtkIdType i = 0; i < displace->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    vtkDataArray* marks = displace->GetOutput()->GetPointData()->GetArray("MorphFree");
+    ASSERT_TRUE(marks);
+    EXPECT_EQ(marks->GetComponent(i, 0) != 0, displaced::role(displace->GetOutput(), i) == 4);
+  }
+  // A fixed or sliding surface beside it keeps its nodes, and so does a second filter its freedom.
+  vtkNew<vtkBoundaryDisplacement> second;
+  second->SetInputConnection(displace->GetOutputPort());
+  second->SetMovingToPatches();
+  second->AddPatch(surface(grid, onOuterWall).c_str());
+  second->SetSurroundingsToStay();
+  second->Update();
+  EXPECT_TRUE(second->GetOutput()->GetPointData()->GetArray("MorphFree"));
+  second->SetMovingToEverything();
+  second->Update();
+  EXPECT_FALSE(second->GetOutput()->GetPointData()->GetArray("MorphFree"));
+}
+
+TEST(BoundarySliding, ABoundaryThatIsAllFreeIsAnError)
+{
+  auto grid = grids::make(meshes::hexes(3, 3, 3));
+  auto boundary = grids::boundary(grid, [](const Row& x) { return x; });
+  vtkNew<vtkUnsignedCharArray> free;
+  free->SetName("MorphFree");
+  free->SetNumberOfValues(boundary->GetNumberOfPoints());
+  free->FillValue(1);
+  boundary->GetPointData()->AddArray(free);
+  vtkNew<vtkFEMWarpMorph> morph;
+  morph->SetInputData(grid);
+  morph->SetBoundaryData(boundary);
+  grids::Listener listener(morph);
+  morph->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("All points of the boundary are free"), std::string::npos);
 }
 
 TEST(BoundarySliding, NamesWhatDoesNotExist)

@@ -13,8 +13,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkOverlappingAMR.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSignedCharArray.h>
@@ -265,8 +265,7 @@ TEST(ClassifyBoundary, GeometryArraysComeBack)
 TEST(ClassifyBoundary, OneErrorAndNoOutput)
 {
   auto good = grids::hexes(2);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, good);
+  vtkNew<vtkOverlappingAMR> levels;
   vtkNew<vtkUnstructuredGrid> empty;
   const auto with = [&](const std::function<void(vtkUnstructuredGrid*)>& change)
   {
@@ -292,7 +291,7 @@ TEST(ClassifyBoundary, OneErrorAndNoOutput)
     std::string Telling;
   };
   const std::vector<Case> cases = { { empty.Get(), nullptr, "no cells" },
-    { blocks.Get(), nullptr, "Merge Blocks" }, { good, "Absent", "no cell array" },
+    { levels.Get(), nullptr, "vtkOverlappingAMR" }, { good, "Absent", "no cell array" },
     { with(
         [](vtkUnstructuredGrid* g)
         {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestGrids.h"
 
+#include "Mesh/Polyhedra.h"
 #include "vtkExtractMorphBoundary.h"
 
 #include <vtkAlgorithm.h>
@@ -9,17 +10,37 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grids
 {
 using morph::Index;
 using morph::Points;
+
+namespace
+{
+/// The number of faces, then for each its number of nodes and their ids.
+vtkSmartPointer<vtkIdList> faceStream(const morph::Mesh& mesh, Index cell)
+{
+  auto stream = vtkSmartPointer<vtkIdList>::New();
+  stream->InsertNextId(0);
+  morph::forEachFace(mesh, cell,
+    [&](const Index* nodes, Index size)
+    {
+      stream->SetId(0, stream->GetId(0) + 1);
+      stream->InsertNextId(size);
+      std::for_each(nodes, nodes + size, [&](Index node) { stream->InsertNextId(node); });
+    });
+  return stream;
+}
+}
 
 vtkSmartPointer<vtkUnstructuredGrid> make(const morph::Mesh& mesh, int pointType)
 {
@@ -41,8 +62,15 @@ vtkSmartPointer<vtkUnstructuredGrid> make(const morph::Mesh& mesh, int pointType
   grid->Allocate(mesh.numberOfCells());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
-    grid->InsertNextCell(mesh.types[c], static_cast<vtkIdType>(nodes.size()), nodes.data());
+    if (morph::isPolyhedron(mesh, c))
+    {
+      grid->InsertNextCell(VTK_POLYHEDRON, faceStream(mesh, c));
+    }
+    else
+    {
+      const std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      grid->InsertNextCell(mesh.types[c], static_cast<vtkIdType>(nodes.size()), nodes.data());
+    }
     cell->InsertNextValue(2000 + c);
   }
   grid->GetCellData()->AddArray(cell);

@@ -14,6 +14,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkOverlappingAMR.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
@@ -162,32 +163,31 @@ TEST_F(MorphErrors, TargetsThatAreNotFinite)
   }
 }
 
-TEST_F(MorphErrors, Polyhedron)
+TEST_F(MorphErrors, OpenPolyhedron)
 {
   auto grid = grids::copy(this->Grid);
   vtkNew<vtkIdList> faces;
-  for (const vtkIdType id : { 4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4 })
+  for (const vtkIdType id : { 4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 5 })
   {
     faces->InsertNextId(id);
   }
   grid->InsertNextCell(VTK_POLYHEDRON, faces);
   grid->GetCellData()->Initialize();
-  this->ExpectGridError(grid, { "polyhedron", "27" });
+  this->IsReadable = false;
+  this->ExpectGridError(grid, { "Polyhedra", "not closed", "27" });
 }
 
-TEST_F(MorphErrors, CompositeGrid)
+TEST_F(MorphErrors, OverlappingLevels)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, this->Grid);
-  blocks->SetBlock(1, this->Grid);
-  this->ExpectGridError(blocks, { "The input", "vtkMultiBlockDataSet", "Merge Blocks" });
+  vtkNew<vtkOverlappingAMR> levels;
+  this->ExpectGridError(levels, { "The input", "vtkOverlappingAMR", "unstructured grid" });
 }
 
-TEST_F(MorphErrors, CompositeBoundary)
+TEST_F(MorphErrors, CompositeBoundaryWithoutIds)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, this->Boundary);
-  this->ExpectBoundaryError(blocks, { "The boundary", "vtkMultiBlockDataSet", "Merge Blocks" });
+  blocks->SetBlock(0, this->Cloud());
+  this->ExpectBoundaryError(blocks, { "Nothing says which nodes" });
 }
 
 TEST_F(MorphErrors, NoBoundary)

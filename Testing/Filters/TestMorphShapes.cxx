@@ -258,6 +258,41 @@ TEST(MorphShapes, AShapeThatNamesFewerNodesKeepsTheOthers)
   EXPECT_LT(difference(moved, expected), 1e-8);
 }
 
+TEST(MorphShapes, AShapeThatChangesInPlaceIsSolvedAgain)
+{
+  auto grid = grids::hexes(4);
+  auto shape = grids::boundary(grid, grids::twist);
+  const auto filterOf = [&]
+  {
+    vtkNew<vtkMorphShapes> filter;
+    filter->SetInputData(grid);
+    filter->AddShapeData(shape);
+    filter->SetWeight(0, .5);
+    filter->Update();
+    return vtkSmartPointer<vtkMorphShapes>(filter);
+  };
+  auto filter = filterOf();
+  const Points before = grids::points(filter->GetOutput());
+  double x[3];
+  shape->GetPoint(0, x);
+  shape->GetPoints()->SetPoint(0, x[0] - .1, x[1], x[2]);
+  shape->GetPoints()->Modified();
+  filter->Update();
+  EXPECT_GT(difference(grids::points(filter->GetOutput()), before), .01);
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(filterOf()->GetOutput()));
+  // A weight alone matches and solves nothing, and a setting that matters does.
+  filter->SetWeight(0, .25);
+  filter->Update();
+  const int solved = filter->GetSolveCount();
+  filter->SetWeight(0, .75);
+  filter->Update();
+  EXPECT_EQ(filter->GetSolveCount(), solved);
+  EXPECT_GT(filter->GetPrescribedPoints(), 0);
+  filter->SetTolerance(1e-6);
+  filter->Update();
+  EXPECT_EQ(filter->GetSolveCount(), solved + 1);
+}
+
 TEST(MorphShapes, BadCellsAreOnTheSecondOutput)
 {
   auto grid = grids::hexes(4);
@@ -319,9 +354,29 @@ TEST(MorphShapes, ValidRangesEndWhereCellsAreInverted)
     filter->SetWeight(2, .25 * factor * near);
     EXPECT_EQ(isValid(filter), near < 1);
   }
-  filter->SetWeight(1, .1);
-  filter->Update();
-  EXPECT_TRUE(std::isnan(filter->GetLargestFactor()));
+  // With a rotation beside them, and with the rotation alone.
+  const auto expectLargestFactor = [&](double first, double turn, double third)
+  {
+    const double weights[] = { first, turn, third };
+    const auto setWeights = [&](double by)
+    {
+      for (int shape = 0; shape < 3; ++shape)
+      {
+        filter->SetWeight(shape, by * weights[shape]);
+      }
+    };
+    setWeights(1);
+    filter->Update();
+    const double largest = filter->GetLargestFactor();
+    ASSERT_TRUE(std::isfinite(largest));
+    for (double near : { 1 - 1e-6, 1 + 1e-6 })
+    {
+      setWeights(largest * near);
+      EXPECT_EQ(isValid(filter), near < 1) << largest;
+    }
+  };
+  expectLargestFactor(.5, .1, .25);
+  expectLargestFactor(0, -.1, 0);
   filter->FindValidRangesOff();
   filter->Update();
   EXPECT_TRUE(std::isnan(filter->GetHighestWeight(0)));

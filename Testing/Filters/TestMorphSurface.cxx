@@ -8,11 +8,13 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace
@@ -92,6 +94,62 @@ TEST_P(MorphSurface, FollowsTheMeshAndKeepsItsPolygons)
   filter->Update();
   EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 9);
   expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+}
+
+TEST_P(MorphSurface, HasFeatureLinesIfAsked)
+{
+  auto grid = grids::hexes(4);
+  auto filter = GetParam().make();
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, bulge(1)));
+  filter->FeatureLinesOn();
+  filter->Update();
+  vtkPolyData* surface = surfaceOf(filter);
+  const vtkIdType lines = 12 * 4; // the edges of a box
+  ASSERT_EQ(surface->GetNumberOfLines(), lines);
+  ASSERT_EQ(surface->GetNumberOfCells(), lines + 6 * 16);
+  vtkDataArray* cells = surface->GetCellData()->GetArray("MorphCellId");
+  vtkDataArray* quality = surface->GetCellData()->GetArray("ScaledJacobian");
+  vtkDataArray* ofMesh = filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian");
+  vtkDataArray* rest = surface->GetPointData()->GetArray("MorphPointId");
+  const morph::Points before = grids::points(grid);
+  for (vtkIdType i = 0; i < lines; ++i)
+  {
+    EXPECT_EQ(cells->GetComponent(i, 0), -1);
+    EXPECT_TRUE(std::isnan(quality->GetComponent(i, 0)));
+    // Both ends lie on the same two sides of the box.
+    vtkIdList* ends = surface->GetCell(i)->GetPointIds();
+    ASSERT_EQ(ends->GetNumberOfIds(), 2);
+    int sides = 0;
+    for (int j = 0; j < 3; ++j)
+    {
+      const double a = before(static_cast<vtkIdType>(rest->GetComponent(ends->GetId(0), 0)), j);
+      const double b = before(static_cast<vtkIdType>(rest->GetComponent(ends->GetId(1), 0)), j);
+      sides += a == b && (a == before.col(j).minCoeff() || a == before.col(j).maxCoeff());
+    }
+    EXPECT_EQ(sides, 2);
+  }
+  for (vtkIdType i = lines; i < surface->GetNumberOfCells(); ++i)
+  {
+    EXPECT_EQ(quality->GetComponent(i, 0),
+      ofMesh->GetComponent(static_cast<vtkIdType>(cells->GetComponent(i, 0)), 0));
+  }
+  // Those of other points: the box gets a ridge along its top and its bottom.
+  auto folded = grids::copy(grid);
+  for (vtkIdType i = 0; i < folded->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    folded->GetPoint(i, x);
+    folded->GetPoints()->SetPoint(i, x[0], x[1], x[2] - std::abs(x[0] - 2));
+  }
+  filter->SetInputData(folded);
+  filter->SetBoundaryData(grids::boundary(folded, bulge(1)));
+  filter->Update();
+  EXPECT_EQ(surfaceOf(filter)->GetNumberOfLines(), lines + 2 * 4);
+  filter->FeatureLinesOff();
+  filter->Update();
+  expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));
+  EXPECT_EQ(surfaceOf(filter)->GetNumberOfLines(), 0);
 }
 
 TEST_P(MorphSurface, IsTheUndeformedOneAfterAnError)

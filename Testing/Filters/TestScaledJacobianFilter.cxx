@@ -12,8 +12,8 @@
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkMeshQuality.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkOverlappingAMR.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
@@ -310,16 +310,15 @@ TEST(ScaledJacobianFilter, UnknownCellsAreNamedAndCounted)
   {
     grid->GetPoints()->InsertNextPoint(x.data());
   }
-  const vtkIdType faces[] = { 3, first, first + 2, first + 1, 3, first, first + 1, first + 3, 3,
-    first + 1, first + 2, first + 3, 3, first, first + 3, first + 2 };
-  grid->InsertNextCell(VTK_POLYHEDRON, 4, faces);
+  const vtkIdType nodes[] = { first, first + 1, first + 2, first + 3 };
+  grid->InsertNextCell(VTK_CONVEX_POINT_SET, 4, nodes);
   vtkNew<vtkScaledJacobian> filter;
   Messages warnings(filter, vtkCommand::WarningEvent), errors(filter, vtkCommand::ErrorEvent);
   filter->SetInputData(grid);
   filter->Update();
   EXPECT_EQ(errors.Count, 0) << errors.Text;
   EXPECT_EQ(warnings.Count, 1);
-  EXPECT_NE(warnings.Text.find("olyhedron"), std::string::npos) << warnings.Text;
+  EXPECT_NE(warnings.Text.find("onvexPointSet"), std::string::npos) << warnings.Text;
   EXPECT_EQ(filter->GetUnmeasuredCells(), 1);
   // Not judged by its boundary triangle
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
@@ -413,19 +412,18 @@ TEST(ScaledJacobianFilter, ThreadCountDoesNotShow)
   }
 }
 
-TEST(ScaledJacobianFilter, CompositeInputIsRefused)
+TEST(ScaledJacobianFilter, OverlappingLevelsAreRefused)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
+  vtkNew<vtkOverlappingAMR> levels;
   auto grid = emptyGrid();
   add(grid, VTK_HEXAHEDRON, Cube);
-  blocks->SetBlock(0, grid);
   vtkNew<vtkScaledJacobian> filter;
   Messages errors(filter, vtkCommand::ErrorEvent);
-  filter->SetInputDataObject(blocks);
+  filter->SetInputDataObject(levels);
   Messages pipeline(filter->GetExecutive(), vtkCommand::ErrorEvent);
   filter->Update();
   EXPECT_EQ(errors.Count, 1);
-  EXPECT_NE(errors.Text.find("Merge Blocks"), std::string::npos) << errors.Text;
+  EXPECT_NE(errors.Text.find("vtkOverlappingAMR"), std::string::npos) << errors.Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 
   filter->SetInputData(grid);
@@ -434,7 +432,7 @@ TEST(ScaledJacobianFilter, CompositeInputIsRefused)
   EXPECT_EQ(filter->GetMeasuredCells(), 1);
 
   // After an error no numbers of the grid before remain.
-  filter->SetInputDataObject(blocks);
+  filter->SetInputDataObject(levels);
   filter->Update();
   EXPECT_EQ(errors.Count, 2);
   EXPECT_EQ(pipeline.Count, 0) << pipeline.Text;

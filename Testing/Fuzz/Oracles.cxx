@@ -26,8 +26,7 @@ bool isEmpty(vtkDataObject* data)
   {
     return table->GetNumberOfRows() == 0;
   }
-  auto* points = vtkPointSet::SafeDownCast(data);
-  return !points || points->GetNumberOfPoints() == 0;
+  return !data || data->GetNumberOfElements(vtkDataObject::POINT) == 0; // blocks, too
 }
 
 Finding checkProgress(const Run& run)

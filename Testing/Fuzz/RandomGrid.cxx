@@ -5,6 +5,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -27,25 +28,61 @@ using morph::Index;
 /// Cells of types that the library does not know.
 void addForeignCells(Choices& choices, vtkUnstructuredGrid* grid)
 {
-  constexpr int types[] = { VTK_POLYHEDRON, VTK_CONVEX_POINT_SET, VTK_PENTAGONAL_PRISM,
-    VTK_HEXAGONAL_PRISM, VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_BEZIER_WEDGE,
-    VTK_CUBIC_LINE, VTK_QUADRATIC_POLYGON, 200 };
-  constexpr int sizes[] = { 0, 5, 10, 12, 4, 8, 6, 4, 8, 3 };
+  constexpr int types[] = { VTK_CONVEX_POINT_SET, VTK_PENTAGONAL_PRISM, VTK_HEXAGONAL_PRISM,
+    VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_BEZIER_WEDGE, VTK_CUBIC_LINE,
+    VTK_QUADRATIC_POLYGON, 200 };
+  constexpr int sizes[] = { 5, 10, 12, 4, 8, 6, 4, 8, 3 };
   Random random = choices.stream("cells.foreign");
   const int which = random.below(static_cast<int>(std::size(types)));
   const auto any = [&]
   { return static_cast<vtkIdType>(random.below(static_cast<int>(grid->GetNumberOfPoints()))); };
-  if (types[which] == VTK_POLYHEDRON)
-  {
-    vtkIdType p[4] = { any(), any(), any(), any() };
-    const vtkIdType faces[] = { 3, p[0], p[1], p[2], 3, p[0], p[3], p[1], 3, p[1], p[3], p[2], 3,
-      p[2], p[3], p[0] };
-    grid->InsertNextCell(VTK_POLYHEDRON, 4, p, 4, faces);
-    return;
-  }
   std::vector<vtkIdType> nodes(sizes[which]);
   std::generate(nodes.begin(), nodes.end(), any);
   grid->InsertNextCell(types[which], static_cast<vtkIdType>(nodes.size()), nodes.data());
+}
+
+/// A tetrahedron as a polyhedron, of any points, that may lack a face or have a wrong one.
+void addPolyhedron(Choices& choices, vtkUnstructuredGrid* grid)
+{
+  const int flaw = choices.pick("polyhedron",
+    { "none", "open", "face twice", "two nodes", "repeated node", "turned face" },
+    { 4, 1, 1, 1, 1, 1 });
+  Random random = choices.stream("cells.polyhedron");
+  vtkIdType p[4];
+  for (vtkIdType& point : p)
+  {
+    point = random.below(static_cast<int>(grid->GetNumberOfPoints()));
+  }
+  std::vector<std::vector<vtkIdType>> faces = { { p[0], p[1], p[2] }, { p[0], p[3], p[1] },
+    { p[1], p[3], p[2] }, { p[2], p[3], p[0] } };
+  switch (flaw)
+  {
+    case 1:
+      faces.pop_back();
+      break;
+    case 2:
+      faces.push_back(faces.front());
+      break;
+    case 3:
+      faces[2].pop_back();
+      break;
+    case 4:
+      faces[1][2] = faces[1][0];
+      break;
+    case 5:
+      std::reverse(faces[3].begin(), faces[3].end());
+      break;
+    default:
+      break;
+  }
+  vtkNew<vtkIdList> stream;
+  stream->InsertNextId(static_cast<vtkIdType>(faces.size()));
+  for (const std::vector<vtkIdType>& face : faces)
+  {
+    stream->InsertNextId(static_cast<vtkIdType>(face.size()));
+    std::for_each(face.begin(), face.end(), [&](vtkIdType id) { stream->InsertNextId(id); });
+  }
+  grid->InsertNextCell(VTK_POLYHEDRON, stream);
 }
 
 /// Node ids that do not exist, cells with too few nodes, lists that are too short.
@@ -167,6 +204,11 @@ RandomGrid randomGrid(Choices& choices)
   if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.foreign", 0.12))
   {
     addForeignCells(choices, grid);
+    result.isAsMesh = false;
+  }
+  if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.polyhedral", 0.25))
+  {
+    addPolyhedron(choices, grid);
     result.isAsMesh = false;
   }
   addArrays(choices, grid, "grid", hostile, result.hasOddArrays);

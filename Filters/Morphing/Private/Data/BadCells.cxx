@@ -2,6 +2,7 @@
 #include "Private/Data/BadCells.h"
 
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -49,6 +50,20 @@ public:
 private:
   std::unordered_map<vtkIdType, vtkIdType> Numbers;
 };
+
+/// `faces`: the number of a polyhedron's faces, then for each its number of nodes and their ids.
+void renumberFaces(Nodes& nodes, vtkIdList* faces)
+{
+  vtkIdType at = 1;
+  for (vtkIdType face = 0; face < faces->GetId(0); ++face)
+  {
+    const vtkIdType end = at + 1 + faces->GetId(at);
+    for (++at; at < end; ++at)
+    {
+      faces->SetId(at, nodes.NumberOf(faces->GetId(at)));
+    }
+  }
+}
 }
 
 namespace BadCells
@@ -68,12 +83,21 @@ void Extract(
   vtkNew<vtkIdList> corners;
   for (vtkIdType i = 0; i < cells->GetNumberOfIds(); ++i)
   {
-    morphed->GetCellPoints(cells->GetId(i), corners);
-    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+    const int type = morphed->GetCellType(cells->GetId(i));
+    if (type == VTK_POLYHEDRON)
     {
-      corners->SetId(k, nodes.NumberOf(corners->GetId(k)));
+      morphed->GetFaceStream(cells->GetId(i), corners);
+      renumberFaces(nodes, corners);
     }
-    output->InsertNextCell(morphed->GetCellType(cells->GetId(i)), corners);
+    else
+    {
+      morphed->GetCellPoints(cells->GetId(i), corners);
+      for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+      {
+        corners->SetId(k, nodes.NumberOf(corners->GetId(k)));
+      }
+    }
+    output->InsertNextCell(type, corners);
   }
 
   vtkNew<vtkPoints> points;

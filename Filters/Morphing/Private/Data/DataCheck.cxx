@@ -130,9 +130,40 @@ private:
   std::vector<Index> Huge;
 };
 
+/// Whether all values are moderate, as nearly always. Then `range` has them, at a fraction of the
+/// cost of one by one.
+template <typename Value>
+bool addModerate(const Value* values, vtkIdType points, Range& range)
+{
+  Value low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<Value>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<Value>::infinity());
+  bool isModerate = true;
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      const Value value = values[3 * i + j];
+      isModerate &= std::abs(value) <= DataCheck::Largest; // a NaN is not
+      low[j] = std::min(low[j], value);
+      high[j] = std::max(high[j], value);
+    }
+  }
+  for (int j = 0; j < 3 && isModerate && points > 0; ++j)
+  {
+    range.Add(0, j, low[j]);
+    range.Add(0, j, high[j]);
+  }
+  return isModerate;
+}
+
 template <typename Value>
 void addValues(const Value* values, vtkIdType points, Range& range)
 {
+  if (addModerate(values, points, range))
+  {
+    return;
+  }
   for (vtkIdType i = 0; i < points; ++i)
   {
     for (int j = 0; j < 3; ++j)
@@ -193,8 +224,7 @@ void Require(vtkDataObject* data, const char* subject, Cells cells)
   {
     requireTypes(grid, subject);
   }
-  requireLengths(set->GetPointData(), set->GetNumberOfPoints(), subject, "point");
-  requireLengths(set->GetCellData(), set->GetNumberOfCells(), subject, "cell");
+  RequireLengths(set, subject);
   if (grid && cells == Cells::Here)
   {
     requireCells(grid->GetCells(), 0, grid->GetNumberOfPoints(), subject);
@@ -213,6 +243,12 @@ void Require(vtkDataObject* data, const char* subject, Cells cells)
   {
     requirePoints(set->GetPoints()->GetData(), subject);
   }
+}
+
+void RequireLengths(vtkDataSet* data, const char* subject)
+{
+  requireLengths(data->GetPointData(), data->GetNumberOfPoints(), subject, "point");
+  requireLengths(data->GetCellData(), data->GetNumberOfCells(), subject, "cell");
 }
 
 bool IsModerate(const Eigen::RowVector3d& x)

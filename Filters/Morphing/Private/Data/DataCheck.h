@@ -6,6 +6,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkDataSet;
 
 /// The checks of every data set before its use. VTK checks neither the lengths of arrays nor ids,
 /// and reads past the end of both.
@@ -29,6 +30,9 @@ enum class Cells
 /// Null passes, and so do data without points of their own. Cost: one pass over the points, and
 /// over the cells of other data than grids.
 void Require(vtkDataObject* data, const char* subject, Cells cells = Cells::Here);
+
+/// Throws as above for point and cell arrays that are too short, in data of any type.
+void RequireLengths(vtkDataSet* data, const char* subject);
 
 /// Whether x is finite and not above Largest.
 bool IsModerate(const Eigen::RowVector3d& x);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/GridMesh.h"
 
-#include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Private/Data/Version.h"
+#include "Support/Error.h"
 
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkGenericCell.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
+#include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -19,6 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace morph::filters
 {
@@ -77,6 +81,64 @@ bool equals(const Value* values, vtkIdType count, const std::vector<morph::Index
            [](morph::Index a, Value b) { return a == static_cast<morph::Index>(b); });
 }
 
+/// Copies the faces of polyhedra. Returns those whose faces the grid does not hold.
+std::vector<morph::Index> readFaces(vtkUnstructuredGrid* grid, morph::Mesh& mesh)
+{
+  std::vector<morph::Index> missing;
+  const morph::Index cells = mesh.numberOfCells();
+  if (std::find(mesh.types.begin(), mesh.types.end(), morph::Polyhedron) == mesh.types.end())
+  {
+    return missing;
+  }
+  const bool isReadable = Version::AreFacesReadable(grid);
+  mesh.faceOffsets.assign(1, 0);
+  for (morph::Index c = 0; c < cells; ++c)
+  {
+    if (mesh.types[c] == morph::Polyhedron &&
+        (!isReadable || !Version::AppendFaces(grid, c, mesh.faces)))
+    {
+      missing.push_back(c);
+      mesh.faces.resize(mesh.faceOffsets.back());
+    }
+    mesh.faceOffsets.push_back(static_cast<morph::Index>(mesh.faces.size()));
+  }
+  return missing;
+}
+
+/// Whether the grid's polyhedra have the faces of `mesh`, whose other arrays are the grid's.
+bool sameFaces(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+{
+  if (!morph::hasPolyhedra(mesh))
+  {
+    return true;
+  }
+  morph::Mesh read;
+  read.types = mesh.types;
+  if (!readFaces(grid, read).empty() || grid->GetNumberOfPoints() != mesh.numberOfNodes())
+  {
+    return false;
+  }
+  if (read.faceOffsets == mesh.faceOffsets && read.faces == mesh.faces)
+  {
+    return true;
+  }
+  // They may be the same but for the way they run.
+  morph::Mesh other = mesh;
+  other.faces = std::move(read.faces);
+  other.faceOffsets = std::move(read.faceOffsets);
+  other.points = GridMesh::FromPoints(grid->GetPoints());
+  try
+  {
+    morph::requireClosedPolyhedra(other);
+  }
+  catch (const morph::Error&)
+  {
+    return false; // it is told where the grid is copied
+  }
+  morph::orientPolyhedra(other);
+  return other.faceOffsets == mesh.faceOffsets && other.faces == mesh.faces;
+}
+
 /// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
 void validateKnown(morph::Mesh& mesh)
 {
@@ -109,6 +171,12 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown)
       [&mesh](const auto* values, vtkIdType count)
       { mesh.connectivity.assign(values, values + count); });
   }
+  const std::vector<morph::Index> withoutFaces = readFaces(grid, mesh);
+  if (!withoutFaces.empty())
+  {
+    throw morph::Error("Polyhedra whose faces the grid does not hold: cell ids " +
+                       morph::listIds(withoutFaces) + ". Write the grid's faces again.");
+  }
   if (unknown == UnknownCells::Keep)
   {
     validateKnown(mesh);
@@ -117,6 +185,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown)
   {
     morph::validate(mesh);
   }
+  morph::orientPolyhedra(mesh);
   return mesh;
 }
 
@@ -149,6 +218,16 @@ morph::Points FromVectors(vtkDataArray* vectors)
     }
   }
   return result;
+}
+
+int Dimension(std::uint8_t type)
+{
+  if (const morph::CellShape* shape = morph::cellShape(type))
+  {
+    return shape->dimension;
+  }
+  const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+  return cell ? cell->GetCellDimension() : 0;
 }
 
 double Size(const morph::Mesh& mesh)
@@ -187,7 +266,7 @@ bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
     visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
       { same = equals(values, count, mesh.connectivity); });
   }
-  return same;
+  return same && sameFaces(grid, mesh);
 }
 
 bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)

@@ -3,6 +3,8 @@
 
 #include "Mesh/Mesh.h"
 
+#include <cstdint>
+
 class vtkDataArray;
 class vtkPoints;
 class vtkUnstructuredGrid;
@@ -10,7 +12,7 @@ class vtkUnstructuredGrid;
 /// Conversion from vtkUnstructuredGrid to morph::Mesh.
 namespace morph::filters::GridMesh
 {
-/// What to do with cells of a type the core does not know (polyhedra, Lagrange cells, ...).
+/// What to do with cells of a type the core does not know (Lagrange cells, ...).
 enum class UnknownCells
 {
   Refuse, ///< throw morph::Error that names the type and the cells
@@ -19,7 +21,8 @@ enum class UnknownCells
 
 /// A copy of the grid's points (float, double or any other type) and cells. Throws morph::Error
 /// where morph::validate would: node ids that do not exist, coordinates that are not finite, wrong
-/// cell sizes. Cost: one pass over the grid; 24 bytes a point and 8 bytes a connectivity entry.
+/// cell sizes, polyhedra that are not closed. The faces of a polyhedron run alike. Cost: one pass
+/// over the grid; 24 bytes a point and 8 bytes a connectivity entry.
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
@@ -28,6 +31,9 @@ morph::Points FromPoints(vtkPoints* points);
 /// Copies the first three components of each tuple as double, #tuples x 3. The array needs at least
 /// three.
 morph::Points FromVectors(vtkDataArray* vectors);
+
+/// The dimension of cells of this VTK type; VTK is asked for those that the core does not know.
+int Dimension(std::uint8_t type);
 
 /// The diagonal of the bounding box of the nodes that volume cells use.
 double Size(const morph::Mesh& mesh);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/MovedSurface.h"
 
+#include "Boundary/Classification.h"
+#include "Boundary/SurfaceEdges.h"
+#include "Boundary/SurfacePatches.h"
 #include "Private/Data/Surface.h"
 
 #include <vtkCellArray.h>
@@ -14,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace morph::filters
 {
@@ -32,6 +36,46 @@ void MovedSurface::Make(
   }
 }
 
+void MovedSurface::SetFeatureLines(
+  bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
+{
+  if (on == (this->Lines != nullptr))
+  {
+    return;
+  }
+  vtkSmartPointer<vtkCellArray> lines;
+  if (on)
+  {
+    lines = vtkSmartPointer<vtkCellArray>::New();
+    const morph::SurfaceEdges edges = morph::surfaceEdges(mesh.points, faces);
+    const std::vector<std::uint8_t> isFeature = morph::surfacePatches(
+      faces, edges, morph::ClassificationOptions().featureAngle, {}, {}, false)
+                                                  .isCurve;
+    std::vector<vtkIdType> number(mesh.numberOfNodes(), -1);
+    for (vtkIdType i = 0; i < this->Nodes->GetNumberOfValues(); ++i)
+    {
+      number[this->Nodes->GetValue(i)] = i;
+    }
+    for (morph::Index edge = 0; edge < edges.count(); ++edge)
+    {
+      if (isFeature[edge])
+      {
+        lines->InsertNextCell({ number[edges.nodes[edge][0]], number[edges.nodes[edge][1]] });
+      }
+    }
+  }
+  const vtkIdType before = this->Lines ? this->Lines->GetNumberOfCells() : 0;
+  const vtkIdType count = lines ? lines->GetNumberOfCells() : 0;
+  vtkNew<vtkIdTypeArray> owners;
+  owners->SetName(this->Owners->GetName());
+  owners->SetNumberOfValues(this->Owners->GetNumberOfValues() - before + count);
+  std::fill_n(owners->GetPointer(0), count, -1);
+  std::copy(this->Owners->GetPointer(before),
+    this->Owners->GetPointer(0) + this->Owners->GetNumberOfValues(), owners->GetPointer(count));
+  this->Owners = owners;
+  this->Lines = lines;
+}
+
 void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
 {
   output->Initialize();
@@ -44,6 +88,7 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
     points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
   }
   output->SetPoints(points);
+  output->SetLines(this->Lines);
   output->SetPolys(this->Polygons);
   output->GetPointData()->AddArray(this->Nodes);
   output->GetCellData()->AddArray(this->Owners);
@@ -58,7 +103,9 @@ vtkIdType MovedSurface::Write(
   scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
   for (vtkIdType i = 0; i < this->Owners->GetNumberOfValues(); ++i)
   {
-    scaledJacobian->SetValue(i, quality.scaledJacobian[this->Owners->GetValue(i)]);
+    const vtkIdType owner = this->Owners->GetValue(i);
+    scaledJacobian->SetValue(
+      i, owner < 0 ? std::numeric_limits<double>::quiet_NaN() : quality.scaledJacobian[owner]);
   }
   output->GetCellData()->SetScalars(scaledJacobian);
   const std::vector<morph::Index> bad = morph::invertedCells(quality);

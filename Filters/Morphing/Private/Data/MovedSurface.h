@@ -26,21 +26,26 @@ class MovedSurface
 public:
   /// Makes the polygons. `mesh`, `faces`: of `grid`. Cost: a pass over the faces.
   void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
+  /// Adds lines along the edges at which the undeformed faces turn by more than 25 degrees, or not
+  /// exactly two faces meet; or takes them away. `mesh`, `faces`: those of Make(). Cost: where they
+  /// were not there, a sort of the faces' edges.
+  void SetFeatureLines(bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
   /// #cells: 0 for the cells behind the faces, 1 for all others.
   const std::vector<std::uint8_t>& InnerCells() const { return this->Inner; }
 
   /// Fills `output`: the polygons and the arrays MorphPointId and MorphCellId are the same objects
-  /// each time. `moved`: the points of all nodes.
+  /// each time. `moved`: the points of all nodes. Lines have the MorphCellId -1.
   void Write(vtkPoints* moved, vtkPolyData* output) const;
-  /// As above, with the cell array ScaledJacobian (active scalars) of the cell behind each face.
-  /// `quality`: of all cells, or those behind the faces at least. Returns the number of cells
-  /// behind the faces without a positive value.
+  /// As above, with the cell array ScaledJacobian (active scalars): that of the cell behind each
+  /// face, NaN for lines. `quality`: of all cells, or those behind the faces at least. Returns the
+  /// number of cells behind the faces without a positive value.
   vtkIdType Write(vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const;
 
 private:
   std::vector<std::uint8_t> Inner;
   vtkSmartPointer<vtkCellArray> Polygons;
   vtkSmartPointer<vtkIdTypeArray> Nodes;  ///< MorphPointId
-  vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId
+  vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId: that of the lines, then of the polygons
+  vtkSmartPointer<vtkCellArray> Lines;    ///< or null
 };
 }

@@ -4,6 +4,7 @@
 #include "Private/Data/GridMesh.h"
 
 #include <vtkCellData.h>
+#include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -120,7 +121,7 @@ void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
   output->GetCellData()->AddArray(values);
 }
 
-void Remove(vtkUnstructuredGrid* output)
+void Remove(vtkDataSet* output)
 {
   output->GetCellData()->RemoveArray("ScaledJacobian");
   output->GetCellData()->RemoveArray("JacobianCertificate");

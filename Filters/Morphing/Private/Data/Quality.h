@@ -8,15 +8,16 @@
 #include <cstdint>
 #include <vector>
 
+class vtkDataSet;
 class vtkUnstructuredGrid;
 
 /// Measures and writes the scaled Jacobian and certificate for every filter of this module.
 namespace morph::filters::Quality
 {
 /// Measures `output` on its points as written (the rounding to float included). `mesh`: the cells
-/// of `output`; its points are not read. `orientation`: #cells of +1 / -1 from the
-/// undeformed mesh (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType duplicate or
-/// hidden) are not measured.
+/// of `output`; its points tell the corners of polyhedra alone. `orientation`: #cells of +1 / -1
+/// from the undeformed mesh (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType
+/// duplicate or hidden) are not measured.
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, morph::Monitor& monitor);
 
@@ -49,5 +50,5 @@ void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
 
 /// Removes the scaled Jacobian, the certificate and its counts, so that those of an input do not
 /// pass for the output's.
-void Remove(vtkUnstructuredGrid* output);
+void Remove(vtkDataSet* output);
 }

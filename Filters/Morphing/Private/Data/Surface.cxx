@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/Surface.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Private/Data/Faces.h"
 
 #include <vtkCellArray.h>
@@ -106,9 +107,42 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
   std::vector<morph::Index> faceOf;
   FacePieces pieces;
   std::vector<vtkIdType> points;
+  const auto writePolygon = [&](std::size_t face)
+  {
+    const morph::Index owner = faces.cells[face];
+    // A collapsed cell repeats nodes.
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() > 1 && points.front() == points.back())
+    {
+      points.pop_back();
+    }
+    if (points.size() < 3)
+    {
+      return;
+    }
+    if (orientation[owner] < 0)
+    {
+      std::reverse(points.begin(), points.end());
+    }
+    const vtkIdType cell =
+      polygons->InsertNextCell(static_cast<vtkIdType>(points.size()), points.data());
+    owners->InsertNextValue(owner);
+    faceOf.push_back(static_cast<morph::Index>(face));
+    to->CopyData(from, owner, cell);
+  };
   for (std::size_t face = 0; face < faces.cells.size(); ++face)
   {
     const morph::Index owner = faces.cells[face];
+    if (morph::isPolyhedron(mesh, owner))
+    {
+      points.clear();
+      for (morph::Index k = faces.offsets[face]; k < faces.offsets[face + 1]; ++k)
+      {
+        points.push_back(number[faces.connectivity[k]]);
+      }
+      writePolygon(face);
+      continue;
+    }
     for (const auto& polygon : pieces.Of(mesh, faces, static_cast<morph::Index>(face)))
     {
       points.clear();
@@ -116,25 +150,7 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
       {
         points.push_back(number[mesh.cell(owner)[place]]);
       }
-      // A collapsed cell repeats nodes.
-      points.erase(std::unique(points.begin(), points.end()), points.end());
-      if (points.size() > 1 && points.front() == points.back())
-      {
-        points.pop_back();
-      }
-      if (points.size() < 3)
-      {
-        continue;
-      }
-      if (orientation[owner] < 0)
-      {
-        std::reverse(points.begin(), points.end());
-      }
-      const vtkIdType cell =
-        polygons->InsertNextCell(static_cast<vtkIdType>(points.size()), points.data());
-      owners->InsertNextValue(owner);
-      faceOf.push_back(static_cast<morph::Index>(face));
-      to->CopyData(from, owner, cell);
+      writePolygon(face);
     }
   }
   to->AddArray(owners);

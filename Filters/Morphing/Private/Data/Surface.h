@@ -15,6 +15,8 @@ constexpr const char* IdName = "MorphPointId";
 /// Four components, X, Y, Z and 1: vtkTransformFilter, as ParaView's Transform runs it, takes every
 /// point array of three components for a vector and would rotate it.
 constexpr const char* RestName = "RestPosition";
+/// A point array of a displaced boundary: where it is not 0 the node is solved with the interior.
+constexpr const char* FreeName = "MorphFree";
 
 /// Fills `output` with faces.nodes as points, undeformed, and the faces as polygons. The arrays are
 /// those of vtkExtractMorphBoundary: point arrays of the grid, MorphPointId and RestPosition, cell

@@ -34,13 +34,15 @@ void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& cho
     return;
   }
   if (!this->Fields || this->MotionVersion != model.MotionVersion() || this->How != rest.How ||
-      this->Radius != rest.Radius || this->Moving != choice.Moving || this->Held != choice.Held)
+      this->Radius != rest.Radius || this->Moving != choice.Moving || this->Held != choice.Held ||
+      this->Free != rest.Free)
   {
     this->Fields = nullptr; // in case it throws
     this->Compute(model, choice, rest, spread, monitor);
     this->MotionVersion = model.MotionVersion();
     this->How = rest.How;
     this->Radius = rest.Radius;
+    this->Free = rest.Free;
     this->Moving = choice.Moving;
     this->Held = choice.Held;
   }

@@ -36,7 +36,7 @@ private:
   vtkIdType MotionVersion = -1;
   Surroundings::Kind How = Surroundings::Kind::Stay;
   double Radius = 0;
-  std::vector<morph::Index> Moving, Held;
+  std::vector<morph::Index> Moving, Held, Free;
   Eigen::RowVector3d Centre; ///< of what moves
 };
 }

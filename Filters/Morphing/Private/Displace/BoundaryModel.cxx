@@ -163,6 +163,9 @@ void BoundaryModel::Update(
   {
     this->TakeSurface(vtkPolyData::SafeDownCast(input), options, key, next, monitor);
   }
+  const Index firstPolygon = next.Surface->GetNumberOfVerts() + next.Surface->GetNumberOfLines();
+  next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon);
+  AddNamedSets(next.NamedSets, next.FaceOfPolygon, firstPolygon, next.Surface);
   next.GeometryKey = key;
   this->Kept = std::move(next);
 }

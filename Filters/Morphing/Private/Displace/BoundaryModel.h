@@ -3,6 +3,7 @@
 
 #include "Mesh/Topology.h"
 #include "Private/Data/Geometry.h"
+#include "Private/Displace/NamedSets.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
@@ -33,6 +34,8 @@ public:
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
   /// The geometry; that of a surface is found at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }
+  /// What the mesh's file names on the boundary; see FindNamedSets().
+  const std::vector<NamedSet>& NamedSets() const { return this->Kept.NamedSets; }
   const std::vector<morph::Index>& BodyOfNode() const { return this->Kept.BodyOfNode; }
   /// The areas of morph::faceAreas(), but outwards where cells are wound inside out.
   morph::Points OutwardAreas(const morph::Points& points) const;
@@ -65,6 +68,7 @@ private:
     std::vector<morph::Index> BodyOfNode;
     std::string GeometryKey;
     morph::Classification Geometry;
+    std::vector<NamedSet> NamedSets;
     vtkSmartPointer<vtkPolyData> Surface;
     std::vector<morph::Index> NodeOfPoint, FaceOfPolygon;
     const vtkPointSet* Input = nullptr; ///< compared, never used

@@ -28,7 +28,7 @@ Part patches(const BoundaryModel& model, const Options& options)
     throw Error("No patch is chosen that is to move. Choose one in Patches (Apply once, and the "
                 "list has their names), or choose in another way what moves.");
   }
-  return Patches::Find(model.Geometry(), options.Patches, "Patches");
+  return Patches::Find(model, options.Patches, "Patches");
 }
 
 std::vector<std::uint8_t> insideRegion(const BoundaryModel& model, vtkImplicitFunction* region)
@@ -141,7 +141,7 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
       break;
   }
   addNodesBetween(faces, part.HasNode);
-  const Part held = Patches::Find(model.Geometry(), options.HeldPatches, "HeldPatches");
+  const Part held = Patches::Find(model, options.HeldPatches, "HeldPatches");
   Result result;
   for (Index node : faces.nodes)
   {

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/DisplacedSurface.h"
 
+#include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
 
 namespace morph::filters
 {
@@ -31,23 +39,93 @@ void writePoints(const std::vector<Index>& nodes, const morph::Points& moved, vt
   };
   auto coordinates = make("Points");
   auto displacement = make("BoundaryDisplacement");
-  vtkDataArray* rest = output->GetPointData()->GetArray(Surface::RestName);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  using Written = Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+  const auto count = static_cast<Index>(nodes.size());
+  Written coordinate(coordinates->GetPointer(0), count, 3);
+  for (Index i = 0; i < count; ++i)
   {
-    for (int j = 0; j < 3; ++j)
-    {
-      const vtkIdType k = static_cast<vtkIdType>(i);
-      const Value written = static_cast<Value>(moved(nodes[i], j));
-      coordinates->SetTypedComponent(k, j, written);
-      displacement->SetTypedComponent(
-        k, j, static_cast<Value>(static_cast<double>(written) - rest->GetComponent(k, j)));
-    }
+    coordinate.row(i) = moved.row(nodes[i]).template cast<Value>();
   }
+  const morph::Points rest =
+    GridMesh::FromVectors(output->GetPointData()->GetArray(Surface::RestName));
+  Written(displacement->GetPointer(0), count, 3) =
+    (coordinate.template cast<double>() - rest).template cast<Value>();
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);
   output->SetPoints(points);
   output->GetPointData()->AddArray(displacement);
   output->GetPointData()->SetActiveVectors("BoundaryDisplacement");
+}
+
+/// Role of each point, and of each cell: that of its points or, where those differ, Follows, unless
+/// none of them moves.
+void writeRoles(
+  const std::vector<Index>& nodes, const std::vector<signed char>& roleOfNode, vtkPolyData* output)
+{
+  const auto make = [](vtkIdType count)
+  {
+    auto roles = vtkSmartPointer<vtkSignedCharArray>::New();
+    roles->SetName("Role");
+    roles->SetNumberOfValues(count);
+    return roles;
+  };
+  auto ofPoints = make(output->GetNumberOfPoints());
+  std::transform(nodes.begin(), nodes.end(), ofPoints->GetPointer(0),
+    [&roleOfNode](Index node) { return roleOfNode[node]; });
+  vtkCellArray* faces = output->GetPolys();
+  auto ofCells = make(faces->GetNumberOfCells());
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < faces->GetNumberOfCells(); ++cell)
+  {
+    faces->GetCellAtId(cell, points);
+    std::array<bool, 5> has = {};
+    for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+    {
+      has[ofPoints->GetValue(points->GetId(k))] = true;
+    }
+    const bool isMixed = std::count(has.begin(), has.end(), true) > 1;
+    const bool isMoving = has[Surroundings::Moves] || has[Surroundings::Follows];
+    const auto only =
+      static_cast<signed char>(std::find(has.begin(), has.end(), true) - has.begin());
+    const signed char mixed = isMoving ? Surroundings::Follows : Surroundings::Stays;
+    ofCells->SetValue(cell, isMixed || only > Surroundings::IsFree ? mixed : only);
+  }
+  output->GetPointData()->AddArray(ofPoints);
+  output->GetCellData()->AddArray(ofCells);
+  // Viewers prefer active point scalars, and would blend the categories.
+  output->GetPointData()->SetActiveScalars(nullptr);
+  output->GetCellData()->SetActiveScalars("Role");
+}
+
+/// Marks free nodes. Those that an earlier filter has freed stay free where they stay.
+void writeFree(
+  const std::vector<Index>& nodes, const std::vector<signed char>& roleOfNode, vtkPolyData* output)
+{
+  vtkDataArray* before = output->GetPointData()->GetArray(Surface::FreeName);
+  const bool frees = std::find(roleOfNode.begin(), roleOfNode.end(),
+                       static_cast<signed char>(Surroundings::IsFree)) != roleOfNode.end();
+  if (!before && !frees)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> free;
+  free->SetName(Surface::FreeName);
+  bool any = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const auto point = static_cast<vtkIdType>(i);
+    const bool wasFree =
+      before && point < before->GetNumberOfTuples() && before->GetComponent(point, 0) != 0;
+    const signed char role = roleOfNode[nodes[i]];
+    const bool isFree = role == Surroundings::IsFree || (wasFree && role == Surroundings::Stays);
+    free->InsertNextValue(isFree);
+    any = any || isFree;
+  }
+  output->GetPointData()->RemoveArray(Surface::FreeName);
+  if (any)
+  {
+    output->GetPointData()->AddArray(free);
+  }
 }
 }
 
@@ -67,14 +145,8 @@ void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPo
   {
     writePoints<vtkDoubleArray, double>(model.NodeOfPoint(), result.Moved, output);
   }
-  vtkNew<vtkSignedCharArray> roles;
-  roles->SetName("Role");
-  for (Index node : model.NodeOfPoint())
-  {
-    roles->InsertNextValue(result.Roles[node]);
-  }
-  output->GetPointData()->AddArray(roles);
-  output->GetPointData()->SetActiveScalars("Role");
+  writeRoles(model.NodeOfPoint(), result.Roles, output);
+  writeFree(model.NodeOfPoint(), result.Roles, output);
 }
 }
 }

@@ -9,9 +9,10 @@ class vtkPolyData;
 /// Writes a boundary at its new positions, the output of vtkBoundaryDisplacement.
 namespace morph::filters::DisplacedSurface
 {
-/// Makes `output` a shallow copy of model.Surface() with new points and the point arrays Role and
-/// BoundaryDisplacement. `input`: the data that `model` was made from; with `precision`,
-/// vtkAlgorithm::SINGLE_PRECISION and so on, it determines the type of the points.
+/// Makes `output` a shallow copy of model.Surface() with new points, the point arrays Role and
+/// BoundaryDisplacement, and the cell array Role. `input`: the data that `model` was made from;
+/// with `precision`, vtkAlgorithm::SINGLE_PRECISION and so on, it determines the type of the
+/// points.
 void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output);
 }

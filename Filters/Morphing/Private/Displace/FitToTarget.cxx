@@ -6,6 +6,7 @@
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Private/Project/Alignment.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 
 #include <vtkCellArray.h>
 #include <vtkGenericCell.h>
@@ -153,12 +154,17 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
     return;
   }
   this->Place.reset(); // in case it throws
-  auto place =
-    std::make_unique<Target>(target, options.FeatureAngle, options.Angle, options.Reach, monitor);
+  const auto make = [&](vtkPolyData* surface, double from)
+  {
+    morph::ProgressRange part(monitor, from, from + 0.05);
+    return std::make_unique<Target>(
+      surface, options.FeatureAngle, options.Angle, options.Reach, part);
+  };
+  auto place = make(target, 0);
   if (options.Align)
   {
-    place = std::make_unique<Target>(Alignment::Onto(place->Surface(), polygonsOf(model, choice)),
-      options.FeatureAngle, options.Angle, options.Reach, monitor);
+    morph::ProgressRange aligning(monitor, 0.05, 0.5);
+    place = make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
   }
   this->Input = target;
   this->InputTime = target->GetMTime();
@@ -234,10 +240,11 @@ Points FitToTarget::Targets(
   BoundaryMotion motion = begin(model, choice, place, missed);
   morph::SurfaceMorphOptions how;
   how.unattached = morph::UnattachedMotion::Stay;
-  morph::morphCurves(geometry, how.unattached, motion, monitor);
+  morph::ProgressRange onCurves(monitor, 0.55, 0.75), onSurfaces(monitor, 0.75, 1);
+  morph::morphCurves(geometry, how.unattached, motion, onCurves);
   await(choice, geometry, 1, BoundaryMotion::OnCurve, motion);
   const morph::ProjectionReport curves = morph::projectCurves(geometry, place, motion, monitor);
-  morph::morphSurfaces(model.Faces(), geometry, how, motion, monitor);
+  morph::morphSurfaces(model.Faces(), geometry, how, motion, onSurfaces);
   await(choice, geometry, 2, BoundaryMotion::OnSurface, motion);
   const Points moved = motion.moved();
   this->Place->Assign(geometry, moved);

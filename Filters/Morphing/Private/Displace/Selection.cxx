@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Selection.h"
 
+#include "Private/Blocks/Blocks.h"
+#include "Private/Blocks/Leaves.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkDataObjectTree.h>
 #include <vtkDataSet.h>
 #include <vtkExtractSelection.h>
 #include <vtkFieldData.h>
@@ -16,7 +19,9 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 
+#include <map>
 #include <string>
 
 namespace morph::filters
@@ -90,29 +95,48 @@ int fieldType(vtkSelection* selection, vtkExtractSelection* extractor)
   return type;
 }
 
-/// Whether each of `count` points or cells is inside.
-std::vector<std::uint8_t> evaluate(vtkDataSet* input, vtkSelection* selection,
-  vtkExtractSelection* extractor, bool byPoints, vtkIdType count)
+/// Makes `input` ready for the extractor: apart from the pipeline, and without what an earlier
+/// selection left.
+void forget(vtkDataSet* input)
 {
-  auto copy = vtkSmartPointer<vtkDataSet>::Take(input->NewInstance());
-  copy->ShallowCopy(input); // apart from the pipeline, and without what an earlier selection left
-  copy->GetPointData()->RemoveArray(InsideName);
-  copy->GetCellData()->RemoveArray(InsideName);
+  input->GetPointData()->RemoveArray(InsideName);
+  input->GetCellData()->RemoveArray(InsideName);
+}
+
+/// The given extractor, or VTK's own.
+vtkSmartPointer<vtkExtractSelection> orOwn(vtkExtractSelection* given)
+{
+  return given ? vtkSmartPointer<vtkExtractSelection>(given)
+               : vtkSmartPointer<vtkExtractSelection>::New();
+}
+
+/// The extractor's output for `input`, which is the caller's own.
+vtkSmartPointer<vtkDataObject> extracted(
+  vtkDataObject* input, vtkSelection* selection, vtkExtractSelection* extractor)
+{
   extractor->PreserveTopologyOn();
-  extractor->SetInputData(0, copy);
+  extractor->SetInputData(0, input);
   extractor->SetInputData(1, selection);
   extractor->Update();
-  vtkSmartPointer<vtkDataArray> inside;
-  auto* output = vtkDataSet::SafeDownCast(extractor->GetOutputDataObject(0));
-  if (output)
+  vtkSmartPointer<vtkDataObject> output;
+  if (vtkDataObject* data = extractor->GetOutputDataObject(0))
   {
-    const int type = byPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
-    inside = output->GetAttributesAsFieldData(type)->GetArray(InsideName);
+    output.TakeReference(data->NewInstance());
+    output->ShallowCopy(data);
   }
-  // An output without points is VTK's way to say that nothing is inside.
-  const bool isNone = output && !inside && output->GetNumberOfPoints() == 0;
   extractor->SetInputData(0, nullptr);
   extractor->SetInputData(1, nullptr);
+  return output;
+}
+
+/// Whether each of `count` points or cells is inside, as the extractor's output tells.
+std::vector<std::uint8_t> insideOf(vtkDataSet* output, bool byPoints, vtkIdType count)
+{
+  const int type = byPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  vtkDataArray* inside =
+    output ? output->GetAttributesAsFieldData(type)->GetArray(InsideName) : nullptr;
+  // An output without points is VTK's way to say that nothing is inside.
+  const bool isNone = output && !inside && output->GetNumberOfPoints() == 0;
   if (!isNone && (!inside || inside->GetNumberOfTuples() != count))
   {
     throw morph::Error("The selection cannot be evaluated on the input. Select points or cells of "
@@ -125,31 +149,118 @@ std::vector<std::uint8_t> evaluate(vtkDataSet* input, vtkSelection* selection,
   }
   return isInside;
 }
+
+/// Calls mark(point) for each point that is inside, or that a cell inside has.
+template <typename Mark>
+void markPoints(
+  vtkDataSet* data, bool byPoints, const std::vector<std::uint8_t>& isInside, const Mark& mark)
+{
+  vtkNew<vtkIdList> points;
+  for (std::size_t i = 0; i < isInside.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    if (isInside[i] && byPoints)
+    {
+      mark(id);
+    }
+    else if (isInside[i])
+    {
+      data->GetCellPoints(id, points);
+      for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+      {
+        mark(points->GetId(k));
+      }
+    }
+  }
+}
 }
 
 namespace Selection
 {
+Inside Evaluate(vtkDataSet* input, vtkSelection* selection, vtkExtractSelection* given)
+{
+  const vtkSmartPointer<vtkExtractSelection> extractor = orOwn(given);
+  Inside inside;
+  inside.ByPoints = fieldType(selection, extractor) == vtkSelectionNode::POINT;
+  const vtkIdType count = inside.ByPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
+  const auto copy = vtkSmartPointer<vtkDataSet>::Take(input->NewInstance());
+  copy->ShallowCopy(input);
+  forget(copy);
+  const vtkSmartPointer<vtkDataObject> output = extracted(copy, selection, extractor);
+  inside.Flags = insideOf(vtkDataSet::SafeDownCast(output), inside.ByPoints, count);
+  return inside;
+}
+
 std::vector<std::uint8_t> Points(
   vtkDataSet* input, vtkSelection* selection, vtkExtractSelection* extractor)
 {
-  const bool byPoints = fieldType(selection, extractor) == vtkSelectionNode::POINT;
-  const vtkIdType count = byPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
-  std::vector<std::uint8_t> isInside = evaluate(input, selection, extractor, byPoints, count);
-  if (byPoints)
-  {
-    return isInside;
-  }
+  const Inside inside = Evaluate(input, selection, extractor);
   std::vector<std::uint8_t> isSelected(input->GetNumberOfPoints(), 0);
-  vtkNew<vtkIdList> points;
-  for (vtkIdType i = 0; i < count; ++i)
+  markPoints(input, inside.ByPoints, inside.Flags, [&](vtkIdType point) { isSelected[point] = 1; });
+  return isSelected;
+}
+
+InsideBlocks Evaluate(vtkDataObjectTree* input, vtkSelection* selection, vtkExtractSelection* given)
+{
+  const vtkSmartPointer<vtkExtractSelection> extractor = orOwn(given);
+  InsideBlocks inside;
+  inside.ByPoints = fieldType(selection, extractor) == vtkSelectionNode::POINT;
+  const auto copy = vtkSmartPointer<vtkDataObjectTree>::Take(input->NewInstance());
+  Leaves::Copy(input, copy);
+  const std::vector<Leaves::Leaf> leaves = Leaves::Of(copy);
+  for (const Leaves::Leaf& leaf : leaves)
   {
-    if (isInside[i])
+    if (auto* data = vtkDataSet::SafeDownCast(leaf.Data))
     {
-      input->GetCellPoints(i, points);
-      for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
-      {
-        isSelected[points->GetId(k)] = 1;
-      }
+      forget(data);
+    }
+  }
+  const vtkSmartPointer<vtkDataObject> output = extracted(copy, selection, extractor);
+  std::map<unsigned int, vtkDataSet*> extractedLeaves; // by flat index
+  if (auto* parts = Leaves::TreeOf(output))
+  {
+    for (const Leaves::Leaf& leaf : Leaves::Of(parts))
+    {
+      extractedLeaves[leaf.FlatIndex] = vtkDataSet::SafeDownCast(leaf.Data);
+    }
+  }
+  const int type = inside.ByPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  for (const Leaves::Leaf& leaf : leaves)
+  {
+    std::vector<std::uint8_t>& flags = inside.Flags.emplace_back();
+    auto* data = vtkDataSet::SafeDownCast(leaf.Data);
+    const auto found = extractedLeaves.find(leaf.FlatIndex);
+    if (data && found != extractedLeaves.end() && found->second &&
+        found->second->GetAttributesAsFieldData(type)->HasArray(InsideName))
+    {
+      const vtkIdType count =
+        inside.ByPoints ? data->GetNumberOfPoints() : data->GetNumberOfCells();
+      flags = insideOf(found->second, inside.ByPoints, count);
+    }
+  }
+  return inside;
+}
+
+std::vector<std::uint8_t> Points(
+  const Blocks& blocks, vtkSelection* selection, vtkExtractSelection* extractor)
+{
+  const InsideBlocks inside = Evaluate(blocks.Tree(), selection, extractor);
+  const std::vector<Leaves::Leaf> leaves = Leaves::Of(blocks.Tree());
+  const MergedBlocks* merged = blocks.Merged();
+  std::vector<std::uint8_t> isSelected(merged->Grid->GetNumberOfPoints(), 0);
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    const std::vector<morph::Index>& nodes = merged->All[i].Nodes;
+    if (!nodes.empty())
+    {
+      markPoints(vtkDataSet::SafeDownCast(leaves[i].Data), inside.ByPoints, inside.Flags[i],
+        [&](vtkIdType point)
+        {
+          if (nodes[point] >= 0)
+          {
+            isSelected[nodes[point]] = 1;
+          }
+        });
     }
   }
   return isSelected;

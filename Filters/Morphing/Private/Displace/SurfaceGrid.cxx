@@ -59,6 +59,7 @@ void SurfaceGrid::Write(
     }
     output->InsertNextCell(typeOf(corners->GetNumberOfIds()), corners);
   }
+  output->GetCellData()->AddArray(boundary->GetCellData()->GetArray("MorphCellId"));
   addNumbers(boundary, output);
 }
 

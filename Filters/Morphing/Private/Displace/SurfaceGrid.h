@@ -11,7 +11,8 @@ namespace morph::filters::SurfaceGrid
 inline constexpr const char* SurfaceName = "SurfaceId";
 
 /// Makes `output` the faces of `boundary`, as vtkBoundaryDisplacement writes it, with the points
-/// and point arrays of `grid`: a point keeps its id. Cost: one pass over the faces.
+/// and point arrays of `grid`: a point keeps its id. The cell array MorphCellId names the cell
+/// behind each face. Cost: one pass over the faces.
 void Write(vtkUnstructuredGrid* grid, vtkPolyData* boundary, vtkUnstructuredGrid* output);
 
 /// Makes `output` a shallow copy of `boundary` with that array.

@@ -110,6 +110,44 @@ void moveBetween(const BoundaryModel& model, Surroundings::Result& result)
     }
   }
 }
+
+/// Leaves the nodes on free surfaces alone, neither moving nor held, to the morph of the interior.
+void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
+  const std::vector<Index>& surfaces, Surroundings::Result& result)
+{
+  if (surfaces.empty())
+  {
+    return;
+  }
+  std::vector<std::uint8_t> isFree(model.Points().rows(), 0);
+  const auto mark = [&](const std::vector<Index>& nodes, std::uint8_t value)
+  {
+    for (const Index node : nodes)
+    {
+      isFree[node] = value;
+    }
+  };
+  for (const Index s : surfaces)
+  {
+    mark(model.Geometry().surfaces[s].nodes, 1);
+  }
+  for (std::size_t s = 0; s < model.Geometry().surfaces.size(); ++s)
+  {
+    if (!std::binary_search(surfaces.begin(), surfaces.end(), static_cast<Index>(s)))
+    {
+      mark(model.Geometry().surfaces[s].nodes, 0);
+    }
+  }
+  mark(held, 0);
+  for (const Index node : model.Faces().nodes)
+  {
+    if (isFree[node] && result.Roles[node] != Surroundings::Moves)
+    {
+      result.Roles[node] = Surroundings::IsFree;
+      result.Moved.row(node) = model.Points().row(node);
+    }
+  }
+}
 }
 
 Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choice::Result& choice,
@@ -127,10 +165,17 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   {
     result.Roles[node] = IsHeld;
   }
-  if (choice.Moving.empty())
+  if (!choice.Moving.empty())
   {
-    return result;
+    this->Place(model, choice, options, result, monitor);
   }
+  leaveFree(model, choice.Held, options.Free, result);
+  return result;
+}
+
+void Surroundings::Place(const BoundaryModel& model, const Choice::Result& choice,
+  const Options& options, Result& result, morph::Monitor& monitor)
+{
   this->Slide(model, options.Sliding, { Moves }, result);
   const Points placed = rowsOf(result.Moved, choice.Moving);
   switch (options.How)
@@ -138,7 +183,7 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
     case Kind::Follow:
     case Kind::FollowAll:
       this->Follow(model, choice, placed, options, result, monitor);
-      return result;
+      return;
     case Kind::Fade:
       this->Fade(model, choice, placed, options.Radius, result, monitor);
       break;
@@ -147,7 +192,6 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   }
   moveBetween(model, result);
   this->Slide(model, options.Sliding, { Follows }, result);
-  return result;
 }
 
 const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surface)
@@ -265,7 +309,8 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
       std::copy_if(surface.nodes.begin(), surface.nodes.end(), std::back_inserter(fixed),
         [&](Index node) { return result.Roles[node] == Stays; });
     }
-    else if (!hasMovingFace && !std::count(all.Sliding.begin(), all.Sliding.end(), Index(s)))
+    else if (!hasMovingFace && !std::count(all.Sliding.begin(), all.Sliding.end(), Index(s)) &&
+             !std::count(all.Free.begin(), all.Free.end(), Index(s)))
     {
       following.push_back(static_cast<Index>(s));
     }

@@ -31,6 +31,7 @@ public:
     morph::SurfaceMorphOptions Follow;
     double Radius = 0;                 ///< of Fade, in the unit of the points
     std::vector<morph::Index> Sliding; ///< surfaces of the geometry that slide, of any kind
+    std::vector<morph::Index> Free;    ///< surfaces whose nodes are solved with the interior
   };
 
   /// What a node does; the values of the output's array Role.
@@ -39,7 +40,8 @@ public:
     Stays = 0,
     Moves = 1,
     IsHeld = 2,
-    Follows = 3
+    Follows = 3,
+    IsFree = 4
   };
 
   struct Result
@@ -59,8 +61,9 @@ public:
   /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see morph::Falloff.
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point of the surface's shape.
-  /// With Stay and Fade mid-side and face nodes keep their place between their corners. A result
-  /// does not depend on what is kept.
+  /// With Stay and Fade mid-side and face nodes keep their place between their corners. Nodes of
+  /// free surfaces alone, neither moving nor held, have the role IsFree and their current position.
+  /// A result does not depend on what is kept.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
     const morph::Points& targets, const Options& options, morph::Monitor& monitor);
 
@@ -89,6 +92,9 @@ private:
   /// Puts nodes of these roles onto the shapes of the surfaces that they are on.
   void Slide(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
     const std::vector<Role>& roles, Result& result);
+  /// Does all of Spread() but the free surfaces.
+  void Place(const BoundaryModel& model, const Choice::Result& choice, const Options& options,
+    Result& result, morph::Monitor& monitor);
 
   vtkIdType ShapesVersion = -1;
   std::vector<std::unique_ptr<SurfaceShape>> Shapes; ///< #surfaces, null where not needed yet

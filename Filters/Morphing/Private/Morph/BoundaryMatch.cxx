@@ -398,7 +398,32 @@ Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pai
 }
 
 /// What a node has that is in no row of the targets.
-constexpr Index Held = -1, Unnamed = -2;
+constexpr Index Held = -1, Unnamed = -2, Free = -3;
+
+/// Marks the nodes of free points, and removes their pairs.
+void takeFree(vtkPointSet* boundary, Pairs& pairs, std::vector<Index>& row)
+{
+  vtkDataArray* marks = findArray(boundary, Surface::FreeName);
+  if (!marks || pairs.empty())
+  {
+    return;
+  }
+  const auto isFree = [&](const std::pair<Index, Index>& pair)
+  { return marks->GetComponent(pair.first, 0) != 0; };
+  for (const auto& pair : pairs)
+  {
+    if (isFree(pair))
+    {
+      row[pair.second] = Free;
+    }
+  }
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isFree), pairs.end());
+  if (pairs.empty())
+  {
+    throw Error("All points of the boundary are free (its point array MorphFree is not 0), so "
+                "nothing says where the mesh goes. Let some of them stay or move.");
+  }
+}
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
 /// of which moves: those follow their cell, or edges would bend where corners alone are named.
@@ -432,11 +457,12 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
   const double tolerance = options.MatchTolerance * size;
 
   Result result;
-  const Pairs pairs = findNodes(boundary, positions, rest, outer.nodes, tolerance, options, result);
+  Pairs pairs = findNodes(boundary, positions, rest, outer.nodes, tolerance, options, result);
   verifyRestPositions(boundary, pairs, rest, tolerance);
+  std::vector<Index> row(rest.numberOfNodes(), Unnamed);
+  takeFree(boundary, pairs, row);
   const Points targets = targetPositions(boundary, positions, pairs, rest, options);
 
-  std::vector<Index> row(rest.numberOfNodes(), Unnamed);
   std::vector<Index> torn;
   for (std::size_t k = 0; k < pairs.size(); ++k)
   {
@@ -464,7 +490,7 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
 
   for (Index node = 0; node < rest.numberOfNodes(); ++node)
   {
-    if (row[node] != Unnamed)
+    if (row[node] != Unnamed && row[node] != Free)
     {
       result.Ids.push_back(node);
       result.Sources.push_back(row[node] < 0 ? -1 : pairs[row[node]].first);

@@ -38,6 +38,7 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   this->Signs = std::move(signs);
   this->Diameter = GridMesh::Size(mesh);
   this->Copy = std::move(mesh);
+  this->SetFeatureLines(false); // those of other points
   return true;
 }
 

@@ -27,6 +27,9 @@ public:
   /// search of the outer faces.
   bool Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 
+  /// Whether Surface() has lines along sharp edges; see MovedSurface. After Take().
+  void SetFeatureLines(bool on) { this->Polygons.SetFeatureLines(on, this->Copy, this->Outer); }
+
   const morph::Mesh& Mesh() const { return this->Copy; }
   const morph::BoundaryFaces& OuterFaces() const { return this->Outer; }
   /// See GridMesh::Size.

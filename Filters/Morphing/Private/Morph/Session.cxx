@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/Session.h"
 
+#include "Mesh/Polyhedra.h"
+#include "Mesh/PolyhedronPieces.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Gradient.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
+#include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
@@ -31,6 +36,34 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Whether there are more bad cells or, with as many, a lower minimum.
+bool isWorse(const morph::Quality& after, const morph::Quality& before)
+{
+  const auto bad = [](const morph::Quality& quality)
+  { return quality.inverted + quality.degenerate; };
+  return bad(after) > bad(before) ||
+         (bad(after) == bad(before) && !(after.minimum >= before.minimum));
+}
+
+/// A method with these options, not prepared, for the cells of `mesh`.
+std::unique_ptr<morph::Morpher> makeMethod(const Session::Options& options, const morph::Mesh& mesh)
+{
+  auto method = options.CreateMorpher();
+  return morph::hasPolyhedra(mesh) ? morph::morpherForPolyhedra(std::move(method))
+                                   : std::move(method);
+}
+
+/// Sets the options that only evaluate() reads; `method`: of makeMethod().
+void setEvaluateOptions(
+  const Session::Options& options, const morph::Mesh& mesh, morph::Morpher& method)
+{
+  options.SetEvaluateOptions(morph::methodOf(method));
+  if (morph::hasPolyhedra(mesh))
+  {
+    PolyhedralRepair::Adapt(morph::methodOf(method));
+  }
+}
+
 /// Smooths `moved` and returns the steps that led to it.
 morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
@@ -40,8 +73,28 @@ morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::in
   options.target = morph::SmoothingTarget::Initial;
   options.iterationLimit = iterationLimit;
   options.neverWorse = true;
-  const morph::SmoothingReport report =
-    morph::smoothMesh(rest, orientation, partition, options, moved, monitor);
+  morph::SmoothingReport report;
+  if (morph::hasPolyhedra(rest))
+  {
+    const morph::PolyhedronPieces pieces(rest, monitor);
+    const morph::Mesh& mesh = pieces.mesh();
+    morph::Points all = pieces.extend(moved);
+    report = morph::smoothMesh(mesh, morph::cellSigns(mesh, morph::connectedComponents(mesh)),
+      pieces.extend(partition), options, all, monitor);
+    const morph::Points smoothed = all.topRows(moved.rows());
+    const auto measure = [&](const morph::Points& points)
+    { return morph::measureQuality(rest, points, orientation, {}, monitor); };
+    // What is better for the pieces may be worse for the polyhedra.
+    if (isWorse(measure(smoothed), measure(moved)))
+    {
+      return 0;
+    }
+    moved = smoothed;
+  }
+  else
+  {
+    report = morph::smoothMesh(rest, orientation, partition, options, moved, monitor);
+  }
   return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
 }
 }
@@ -172,10 +225,10 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     this->Kept.Mesh().points, partition, this->Kept.Orientation(), match.Targets,
     this->Kept.OuterFaces(),
     dynamic_cast<morph::InversionFree*>(options.CreateMorpher().get()) != nullptr,
-    [&options]
+    [&options, &from]
     {
-      auto morpher = options.CreateMorpher();
-      options.SetEvaluateOptions(*morpher);
+      auto morpher = makeMethod(options, from);
+      setEvaluateOptions(options, from, *morpher);
       return morpher;
     } };
   validity.RequireFeasible();
@@ -184,11 +237,17 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   this->Prepare(from, partition, options, preparing);
 
   auto evaluating = part(0.45, 0.75);
-  options.SetEvaluateOptions(*this->Method);
+  setEvaluateOptions(options, from, *this->Method);
   const auto start = Clock::now();
   StepResult result;
   const morph::EvaluateReport report =
     this->Evaluate(match, handle, options, result.Moved, evaluating);
+  if (validity.IsInversionFree && morph::hasPolyhedra(from))
+  {
+    auto repairing = part(0.7, 0.75);
+    PolyhedralRepair::Run(
+      from, this->Kept.Mesh().points, partition, this->Kept.Orientation(), result.Moved, repairing);
+  }
   if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
   {
     throw morph::Error(
@@ -274,7 +333,7 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   const auto start = Clock::now();
   this->Method.reset();
   this->Modes.clear();
-  std::unique_ptr<morph::Morpher> morpher = options.CreateMorpher();
+  std::unique_ptr<morph::Morpher> morpher = makeMethod(options, from);
   if (from.points != this->Kept.Mesh().points)
   {
     morpher->setReference(this->Kept.Mesh().points);
@@ -309,7 +368,7 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
                  "gradient is that of the method alone.");
   }
   morph::ProgressRange applying(monitor, 0.5, 1);
-  options.SetEvaluateOptions(*linear);
+  options.SetEvaluateOptions(morph::methodOf(*linear));
   morph::Points prescribed;
   linear->applyTranspose(nodes, prescribed, applying);
   Gradient::Gather(options.Matching.ScaleFactor * prescribed, match.Sources,

@@ -71,6 +71,8 @@ public:
   /// Copies the grid, unless it is the same as the kept one.
   void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
   const KeptMesh& GetKept() const { return this->Kept; }
+  /// See KeptMesh. After SetGrid().
+  void SetFeatureLines(bool on) { this->Kept.SetFeatureLines(on); }
   /// Warns of bodies that are mirrored.
   void ReportMirroredBodies(morph::Monitor& monitor);
 

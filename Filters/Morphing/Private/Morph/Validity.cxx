@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/Validity.h"
 
-#include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Morpher/IncrementalMorph.h"
+#include "Morpher/PolyhedralMorpher.h"
+#include "Private/Morph/PolyhedralRepair.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace morph::filters
 {
@@ -60,10 +63,11 @@ std::string Validity::Describe(const std::vector<morph::Index>& inverted,
   for (morph::Index cell : worst)
   {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
-    const int corners = morph::cellShape(this->Mesh.types[cell])->numberOfCorners;
-    for (int k = 0; k < corners; ++k)
+    const morph::Index corners =
+      morph::cornerCount(this->Mesh, cell, *morph::cellShape(this->Mesh.types[cell]));
+    for (morph::Index k = 0; k < corners; ++k)
     {
-      centre += points.row(this->Mesh.cell(cell)[k]) / corners;
+      centre += points.row(this->Mesh.cell(cell)[k]) / static_cast<double>(corners);
     }
     text << "\n  cell " << cell << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
          << "), scaled Jacobian " << quality.scaledJacobian[cell];
@@ -82,6 +86,11 @@ std::string Validity::Found(const morph::Quality& quality, const morph::Points& 
 
 bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
+  if (morph::hasPolyhedra(this->Mesh))
+  {
+    return PolyhedralRepair::Run(
+      this->Mesh, this->Reference, this->Partition, this->Orientation, moved, monitor);
+  }
   morph::ProgressRange first(monitor, 0, 0.3), second(monitor, 0.3, 1);
   morph::InversionFree repair;
   repair.setReference(this->Reference);
@@ -199,7 +208,17 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
         outcome.Status = "Repaired";
         return outcome;
       }
-      return this->SubStep([] { return std::make_unique<morph::InversionFree>(); }, moved, second);
+      const auto make = [this]() -> std::unique_ptr<morph::Morpher>
+      {
+        auto method = std::make_unique<morph::InversionFree>();
+        if (!morph::hasPolyhedra(this->Mesh))
+        {
+          return method;
+        }
+        PolyhedralRepair::Adapt(*method);
+        return morph::morpherForPolyhedra(std::move(method));
+      };
+      return this->SubStep(make, moved, second);
     }
     case vtkMorphAlgorithm::VALIDITY_REFUSE:
     {

@@ -12,9 +12,11 @@
 #include "Support/ProgressRange.h"
 
 #include <vtkDataArray.h>
+#include <vtkDataObjectTree.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -27,7 +29,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-using Names = std::set<std::string>;
+using filters::NameSet::Names;
 
 /// Passes names to the filter inside, unless it has them.
 void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
@@ -49,7 +51,8 @@ std::string inOwnWords(std::string text)
 {
   const std::pair<const char*, const char*> names[] = { { "SlidingPatches names",
                                                           "SlidingSurfaces names" },
-    { "HeldPatches names", "FixedSurfaces names" }, { "Patches names", "Surfaces names" } };
+    { "FreePatches names", "FreeSurfaces names" }, { "HeldPatches names", "FixedSurfaces names" },
+    { "Patches names", "Surfaces names" } };
   for (const auto& [theirs, ours] : names)
   {
     const auto at = text.find(theirs);
@@ -113,6 +116,8 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     &Filter::AddHeldPatch);
   pass(this->SlidingSurfaces, this->PassedSlidingSurfaces, to, &Filter::RemoveAllSlidingPatches,
     &Filter::AddSlidingPatch);
+  pass(this->FreeSurfaces, this->PassedFreeSurfaces, to, &Filter::RemoveAllFreePatches,
+    &Filter::AddFreePatch);
   to->SetRegion(this->Region);
   to->SetMovingArray(from->MovingArray);
   to->SetMotion(from->Displacement);
@@ -152,16 +157,71 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph()
   to->SetScaleFactor(1);
   to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
   to->SetQuality(from->Quality);
+  to->SetFeatureLines(from->FeatureLines);
   to->SetNumberOfSteps(from->NumberOfSteps);
   to->SetStepping(from->Stepping);
   to->SetOutputPointsPrecision(from->OutputPointsPrecision);
   to->SetNumberOfThreads(from->NumberOfThreads);
 }
 
-void vtkMorphMesh::vtkInternals::List()
+void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
 {
-  this->ConfigureDisplacement(nullptr);
-  this->Displacement->UpdateInformation();
+  morph::Monitor silent;
+  vtkUnstructuredGrid* grid = nullptr;
+  try
+  {
+    grid = vtkUnstructuredGrid::SafeDownCast(this->Blocks.Gather(
+      input, this->Filter->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, silent));
+  }
+  catch (const std::exception&)
+  {
+    return; // the execution raises the error again, and reports it
+  }
+  if (grid && grid->GetNumberOfCells() > 0)
+  {
+    this->TakeGrid(grid);
+    this->ConfigureDisplacement(nullptr);
+    this->Displacement->UpdateInformation();
+  }
+}
+
+vtkSelection* vtkMorphMesh::vtkInternals::OfGrid(vtkSelection* selection)
+{
+  const bool isUsed = this->Filter->Moving == MOVE_SELECTION ||
+                      (this->Filter->Moving == MOVE_SURFACES && this->Surfaces.empty());
+  return isUsed || !this->Blocks.Merged()
+           ? this->Selected.OfGrid(this->Blocks, selection, this->Extractor)
+           : nullptr;
+}
+
+filters::BlockPick::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
+  vtkDataObject* shown, vtkSelection* selection) const
+{
+  auto* tree = vtkDataObjectTree::SafeDownCast(shown);
+  if (!tree || !selection || selection->GetNumberOfNodes() == 0)
+  {
+    return {};
+  }
+  return filters::BlockPick::Translate(this->Blocks, tree, selection, this->Extractor);
+}
+
+void vtkMorphMesh::vtkInternals::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
+{
+  this->Displacement->CopyPatches(names, output);
+  vtkPointSet* shown = this->Filter->GetOutput();
+  vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+  if (!ids || !shown || shown->GetNumberOfPoints() != this->Rest->GetNumberOfPoints())
+  {
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(shown->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(output->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    points->SetPoint(i, shown->GetPoint(static_cast<vtkIdType>(ids->GetComponent(i, 0))));
+  }
+  output->SetPoints(points);
 }
 
 void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)

@@ -4,7 +4,12 @@
 
 #include "vtkMorphMesh.h"
 
+#include "Private/Blocks/Blocks.h"
 #include "Private/Data/Results.h"
+#include "Private/Displace/BlockPick.h"
+#include "Private/Displace/BlockSelection.h"
+#include "Private/Displace/Picker.h"
+#include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Time.h"
 #include "Support/Monitor.h"
 #include "vtkBoundaryDisplacement.h"
@@ -17,7 +22,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +30,7 @@ class vtkPolyData;
 class vtkMorphMesh::vtkInternals
 {
 public:
-  std::set<std::string> Surfaces, FixedSurfaces, SlidingSurfaces;
+  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces;
   vtkSmartPointer<vtkImplicitFunction> Region;
   vtkSmartPointer<vtkAbstractTransform> Transform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
@@ -35,6 +39,8 @@ public:
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
   morph::filters::Results Results{ morph::filters::ResultTables::vtkMorphMesh() };
   morph::filters::Time Time;
+  morph::filters::Picker Picker;
+  morph::filters::Blocks Blocks;
 
   explicit vtkInternals(vtkMorphMesh* filter)
     : Filter(filter)
@@ -45,8 +51,15 @@ public:
   void TakeGrid(vtkUnstructuredGrid* grid);
   /// Gives the filter inside the target, a copy for its pipeline; null for none.
   void TakeTarget(vtkDataObject* target);
-  /// Lists the surfaces of the mesh that was taken.
-  void List();
+  /// Lists the surfaces of the mesh, if it is one.
+  void List(vtkDataObject* input);
+  /// The selection as one of the grid, where it is of blocks.
+  vtkSelection* OfGrid(vtkSelection* selection);
+  /// A selection in composite data as one of the grid; empty where `shown` is none, or nothing is
+  /// selected. Throws as BlockPick::Translate() does.
+  morph::filters::BlockPick::OnGrid OfBlocks(vtkDataObject* shown, vtkSelection* selection) const;
+  /// See vtkMorphMesh::CopySurfaces().
+  void CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output);
   /// Returns an error that comes with a result, or nothing.
   std::string Run(vtkSelection* selection, vtkInformation* asked, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
@@ -62,7 +75,9 @@ private:
   vtkSmartPointer<vtkDataObject> Target;      ///< a copy of the one on port 2, or null
   const vtkDataObject* GivenTarget = nullptr; ///< compared, never used
   vtkMTimeType TargetTime = 0;
-  std::set<std::string> PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces;
+  morph::filters::BlockSelection Selected;
+  morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
+    PassedFreeSurfaces;
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);

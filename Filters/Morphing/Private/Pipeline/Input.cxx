@@ -2,6 +2,7 @@
 #include "Private/Pipeline/Input.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Blocks/Blocks.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Version.h"
@@ -32,9 +33,8 @@ namespace
   const std::string type = input->GetClassName();
   if (vtkCompositeDataSet::SafeDownCast(input))
   {
-    throw morph::Error(
-      subject + " is composite data (" + type +
-      "). Blocks that share an interface have to be one mesh: apply Merge Blocks first.");
+    throw morph::Error(subject + " is composite data (" + type + "); " + needed +
+                       " is needed. Apply Merge Blocks first.");
   }
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
 }
@@ -154,6 +154,33 @@ int RequireOneRankWithCells(vtkDataSet* grid)
       "would be taken for a fixed boundary. Run on one rank, or bring the mesh to one.");
   }
   return ranks;
+}
+
+Mesh TakeMesh(
+  vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use, morph::Monitor& monitor)
+{
+  Mesh mesh = { nullptr, false, false };
+  const auto unknown =
+    use == Use::ToMorph ? GridMesh::UnknownCells::Refuse : GridMesh::UnknownCells::Keep;
+  std::exception_ptr problem;
+  try
+  {
+    mesh.Data = blocks.Gather(input, coincidentPoints, unknown, monitor);
+  }
+  catch (...)
+  {
+    problem = std::current_exception(); // the other processes are about to communicate
+  }
+  auto* data = vtkDataSet::SafeDownCast(mesh.Data);
+  const bool hasCells = data && data->GetNumberOfCells() > 0;
+  const int ranks = use == Use::ToMorph ? RequireOneRankWithCells(data) : Ranks::Count(hasCells);
+  if (problem)
+  {
+    std::rethrow_exception(problem);
+  }
+  mesh.IsElsewhere = ranks > 0 && !hasCells;
+  mesh.IsEmpty = ranks == 0;
+  return mesh;
 }
 
 void RequireVolumeCells(const morph::Mesh& mesh)

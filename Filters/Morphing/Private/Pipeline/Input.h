@@ -11,6 +11,16 @@ class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+class Blocks;
+}
+
 /// The checks of the inputs of every filter of this module. Filters accept vtkDataObject on their
 /// ports and call these functions. If a port asked for a vtkUnstructuredGrid, the executive would
 /// run the filter on each block of a composite input, and tear the blocks' shared interfaces apart.
@@ -41,6 +51,23 @@ void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 /// are more. To be called on every process, before anything can fail there. `grid`: null where its
 /// type was wrong.
 int RequireOneRankWithCells(vtkDataSet* grid);
+
+enum class Use
+{
+  ToMorph,   ///< one MPI process may have cells, of known types alone
+  ToMeasure, ///< each process may have a part, of any cells
+};
+struct Mesh
+{
+  vtkDataObject* Data; ///< the input, or its blocks as one grid
+  bool IsElsewhere;    ///< other MPI processes have the cells
+  bool IsEmpty;        ///< no process has any
+};
+/// Takes a filter's mesh, of composite data too; see Blocks::Gather(). Throws morph::Error as that
+/// does and, with ToMorph, as RequireOneRankWithCells() does. To be called on every process, before
+/// anything can fail there.
+Mesh TakeMesh(
+  vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use, morph::Monitor& monitor);
 
 /// Throws morph::Error unless there are cells of dimension 3 that are large enough to compute with
 /// (see DataCheck). All types have to be known to the core.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Pipeline/Ports.h"
 
+#include "Private/Blocks/BlockPoints.h"
+#include "Private/Blocks/Leaves.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
@@ -9,12 +11,14 @@
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
+#include <vtkDataObjectTree.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationIntegerVectorKey.h>
 #include <vtkInformationVector.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
@@ -40,8 +44,20 @@ int Ports::FillInformation(int port, vtkInformation* info)
 
 int Ports::FillOutputInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPolyData" : "vtkUnstructuredGrid");
+  const char* types[] = { "vtkDataObject", "vtkUnstructuredGrid", "vtkPolyData" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
+}
+
+bool Ports::MakeOutput(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const bool isAsked = request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT());
+  if (isAsked)
+  {
+    Blocks::MakeOutput(inputVector, outputVector);
+  }
+  return isAsked;
 }
 
 int Ports::RequestInformation(
@@ -105,7 +121,7 @@ int Ports::RequestUpdateExtent(
   return 1;
 }
 
-vtkDataObject* Ports::Fetch(int port, std::optional<double> time) const
+vtkDataObject* Ports::Update(int port, std::optional<double> time) const
 {
   vtkInformation* info = this->Filter->GetExecutive()->GetInputInformation(port, 0);
   Time::Ask(info, time);
@@ -126,6 +142,23 @@ vtkDataObject* Ports::Fetch(int port, std::optional<double> time) const
   return vtkDataObject::GetData(info);
 }
 
+vtkDataObject* Ports::Fetch(int port, std::optional<double> time) const
+{
+  vtkDataObject* data = this->Update(port, time);
+  return port == 1 ? this->AsOne(data, "The boundary") : data;
+}
+
+vtkDataObject* Ports::AsOne(vtkDataObject* data, const char* subject, const char* agreeing) const
+{
+  auto* tree = Leaves::TreeOf(data);
+  if (!tree)
+  {
+    return data;
+  }
+  this->Made.emplace_back(BlockPoints::Make(tree, this->Mesh.Merged(), subject, agreeing));
+  return this->Made.back();
+}
+
 int Ports::RequestData(
   const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -139,26 +172,32 @@ int Ports::RequestData(
   task.Reset();
   CrewMonitor monitor(this->Filter, task.NumberOfThreads);
   vtkSmartPointer<vtkDataObject> input;
+  this->Made.clear();
   const auto work = [&]
   {
     vtkSmartPointer<vtkDataObject> given = vtkDataObject::GetData(inputVector[0]);
     input = inputVector[1]->GetInformationObject(0)
               ? this->Time.TakeRest(given,
-                  [this](int port, std::optional<double> time) { return this->Fetch(port, time); })
+                  [this](int port, std::optional<double> time) { return this->Update(port, time); })
               : given;
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    const int ranksWithCells = Input::RequireOneRankWithCells(grid);
+    const Input::Mesh mesh =
+      Input::TakeMesh(input, this->Mesh, task.CoincidentPoints, Input::Use::ToMorph, monitor);
+    input = mesh.Data;
     Input::RequireNotSwapped(input, boundary);
-    grid = Input::RequireGrid(input, "The input");
-    if (ranksWithCells == 0 || grid->GetNumberOfCells() > 0)
+    vtkUnstructuredGrid* grid = Input::RequireGrid(input, "The input");
+    if (!mesh.IsElsewhere)
     {
-      task.Work(grid, boundary, monitor);
+      task.Work(grid, this->AsOne(boundary, "The boundary"), monitor);
     }
   };
   const auto clear = [&]
   {
     forOutputs([](vtkDataObject* output) { output->Initialize(); });
+    if (vtkUnstructuredGrid* grid = this->Mesh.Output(outputVector))
+    {
+      grid->Initialize();
+    }
     task.Reset();
   };
   const Execution::Outcome outcome = Execution::Run(this->Filter, task.Name, work, clear);
@@ -171,6 +210,7 @@ int Ports::RequestData(
   {
     task.Undone(input, outcome == Execution::Outcome::Cancelled ? "Cancelled" : "Failed");
   }
+  this->WriteOutput(outputVector);
   if (vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]))
   {
     forOutputs([boundary](vtkDataObject* output) { Time::CopyDataTime(boundary, output); });

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Private/Blocks/Blocks.h"
 #include "Private/Pipeline/Time.h"
 
+#include <vtkSmartPointer.h>
+
 #include <functional>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -27,8 +31,12 @@ public:
   }
 
   static int FillInformation(int port, vtkInformation* info);
-  /// The mesh, its bad cells, and its surface, which is polygonal data.
+  /// The mesh, of the input's type, its bad cells, and its surface, which is polygonal data.
   static int FillOutputInformation(int port, vtkInformation* info);
+  /// For ProcessRequest of a filter whose output 0 is of that type: answers REQUEST_DATA_OBJECT.
+  /// Returns whether `request` is that.
+  static bool MakeOutput(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
   static int RequestInformation(
     vtkInformationVector** inputVector, vtkInformationVector* outputVector);
   /// For RequestUpdateExtent: the information of the output port that `request` comes from.
@@ -46,27 +54,50 @@ public:
   {
     const char* Name; ///< the words after "not enough memory to" ("morph this mesh")
     int NumberOfThreads;
+    int CoincidentPoints; ///< of the blocks of a composite mesh, Blocks::CoincidentPoints
     /// Resets the filter's results to those of no result.
     std::function<void()> Reset;
-    /// Fills the output from the undeformed mesh and the boundary, which may be null.
+    /// Fills the output from the undeformed mesh and the boundary, which may be null, and which
+    /// AsOne() has made one data set.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
     /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any
-    /// type, null where it is not available) and "Failed" or "Cancelled"; the outputs are empty.
+    /// type, null where it is not available, one grid where its blocks could be merged) and
+    /// "Failed" or "Cancelled"; the outputs are empty.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
   };
+  /// The grid that the work of a task fills for output 0, which may be composite.
+  vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)
+  {
+    return this->Mesh.Output(outputVector);
+  }
+  /// Gives Output() to output 0. RequestData() does it, too.
+  void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
+  const Blocks& GetBlocks() const { return this->Mesh; }
+
   /// Calls `task.Work`, on the one MPI process with cells if there are several. After an exception
   /// the outputs are empty; errors and warnings are the filter's. Returns the result of
   /// RequestData.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
+  /// For the work of a task: composite data of another port than the mesh's as one data set, which
+  /// this object keeps until the next execution; see BlockPoints. Other data are returned as they
+  /// are. `agreeing`: see there.
+  vtkDataObject* AsOne(
+    vtkDataObject* data, const char* subject, const char* agreeing = nullptr) const;
+
   /// For the work of a task: updates an input port to another time and returns its data; no time
-  /// means the input's own choice. Repeating the execution instead would not do: VTK's executive
-  /// never ends where the input fails in a repetition. Throws Error where the input fails.
+  /// means the input's own choice. A boundary goes through AsOne(). Repeating the execution instead
+  /// would not do: VTK's executive never ends where the input fails in a repetition. Throws Error
+  /// where the input fails.
   vtkDataObject* Fetch(int port, std::optional<double> time) const;
 
 private:
+  vtkDataObject* Update(int port, std::optional<double> time) const;
+
   vtkAlgorithm* Filter;
   filters::Time Time;
+  Blocks Mesh;
+  mutable std::vector<vtkSmartPointer<vtkDataObject>> Made; ///< by AsOne()
 };
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Pipeline/Time.h"
 
+#include "Private/Blocks/Leaves.h"
 #include "Private/Pipeline/Ranks.h"
 
 #include <vtkDataObject.h>
+#include <vtkDataObjectTree.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
@@ -99,7 +101,14 @@ vtkSmartPointer<vtkDataObject> Time::TakeRest(vtkDataObject* mesh, const Fetch& 
   if (this->RestStep && mesh)
   {
     rest.TakeReference(mesh->NewInstance());
-    rest->ShallowCopy(mesh);
+    if (auto* blocks = Leaves::TreeOf(mesh))
+    {
+      Leaves::Copy(blocks, vtkDataObjectTree::SafeDownCast(rest));
+    }
+    else
+    {
+      rest->ShallowCopy(mesh);
+    }
   }
   if (overwritten || (this->OnePort && this->RestStep))
   {

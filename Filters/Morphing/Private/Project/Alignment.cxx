@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Project/Alignment.h"
 
+#include "Support/ProgressRange.h"
+
 #include <vtkCellArray.h>
+#include <vtkCellLocator.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkIterativeClosestPointTransform.h>
@@ -31,6 +34,8 @@ constexpr int Iterations = 100;
 /// To find the best start.
 constexpr int FewLandmarks = 100;
 constexpr int FewIterations = 30;
+/// Between two looks at the monitor.
+constexpr int AtATime = 10;
 
 /// Centre of area and principal axes of a surface.
 struct Moments
@@ -137,28 +142,63 @@ vtkSmartPointer<vtkPolyData> cloud(const std::vector<Vector>& points, const Rigi
   return data;
 }
 
-/// The motion after closest-point iterations from a start.
-Rigid iterated(
-  const std::vector<Vector>& landmarks, const Rigid& start, vtkPolyData* onto, int iterations)
+/// The surface onto which another one is turned and shifted.
+struct Place
+{
+  vtkPolyData* Surface;
+  vtkNew<vtkCellLocator> Cells; ///< for all iterations
+
+  explicit Place(vtkPolyData* surface)
+    : Surface(surface)
+  {
+    this->Cells->SetDataSet(surface);
+    this->Cells->SetNumberOfCellsPerBucket(1); // as the iterations set it
+    this->Cells->BuildLocator();
+  }
+};
+
+/// Closest-point iterations; adds their motion. Returns how many there were.
+int iterate(const std::vector<Vector>& landmarks, const Place& place, int iterations, Rigid& motion)
 {
   vtkNew<vtkIterativeClosestPointTransform> closest;
-  closest->SetSource(cloud(landmarks, start));
-  closest->SetTarget(onto);
+  closest->SetSource(cloud(landmarks, motion));
+  closest->SetTarget(place.Surface);
+  closest->SetLocator(place.Cells);
   closest->GetLandmarkTransform()->SetModeToRigidBody();
   closest->SetMaximumNumberOfLandmarks(static_cast<int>(landmarks.size()));
   closest->SetMaximumNumberOfIterations(iterations);
   closest->CheckMeanDistanceOn();
-  closest->SetMaximumMeanDistance(1e-9 * onto->GetLength());
+  closest->SetMaximumMeanDistance(1e-9 * place.Surface->GetLength());
   closest->Update();
-  Rigid motion = Rigid::Identity();
+  Rigid step = Rigid::Identity();
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 4; ++j)
     {
-      motion(i, j) = closest->GetMatrix()->GetElement(i, j);
+      step(i, j) = closest->GetMatrix()->GetElement(i, j);
     }
   }
-  return motion * start;
+  motion = step * motion;
+  return closest->GetNumberOfIterations();
+}
+
+/// The motion after closest-point iterations from a start. A few at a time, since VTK's run tells
+/// no progress and cannot be stopped.
+Rigid iterated(const std::vector<Vector>& landmarks, const Rigid& start, const Place& place,
+  int iterations, morph::Monitor& monitor)
+{
+  Rigid motion = start;
+  for (int done = 0; done < iterations; done += AtATime)
+  {
+    monitor.check();
+    monitor.progress(static_cast<double>(done) / iterations);
+    if (iterate(landmarks, place, AtATime, motion) < AtATime)
+    {
+      break;
+    }
+  }
+  monitor.progress(1);
+  return motion;
 }
 
 double meanDistance(
@@ -181,8 +221,9 @@ double meanDistance(
 
 namespace Alignment
 {
-vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto)
+vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto, morph::Monitor& monitor)
 {
+  const Place place(onto);
   const std::vector<Vector> landmarks = landmarksOf(surface, FewLandmarks);
   const double size = onto->GetLength();
   vtkNew<vtkStaticCellLocator> locator;
@@ -190,9 +231,13 @@ vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto)
   locator->BuildLocator();
   Rigid best = Rigid::Identity();
   double least = -1;
-  for (const Rigid& start : startsOf(momentsOf(surface), momentsOf(onto)))
+  const std::vector<Rigid> starts = startsOf(momentsOf(surface), momentsOf(onto));
+  for (std::size_t i = 0; i < starts.size(); ++i)
   {
-    const Rigid motion = iterated(landmarks, start, onto, FewIterations);
+    const double share = 0.5 / static_cast<double>(starts.size());
+    const double done = share * static_cast<double>(i);
+    morph::ProgressRange part(monitor, done, done + share);
+    const Rigid motion = iterated(landmarks, starts[i], place, FewIterations, part);
     const double distance = meanDistance(landmarks, motion, locator);
     if (motion.matrix().allFinite() && (least < 0 || distance < 0.99 * least - 1e-6 * size))
     {
@@ -200,7 +245,8 @@ vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto)
       best = motion;
     }
   }
-  best = iterated(landmarksOf(surface, Landmarks), best, onto, Iterations);
+  morph::ProgressRange last(monitor, 0.5, 1);
+  best = iterated(landmarksOf(surface, Landmarks), best, place, Iterations, last);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(surface->GetNumberOfPoints());

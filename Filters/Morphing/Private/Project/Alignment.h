@@ -5,6 +5,11 @@
 
 class vtkPolyData;
 
+namespace morph
+{
+class Monitor;
+}
+
 /// Rigid alignment of one surface with another.
 namespace morph::filters::Alignment
 {
@@ -13,6 +18,7 @@ namespace morph::filters::Alignment
 /// points. vtkIterativeClosestPointTransform runs from six starts: the current place, equal
 /// centres, and the four rotations that turn principal axes into each other. The start that ends
 /// with the least mean distance is taken; of nearly equal ones the first, which turns it less.
-/// A symmetric surface may so be turned about its symmetry. Cost: some 70,000 searches at most.
-vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto);
+/// A symmetric surface may so be turned about its symmetry. `monitor` hears of progress, and may
+/// cancel, every 10 iterations. Cost: some 70,000 searches at most.
+vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto, morph::Monitor& monitor);
 }

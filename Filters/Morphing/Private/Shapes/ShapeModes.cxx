@@ -2,6 +2,7 @@
 #include "Private/Shapes/ShapeModes.h"
 
 #include "Geometry/RotationFit.h"
+#include "Mesh/Polyhedra.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Pipeline/Input.h"
@@ -111,19 +112,28 @@ std::pair<morph::AxisRotation, std::vector<Index>> rotationOf(const Points& disp
 }
 }
 
-void ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  if (this->Kept.Take(grid, monitor))
+  const bool isCopied = this->Kept.Take(grid, monitor);
+  if (isCopied)
   {
     this->Method.reset();
     this->Modes.clear();
   }
+  if (morph::hasPolyhedra(this->Kept.Mesh()))
+  {
+    throw morph::Error(
+      "Morph Shapes does not know in which range polyhedra stay valid. Use a morph filter, or a "
+      "mesh of tetrahedra, hexahedra, wedges and pyramids.");
+  }
+  return isCopied;
 }
 
 std::vector<BoundaryMatch::Result> ShapeModes::Match(
-  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor) const
+  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
 {
   std::vector<BoundaryMatch::Result> matches;
+  this->Warnings.clear();
   for (const Shape& shape : shapes)
   {
     monitor.check();
@@ -135,7 +145,8 @@ std::vector<BoundaryMatch::Result> ShapeModes::Match(
       }));
     for (const std::string& warning : matches.back().Warnings)
     {
-      monitor.warn("Shape '" + shape.Name + "': " + warning);
+      this->Warnings.push_back("Shape '" + shape.Name + "': " + warning);
+      monitor.warn(this->Warnings.back());
     }
   }
   return matches;
@@ -265,6 +276,32 @@ morph::NodeMotion ShapeModes::MotionOf(std::size_t shape, const morph::Points& b
     motion.second = this->Modes[solved.Modes[1]].Field.get();
     motion.angle = solved.Angle;
   }
+  return motion;
+}
+
+morph::CombinedMotion ShapeModes::Combined(
+  const std::vector<double>& weights, Points& straight, morph::Monitor& monitor) const
+{
+  morph::CombinedMotion motion;
+  motion.base = &this->Kept.Mesh().points;
+  std::vector<morph::WeightedMode> modes;
+  for (std::size_t i = 0; i < this->Shapes.size(); ++i)
+  {
+    const Solved& shape = this->Shapes[i];
+    const Points* field = this->Modes[shape.Modes[0]].Field.get();
+    if (shape.Angle == 0)
+    {
+      modes.push_back({ field, weights[i] });
+    }
+    else if (weights[i] != 0)
+    {
+      motion.turns.push_back(
+        { field, this->Modes[shape.Modes[1]].Field.get(), weights[i] * shape.Angle });
+    }
+  }
+  const Points none = Points::Zero(motion.base->rows(), 3);
+  morph::blend(none, modes, straight, monitor);
+  motion.straight = &straight;
   return motion;
 }
 

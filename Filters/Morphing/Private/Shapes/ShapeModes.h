@@ -7,6 +7,7 @@
 #include "Morpher/Morpher.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/KeptMesh.h"
+#include "Quality/LargestFactor.h"
 #include "Quality/ValidRange.h"
 
 #include <cstdint>
@@ -48,15 +49,19 @@ public:
     morph::Index Prescribed = 0; ///< nodes
   };
 
-  /// Copies the grid, unless it is the same as the kept one.
-  void SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
+  /// Copies the grid, unless it is the same as the kept one; returns whether it was copied.
+  bool SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
   const KeptMesh& GetKept() const { return this->Kept; }
+  /// See KeptMesh. After SetGrid().
+  void SetFeatureLines(bool on) { this->Kept.SetFeatureLines(on); }
 
   /// Solves for the displacement fields of shapes that are not kept, and forgets others. A node
   /// that any shape names is prescribed; in shapes that do not name it, it stays. Throws
   /// morph::Error as BoundaryMatch does, naming the shape, and for a shape that is to be a rotation
   /// and is none.
   Effort Solve(const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor);
+  /// Those of the last Solve(), which it has told.
+  const std::vector<std::string>& GetWarnings() const { return this->Warnings; }
   /// The displacement fields of the shapes of the last Solve(), with their weights. `weights`:
   /// #shapes; of a rotation, the factor of its angle.
   std::vector<morph::WeightedMode> Weighted(const std::vector<double>& weights) const;
@@ -70,6 +75,10 @@ public:
   bool IsRotation(std::size_t shape) const { return this->Shapes[shape].Angle > 0; }
   /// The motion by the weight of one shape. `base`: #nodes x 3, the mesh at a weight of 0.
   morph::NodeMotion MotionOf(std::size_t shape, const morph::Points& base) const;
+  /// The motion by a factor of all weights. `straight`: gets the displacements' sum; the result
+  /// points to it.
+  morph::CombinedMotion Combined(
+    const std::vector<double>& weights, morph::Points& straight, morph::Monitor& monitor) const;
 
 private:
   /// A displacement of the boundary and its field.
@@ -85,7 +94,7 @@ private:
   };
 
   std::vector<BoundaryMatch::Result> Match(
-    const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor) const;
+    const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor);
   /// Adds the boundary displacements of one shape to `modes`, not solved.
   Solved Describe(const Shape& shape, const BoundaryMatch::Result& match,
     const std::vector<morph::Index>& prescribed, double tolerance, std::vector<Mode>& modes) const;
@@ -97,5 +106,6 @@ private:
   std::string MethodOptions;
   std::vector<Mode> Modes;    ///< of Method
   std::vector<Solved> Shapes; ///< of the last Solve()
+  std::vector<std::string> Warnings;
 };
 }

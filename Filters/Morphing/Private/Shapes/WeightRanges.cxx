@@ -5,27 +5,44 @@
 #include "Private/Shapes/ShapeModes.h"
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace morph::filters
 {
 namespace
 {
+/// `ranges`: of the shapes' weights.
 double largestFactor(const ShapeModes& modes, const std::vector<double>& weights,
-  const morph::Points& moved, morph::Monitor& monitor)
+  const std::vector<morph::ValidRange>& ranges, const morph::Points& moved, morph::Monitor& monitor)
 {
+  const morph::Mesh& mesh = modes.GetKept().Mesh();
+  const std::vector<std::int8_t>& orientation = modes.GetKept().Orientation();
+  std::vector<std::size_t> weighted, turned;
   for (std::size_t i = 0; i < weights.size(); ++i)
   {
-    if (modes.IsRotation(i) && weights[i] != 0)
+    if (weights[i] != 0)
     {
-      return std::numeric_limits<double>::quiet_NaN();
+      weighted.push_back(i);
+      if (modes.IsRotation(i))
+      {
+        turned.push_back(i);
+      }
     }
   }
-  const morph::Points motion = moved - modes.GetKept().Mesh().points;
-  const morph::NodeMotion whole = { &modes.GetKept().Mesh().points, &motion };
-  return morph::validRange(modes.GetKept().Mesh(), whole, modes.GetKept().Orientation(), monitor)
-    .highest;
+  if (turned.empty())
+  {
+    const morph::Points motion = moved - mesh.points;
+    return morph::validRange(mesh, { &mesh.points, &motion }, orientation, monitor).highest;
+  }
+  if (weighted.size() == 1)
+  {
+    const double weight = weights[turned[0]];
+    const morph::ValidRange& range = ranges[turned[0]]; // the others are at 0
+    return (weight > 0 ? range.highest : range.lowest) / weight;
+  }
+  morph::Points straight;
+  const morph::CombinedMotion motion = modes.Combined(weights, straight, monitor);
+  return morph::largestFactor(mesh, motion, orientation, monitor).factor;
 }
 
 std::string endText(double end)
@@ -55,7 +72,7 @@ WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<doubl
     result.Shapes.push_back(morph::validRange(
       modes.GetKept().Mesh(), modes.MotionOf(i, base), modes.GetKept().Orientation(), monitor));
   }
-  result.LargestFactor = largestFactor(modes, weights, moved, monitor);
+  result.LargestFactor = largestFactor(modes, weights, result.Shapes, moved, monitor);
   return result;
 }
 

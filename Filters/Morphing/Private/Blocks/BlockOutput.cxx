@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Blocks/BlockOutput.h"
+
+#include "Private/Blocks/BlockArrays.h"
+#include "Private/Data/Quality.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace morph::filters::BlockOutput
+{
+namespace
+{
+using morph::Index;
+
+/// Its points and cells as data that hold points of their own; itself where it does.
+vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
+{
+  if (auto* set = vtkPointSet::SafeDownCast(data))
+  {
+    return set;
+  }
+  int extent[6] = { 0, -1, 0, -1, 0, -1 };
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    image->GetExtent(extent);
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    rectilinear->GetExtent(extent);
+  }
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetExtent(extent);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    points->SetPoint(i, data->GetPoint(i));
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->ShallowCopy(data->GetPointData());
+  grid->GetCellData()->ShallowCopy(data->GetCellData());
+  grid->GetFieldData()->ShallowCopy(data->GetFieldData());
+  return grid;
+}
+
+void movePoints(vtkPoints* from, const std::vector<Index>& nodes, vtkPointSet* set)
+{
+  const auto count = static_cast<vtkIdType>(nodes.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(from->GetDataType());
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, nodes[i] < 0 ? set->GetPoint(i) : from->GetPoint(nodes[i]));
+  }
+  set->SetPoints(points);
+}
+
+bool hasArray(vtkDataSetAttributes* data, vtkAbstractArray* array)
+{
+  return array->GetName() && data->GetAbstractArray(array->GetName()) == array;
+}
+
+/// Arrays that `result` has and `before` has not go to the leaf, and the other way round. Returns
+/// whether there are new ones.
+bool spread(vtkDataSetAttributes* result, vtkDataSetAttributes* before,
+  const std::vector<Index>& ids, vtkDataSetAttributes* leaf)
+{
+  for (int i = 0; i < before->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = before->GetAbstractArray(i);
+    if (array && array->GetName() && !result->HasArray(array->GetName()))
+    {
+      leaf->RemoveArray(array->GetName());
+    }
+  }
+  bool isAny = false;
+  for (int i = 0; i < result->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = result->GetAbstractArray(i);
+    if (array && array->GetName() && !hasArray(before, array))
+    {
+      BlockArrays::Spread(array, ids, "MorphDisplacement", leaf);
+      isAny = true;
+    }
+  }
+  return isAny;
+}
+
+void activate(
+  vtkDataSetAttributes* result, vtkDataSetAttributes* before, vtkDataSetAttributes* leaf)
+{
+  const auto nameOf = [](vtkDataSetAttributes* data, int kind)
+  {
+    vtkAbstractArray* array = data->GetAbstractAttribute(kind);
+    return array && array->GetName() ? std::string(array->GetName()) : std::string();
+  };
+  for (const int kind : { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS })
+  {
+    const std::string name = nameOf(result, kind);
+    if (name == nameOf(before, kind) && !name.empty())
+    {
+      continue;
+    }
+    if (name.empty())
+    {
+      leaf->SetActiveAttribute(nullptr, kind);
+    }
+    else if (leaf->HasArray(name.c_str()))
+    {
+      leaf->SetActiveAttribute(name.c_str(), kind);
+    }
+  }
+}
+
+void addIds(const std::vector<Index>& ids, const char* name, vtkDataSetAttributes* leaf)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i]));
+  }
+  leaf->AddArray(array);
+}
+
+/// Gives the cells of a set the scaled Jacobian of the mesh's worst cell behind each, so that they
+/// have a colour too; NaN where there is none.
+void writeQualityBehind(
+  vtkDataArray* quality, const MergedBlocks::Block& set, vtkDataSetAttributes* leaf)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(quality->GetName());
+  array->SetNumberOfValues(static_cast<vtkIdType>(set.Behind.size()));
+  for (std::size_t i = 0; i < set.Behind.size(); ++i)
+  {
+    double worst = std::numeric_limits<double>::quiet_NaN();
+    for (const Index cell : set.Behind[i])
+    {
+      worst = std::fmin(worst, quality->GetComponent(cell, 0)); // a NaN loses
+    }
+    array->SetValue(static_cast<vtkIdType>(i), worst);
+  }
+  leaf->AddArray(array);
+  leaf->SetActiveScalars(quality->GetName());
+}
+}
+
+void Write(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t block,
+  vtkUnstructuredGrid* result)
+{
+  const MergedBlocks::Block& part = merged.All[block];
+  vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(leaf.Data);
+  vtkUnstructuredGrid* before = merged.Grid;
+  const bool isMoved = result->GetPoints() != before->GetPoints();
+  if (isMoved)
+  {
+    const vtkSmartPointer<vtkPointSet> set = withPoints(data);
+    movePoints(result->GetPoints(), part.Nodes, set);
+    data = set;
+  }
+  vtkAbstractArray* quality = result->GetCellData()->GetAbstractArray("ScaledJacobian");
+  if (isMoved || (quality && !hasArray(before->GetCellData(), quality)))
+  {
+    Quality::Remove(data); // that of an input, which this block alone may have
+  }
+  bool isNew =
+    spread(result->GetPointData(), before->GetPointData(), part.Nodes, data->GetPointData());
+  if (part.IsMesh)
+  {
+    isNew |= spread(result->GetCellData(), before->GetCellData(), part.Cells, data->GetCellData());
+  }
+  if (isNew)
+  {
+    activate(result->GetPointData(), before->GetPointData(), data->GetPointData());
+    addIds(part.Nodes, "MorphPointId", data->GetPointData());
+  }
+  if (isNew && part.IsMesh)
+  {
+    activate(result->GetCellData(), before->GetCellData(), data->GetCellData());
+    addIds(part.Cells, "MorphCellId", data->GetCellData());
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(quality);
+  if (numbers && !part.Behind.empty() && !hasArray(before->GetCellData(), quality))
+  {
+    writeQualityBehind(numbers, part, data->GetCellData());
+  }
+  Leaves::Replace(leaf, data);
+}
+
+void WriteFaces(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t block,
+  vtkUnstructuredGrid* result)
+{
+  const MergedBlocks::Block& part = merged.All[block];
+  vtkDataArray* owners = result->GetCellData()->GetArray("MorphCellId");
+  if (!part.IsMesh || !owners)
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkPointSet> points = withPoints(vtkDataSet::SafeDownCast(leaf.Data));
+  std::vector<Index> pointOf(result->GetNumberOfPoints(), -1);
+  for (std::size_t i = 0; i < part.Nodes.size(); ++i)
+  {
+    pointOf[part.Nodes[i]] = static_cast<Index>(i);
+  }
+  vtkNew<vtkUnstructuredGrid> faces;
+  faces->SetPoints(points->GetPoints());
+  faces->GetPointData()->ShallowCopy(points->GetPointData());
+  faces->GetFieldData()->ShallowCopy(points->GetFieldData());
+  faces->Allocate(result->GetNumberOfCells());
+  std::vector<Index> chosen;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType face = 0; face < result->GetNumberOfCells(); ++face)
+  {
+    const auto owner = static_cast<std::size_t>(owners->GetComponent(face, 0));
+    if (merged.BlockOfCell[owner] != static_cast<Index>(block))
+    {
+      continue;
+    }
+    result->GetCellPoints(face, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      corners->SetId(i, static_cast<vtkIdType>(pointOf[corners->GetId(i)]));
+    }
+    faces->InsertNextCell(result->GetCellType(face), corners);
+    chosen.push_back(static_cast<Index>(face));
+  }
+  for (int i = 0; i < result->GetCellData()->GetNumberOfArrays(); ++i)
+  {
+    BlockArrays::Spread(
+      result->GetCellData()->GetAbstractArray(i), chosen, "", faces->GetCellData());
+  }
+  if (vtkDataArray* scalars = result->GetCellData()->GetScalars())
+  {
+    faces->GetCellData()->SetActiveScalars(scalars->GetName());
+  }
+  Leaves::Replace(leaf, faces);
+}
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Blocks/BlockSets.h"
+
+#include <vtkDataSet.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <map>
+#include <string>
+
+namespace morph::filters::BlockSets
+{
+namespace
+{
+using morph::Index;
+
+bool isSet(const MergedBlocks::Block& block)
+{
+  return !block.IsMesh && !block.Nodes.empty();
+}
+
+/// The names that the data have already.
+vtkSmartPointer<vtkStringArray> knownNames(vtkFieldData* data)
+{
+  auto names = vtkSmartPointer<vtkStringArray>::New();
+  if (auto* given = vtkStringArray::SafeDownCast(data->GetAbstractArray("SurfaceNames")))
+  {
+    names->DeepCopy(given);
+  }
+  names->SetName("SurfaceNames");
+  return names;
+}
+}
+
+void Name(const std::vector<Leaves::Leaf>& leaves, MergedBlocks& merged)
+{
+  std::map<std::string, vtkSmartPointer<vtkUnsignedCharArray>> marks; // partitions share one
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    const std::string& label = leaves[i].Label;
+    if (!isSet(merged.All[i]) || label.empty() ||
+        merged.Grid->GetPointData()->HasArray(label.c_str()))
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkUnsignedCharArray>& array = marks[label];
+    if (!array)
+    {
+      array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+      array->SetName(label.c_str());
+      array->SetNumberOfValues(merged.Grid->GetNumberOfPoints());
+      array->FillValue(0);
+    }
+    for (const Index node : merged.All[i].Nodes)
+    {
+      if (node >= 0)
+      {
+        array->SetValue(node, 1);
+      }
+    }
+  }
+  if (marks.empty())
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkStringArray> names = knownNames(merged.Grid->GetFieldData());
+  for (const auto& [label, array] : marks)
+  {
+    merged.Grid->GetPointData()->AddArray(array);
+    if (names->LookupValue(label) < 0)
+    {
+      names->InsertNextValue(label);
+    }
+  }
+  merged.Grid->GetFieldData()->AddArray(names);
+}
+
+void FindBehind(const std::vector<Leaves::Leaf>& leaves, MergedBlocks& merged)
+{
+  vtkNew<vtkIdList> points, nodes, cells;
+  bool hasLinks = false;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    MergedBlocks::Block& block = merged.All[i];
+    auto* data = isSet(block) ? vtkDataSet::SafeDownCast(leaves[i].Data) : nullptr;
+    const vtkIdType count = data ? data->GetNumberOfCells() : 0;
+    if (count > 0 && !hasLinks)
+    {
+      merged.Grid->BuildLinks();
+      hasLinks = true;
+    }
+    for (vtkIdType cell = 0; cell < count; ++cell)
+    {
+      data->GetCellPoints(cell, points);
+      nodes->Reset();
+      bool isOnMesh = points->GetNumberOfIds() > 0;
+      for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+      {
+        const Index node = block.Nodes[static_cast<std::size_t>(points->GetId(k))];
+        isOnMesh &= node >= 0;
+        nodes->InsertNextId(node);
+      }
+      std::vector<Index>& behind = block.Behind.emplace_back();
+      if (isOnMesh)
+      {
+        merged.Grid->GetCellNeighbors(-1, nodes, cells);
+        behind.assign(cells->begin(), cells->end());
+      }
+    }
+  }
+}
+}

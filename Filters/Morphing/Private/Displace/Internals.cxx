@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/Internals.h"
+
+#include "Private/Data/Surface.h"
+#include "Private/Displace/DisplacedSurface.h"
+#include "Private/Displace/Motion.h"
+#include "Private/Displace/Patches.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Project/TargetDistance.h"
+#include "Support/Error.h"
+
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+
+namespace filters = morph::filters;
+
+namespace
+{
+vtkMTimeType timeOf(vtkObject* object)
+{
+  return object ? object->GetMTime() : 0;
+}
+}
+
+void vtkBoundaryDisplacement::vtkInternals::Classify(
+  const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor)
+{
+  filters::Geometry::Options options;
+  options.FeatureAngle = filter->FeatureAngle;
+  options.CornerAngle = filter->CornerAngle;
+  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
+  options.UseGeometryArrays = filter->UseGeometryArrays;
+  const int before = this->Model.ClassifyCount();
+  this->Model.Update(input, options, monitor);
+  if (this->Model.ClassifyCount() != before)
+  {
+    this->Warnings = monitor.TakeWarnings();
+  }
+  if (this->ListedVersion == this->Model.InputVersion())
+  {
+    return;
+  }
+  this->ClearList();
+  for (const filters::Patches::Size& size : filters::Patches::Sizes(this->Model))
+  {
+    this->PatchList->AddArray(size.Name.c_str(), false);
+    this->PatchSizes->InsertNextValue(size.Name);
+    this->PatchSizes->InsertNextValue(std::to_string(size.Count));
+    this->PatchSizes->InsertNextValue(vtkVariant(size.Measure).ToString());
+    const auto &low = size.Box.min(), &high = size.Box.max();
+    this->PatchBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
+  }
+  this->ListedVersion = this->Model.InputVersion();
+}
+
+void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
+{
+  vtkInternals& own = *this->Internals;
+  filters::ChoiceKey key;
+  key.InputVersion = own.Model.InputVersion();
+  key.Moving = this->Moving;
+  key.HeldPatches = own.HeldPatches;
+  filters::Choice::Options options;
+  options.How = static_cast<filters::Choice::By>(this->Moving);
+  options.HeldPatches = own.HeldPatches;
+  if (this->Moving == MOVE_SELECTION)
+  {
+    selection = own.Selected.OfGrid(own.Blocks, selection, own.Extractor);
+    key.Selection = timeOf(selection);
+    options.Selection = selection;
+    options.Extractor = own.Extractor;
+  }
+  else if (this->Moving == MOVE_PATCHES)
+  {
+    const bool byTarget = own.Patches.empty() && this->Motion == MOTION_TARGET;
+    key.Patches = options.Patches = byTarget ? own.Fit.NearestSurfaces(own.Model) : own.Patches;
+  }
+  else if (this->Moving == MOVE_REGION)
+  {
+    key.Region = timeOf(own.Region);
+    options.Region = own.Region;
+  }
+  else if (this->Moving == MOVE_ARRAY)
+  {
+    key.Array = options.ArrayName = filters::Input::ArrayName(this->MovingArray);
+  }
+  if (!(key == own.ChosenFrom))
+  {
+    own.ChosenFrom = filters::ChoiceKey(); // in case the choice throws
+    own.Choice = filters::Choice::Choose(input, own.Model, options);
+    own.ChosenFrom = key;
+    ++this->ChooseCount;
+  }
+}
+
+morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, filters::Monitor& monitor)
+{
+  filters::FitToTarget::Options options;
+  options.Align = filter->AlignTarget;
+  options.FeatureAngle = filter->FeatureAngle;
+  options.Angle = filter->TargetAngle;
+  options.Reach = filter->TargetReach * this->Model.Size();
+  if (filter->Moving == MOVE_PATCHES && this->Patches.empty())
+  {
+    this->Fit.Update(target, this->Model, nullptr, options, monitor);
+    filter->Choose(input, selection);
+  }
+  else
+  {
+    filter->Choose(input, selection);
+    this->Fit.Update(target, this->Model, &this->Choice, options, monitor);
+  }
+  return this->Fit.Targets(this->Model, this->Choice, monitor);
+}
+
+void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
+  const filters::Surroundings::Result& result, vtkPolyData* output)
+{
+  std::vector<morph::Index> points, nodes;
+  for (std::size_t i = 0; i < this->Model.NodeOfPoint().size(); ++i)
+  {
+    const morph::Index node = this->Model.NodeOfPoint()[i];
+    if (result.Roles[node] == filters::Surroundings::Moves)
+    {
+      points.push_back(static_cast<morph::Index>(i));
+      nodes.push_back(node);
+    }
+  }
+  filters::TargetDistance::Write(this->Fit.Surface(), points,
+    this->Model.Points()(nodes, morph::allColumns), result.Moved(nodes, morph::allColumns), output);
+}
+
+void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkPolyData* output,
+  filters::Monitor& monitor)
+{
+  try
+  {
+    monitor.SetRange(0, 0.5);
+    this->Classify(filter, input, monitor);
+  }
+  catch (...)
+  {
+    this->ClearList();
+    throw;
+  }
+  for (const std::string& warning : this->Warnings)
+  {
+    monitor.warn(warning);
+  }
+  this->Warnings.clear();
+  filters::Surface::WarnOfNone(this->Model.Faces(), monitor);
+  if (this->Model.Faces().nodes.empty())
+  {
+    return;
+  }
+  morph::Points fitted;
+  if (target)
+  {
+    monitor.SetRange(0.5, 0.7);
+    fitted = this->Fitted(filter, input, selection, target, monitor);
+  }
+  else
+  {
+    filter->Choose(input, selection);
+  }
+  monitor.check();
+
+  filters::Motion::Options motion;
+  motion.Fitted = &fitted;
+  motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
+  motion.Transform = this->Transform;
+  motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
+  motion.Distance = filter->Distance;
+  motion.ArrayName = filters::Input::ArrayName(filter->DisplacementArray);
+  std::copy(filter->Translation, filter->Translation + 3, motion.Translation.begin());
+  std::copy(filter->Rotation, filter->Rotation + 3, motion.Rotation.begin());
+  std::copy(filter->Scale, filter->Scale + 3, motion.Scale.begin());
+  motion.AutoCenter = filter->AutoCenter;
+  std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
+  motion.RadiusChange = filter->RadiusChange;
+  motion.ScaleFactor = filter->ScaleFactor;
+  const morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
+
+  filters::Surroundings::Options rest;
+  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
+  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
+  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
+  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
+  rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
+  rest.Radius = filter->FalloffRadius * this->Model.Size();
+  monitor.SetRange(target ? 0.7 : 0.5, 0.9);
+  const filters::Surroundings::Result result =
+    this->Spread.Spread(this->Model, this->Choice, targets, rest, monitor);
+  const std::vector<morph::Index> collapsed =
+    filters::Motion::Collapsed(this->Model, this->Choice, result.Moved);
+  if (!collapsed.empty())
+  {
+    monitor.warn(
+      "The motion leaves faces of the boundary without area, and no cell behind them can "
+      "be valid: the output's cell ids " +
+      morph::listIds(collapsed) + ". Is a scale zero?");
+  }
+  filters::DisplacedSurface::Write(
+    this->Model, result, input, filter->OutputPointsPrecision, output);
+  this->Fields.Write(
+    this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
+  if (target)
+  {
+    this->WriteDistances(result, output);
+  }
+  const auto count = [&result](filters::Surroundings::Role role)
+  { return std::count(result.Roles.begin(), result.Roles.end(), role); };
+  filter->MovingPoints = count(filters::Surroundings::Moves);
+  filter->HeldPoints = count(filters::Surroundings::IsHeld);
+  filter->FollowingPoints = count(filters::Surroundings::Follows);
+  filter->FreePoints = count(filters::Surroundings::IsFree);
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What vtkBoundaryDisplacement keeps from one execution to the next, and the steps of one.
+#pragma once
+
+#include "vtkBoundaryDisplacement.h"
+
+#include "Private/Blocks/Blocks.h"
+#include "Private/Displace/BlockSelection.h"
+#include "Private/Displace/BoundaryFields.h"
+#include "Private/Displace/BoundaryModel.h"
+#include "Private/Displace/Choice.h"
+#include "Private/Displace/FitToTarget.h"
+#include "Private/Displace/Picker.h"
+#include "Private/Displace/Surroundings.h"
+#include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/NameSet.h"
+
+#include <vtkAbstractTransform.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDoubleArray.h>
+#include <vtkExtractSelection.h>
+#include <vtkImplicitFunction.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace morph::filters
+{
+/// The inputs of a choice. Modification times distinguish an object from an earlier one at its
+/// address.
+struct ChoiceKey
+{
+  vtkIdType InputVersion = -1;
+  int Moving = -1;
+  std::set<std::string> Patches, HeldPatches;
+  std::string Array;
+  vtkMTimeType Region = 0, Selection = 0;
+
+  bool operator==(const ChoiceKey& other) const
+  {
+    return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
+           this->Patches == other.Patches && this->HeldPatches == other.HeldPatches &&
+           this->Array == other.Array && this->Region == other.Region &&
+           this->Selection == other.Selection;
+  }
+};
+}
+
+struct vtkBoundaryDisplacement::vtkInternals
+{
+  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches;
+  vtkNew<vtkDataArraySelection> PatchList;
+  vtkNew<vtkStringArray> PatchSizes;
+  vtkNew<vtkDoubleArray> PatchBounds;
+  vtkIdType ListedVersion = -1; ///< of Model
+  vtkSmartPointer<vtkImplicitFunction> Region;
+  vtkSmartPointer<vtkAbstractTransform> Transform;
+  vtkSmartPointer<vtkExtractSelection> Extractor;
+
+  morph::filters::Blocks Blocks;
+  morph::filters::BlockSelection Selected;
+  morph::filters::BoundaryModel Model;
+  std::vector<std::string> Warnings; ///< of the geometry, not reported yet
+  morph::filters::ChoiceKey ChosenFrom;
+  morph::filters::Choice::Result Choice;
+  morph::filters::Surroundings Spread;
+  morph::filters::BoundaryFields Fields;
+  morph::filters::FitToTarget Fit;
+  morph::filters::Picker Picker;
+
+  /// Forgets the names of the patches.
+  void ClearList()
+  {
+    this->PatchList->RemoveAllArrays();
+    this->PatchSizes->Initialize();
+    this->PatchBounds->Initialize();
+    this->PatchBounds->SetNumberOfComponents(6);
+    this->ListedVersion = -1;
+  }
+  /// Finds the boundary and its geometry, and its patches' names.
+  void Classify(
+    const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
+  /// `target`: of MOTION_TARGET, or null.
+  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
+    vtkPolyData* target, vtkPolyData* output, morph::filters::Monitor& monitor);
+
+private:
+  /// The positions of what moves, on the target. Chooses what moves, too.
+  morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
+    vtkPolyData* target, morph::filters::Monitor& monitor);
+  void WriteDistances(const morph::filters::Surroundings::Result& result, vtkPolyData* output);
+};

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/NamedSets.h"
+
+#include "Mesh/CellShape.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <set>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Index;
+
+/// Whether each point or cell is marked; empty without an array that has a value for each.
+std::vector<std::uint8_t> marks(vtkDataSetAttributes* data, const char* name, vtkIdType count)
+{
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfTuples() != count)
+  {
+    return {};
+  }
+  std::vector<std::uint8_t> result(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    result[static_cast<std::size_t>(i)] = value < 0 || value > 0; // a NaN marks nothing
+  }
+  return result;
+}
+
+std::vector<Index> sortedCorners(const Index* begin, const Index* end)
+{
+  std::vector<Index> corners(begin, end);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+std::vector<Index> cornersOf(const morph::BoundaryFaces& faces, std::size_t face)
+{
+  const Index* all = faces.connectivity.data();
+  return sortedCorners(all + faces.offsets[face], all + faces.offsets[face + 1]);
+}
+
+/// The corners of the two-dimensional cells that are marked.
+std::set<std::vector<Index>> markedFlatCells(
+  const morph::Mesh& mesh, const std::vector<std::uint8_t>& isMarked)
+{
+  std::set<std::vector<Index>> result;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const morph::CellShape* shape =
+      isMarked[static_cast<std::size_t>(c)] ? morph::cellShape(mesh.types[c]) : nullptr;
+    if (shape && shape->dimension == 2)
+    {
+      const int known = shape->numberOfCorners;
+      const Index size = known > 0 ? known : mesh.cellSize(c);
+      result.insert(sortedCorners(mesh.cell(c), mesh.cell(c) + size));
+    }
+  }
+  return result;
+}
+
+void addFacesOfCells(const morph::Mesh& mesh, const morph::BoundaryFaces& faces, Index firstPolygon,
+  const std::vector<std::uint8_t>& isMarked, std::vector<Index>& result)
+{
+  const std::size_t count = faces.offsets.size() - 1;
+  const bool isGrid = mesh.numberOfCells() > 0;
+  const std::set<std::vector<Index>> flat =
+    isGrid ? markedFlatCells(mesh, isMarked) : std::set<std::vector<Index>>();
+  for (std::size_t f = 0; f < count; ++f)
+  {
+    const Index behind = isGrid ? faces.cells[f] : firstPolygon + static_cast<Index>(f);
+    if (flat.empty() ? isMarked[static_cast<std::size_t>(behind)] != 0
+                     : flat.count(cornersOf(faces, f)) > 0)
+    {
+      result.push_back(static_cast<Index>(f));
+    }
+  }
+}
+
+void sortUnique(std::vector<Index>& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+NamedSet findSet(vtkPointSet* input, const char* name, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, Index firstPolygon)
+{
+  NamedSet set;
+  set.Name = name;
+  const auto isNode = marks(input->GetPointData(), name, input->GetNumberOfPoints());
+  const auto isCell = marks(input->GetCellData(), name, input->GetNumberOfCells());
+  if (!isCell.empty())
+  {
+    addFacesOfCells(mesh, faces, firstPolygon, isCell, set.Faces);
+    for (const Index face : set.Faces)
+    {
+      const auto begin = faces.connectivity.begin();
+      set.Nodes.insert(set.Nodes.end(), begin + faces.offsets[static_cast<std::size_t>(face)],
+        begin + faces.offsets[static_cast<std::size_t>(face) + 1]);
+    }
+  }
+  if (!isNode.empty())
+  {
+    std::copy_if(faces.nodes.begin(), faces.nodes.end(), std::back_inserter(set.Nodes),
+      [&](Index node) { return isNode[static_cast<std::size_t>(node)] != 0; });
+    for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+    {
+      const auto begin = faces.connectivity.begin();
+      if (std::all_of(begin + faces.offsets[f], begin + faces.offsets[f + 1],
+            [&](Index node) { return isNode[static_cast<std::size_t>(node)] != 0; }))
+      {
+        set.Faces.push_back(static_cast<Index>(f));
+      }
+    }
+  }
+  sortUnique(set.Nodes);
+  sortUnique(set.Faces);
+  return set;
+}
+}
+
+std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, Index firstPolygon)
+{
+  std::vector<NamedSet> result;
+  auto* names =
+    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    const std::string name = names->GetValue(i);
+    if (names->LookupValue(name) < i)
+    {
+      continue; // named twice
+    }
+    NamedSet set = findSet(input, name.c_str(), mesh, faces, firstPolygon);
+    if (!set.Nodes.empty())
+    {
+      result.push_back(std::move(set));
+    }
+  }
+  return result;
+}
+
+void AddNamedSets(const std::vector<NamedSet>& sets, const std::vector<Index>& faceOf,
+  Index firstPolygon, vtkPolyData* output)
+{
+  if (sets.empty())
+  {
+    return;
+  }
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  for (const NamedSet& set : sets)
+  {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(set.Name.c_str());
+    array->SetNumberOfValues(output->GetNumberOfCells());
+    array->FillValue(0);
+    for (std::size_t polygon = 0; polygon < faceOf.size(); ++polygon)
+    {
+      const bool has = std::binary_search(set.Faces.begin(), set.Faces.end(), faceOf[polygon]);
+      array->SetValue(firstPolygon + static_cast<vtkIdType>(polygon), has);
+    }
+    output->GetCellData()->AddArray(array);
+    names->InsertNextValue(set.Name);
+  }
+  output->GetFieldData()->AddArray(names);
+}
+}

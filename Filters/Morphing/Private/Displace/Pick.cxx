@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/Pick.h"
+
+#include "Private/Data/Surface.h"
+#include "Private/Displace/BlockPick.h"
+#include "Private/Displace/Patches.h"
+#include "Private/Displace/Selection.h"
+#include "Support/Error.h"
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkDataObjectTree.h>
+#include <vtkDataSet.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <string>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Index;
+using Corners = std::vector<Index>; ///< of a face, ascending node ids
+
+/// What was selected on the boundary: each item lies on one surface or more.
+struct Items
+{
+  std::vector<std::vector<Index>> SurfacesOf; ///< #items, ascending and unique
+  std::vector<Index> FacesOn;                 ///< #surfaces, the selected faces on it
+};
+
+void unify(std::vector<Index>& numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// The mesh's node of a point of `shown`.
+class Nodes
+{
+public:
+  explicit Nodes(vtkDataSet* shown)
+    : Ids(shown->GetPointData()->GetArray(Surface::IdName))
+  {
+    if (this->Ids && this->Ids->GetNumberOfTuples() != shown->GetNumberOfPoints())
+    {
+      this->Ids = nullptr;
+    }
+  }
+  Index operator()(vtkIdType point) const
+  {
+    return static_cast<Index>(this->Ids ? this->Ids->GetComponent(point, 0) : point);
+  }
+
+private:
+  vtkDataArray* Ids;
+};
+
+Corners cornersOf(vtkIdList* points, const Nodes& nodes)
+{
+  Corners corners;
+  for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+  {
+    corners.push_back(nodes(points->GetId(i)));
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Whether each of the model's nodes is at a selected point.
+std::vector<std::uint8_t> selectedNodes(
+  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const BoundaryModel& model)
+{
+  std::vector<Index> ids;
+  for (std::size_t i = 0; i < flags.size(); ++i)
+  {
+    if (flags[i])
+    {
+      ids.push_back(nodes(static_cast<vtkIdType>(i)));
+    }
+  }
+  unify(ids);
+  // A model made from a surface has numbers of its own for the mesh's nodes.
+  vtkPolyData* surface = model.Surface();
+  const Nodes nodesOfSurface(surface);
+  std::vector<std::uint8_t> isSelected(model.Points().rows(), 0);
+  for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
+  {
+    const Index id = nodesOfSurface(static_cast<vtkIdType>(i));
+    isSelected[model.NodeOfPoint()[i]] = std::binary_search(ids.begin(), ids.end(), id);
+  }
+  return isSelected;
+}
+
+Items itemsOfPoints(
+  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const BoundaryModel& model)
+{
+  const morph::Classification& geometry = model.Geometry();
+  const std::vector<std::uint8_t> isSelected = selectedNodes(flags, nodes, model);
+  std::vector<std::vector<Index>> surfacesOf(isSelected.size());
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    for (Index node : geometry.surfaces[s].nodes)
+    {
+      if (isSelected[node])
+      {
+        surfacesOf[node].push_back(static_cast<Index>(s));
+      }
+    }
+  }
+  Items items;
+  items.FacesOn.assign(geometry.surfaces.size(), 0);
+  std::copy_if(surfacesOf.begin(), surfacesOf.end(), std::back_inserter(items.SurfacesOf),
+    [](const std::vector<Index>& surfaces) { return !surfaces.empty(); });
+  return items;
+}
+
+/// Adds an item for each selected face: those of the boundary with the same corners.
+void addFaces(std::vector<Corners>& selected, const BoundaryModel& model, Items& items)
+{
+  std::sort(selected.begin(), selected.end());
+  vtkPolyData* surface = model.Surface();
+  const Nodes nodes(surface);
+  vtkCellArray* polygons = surface->GetPolys();
+  vtkNew<vtkIdList> points;
+  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+  {
+    polygons->GetCellAtId(i, points);
+    if (std::binary_search(selected.begin(), selected.end(), cornersOf(points, nodes)))
+    {
+      const Index number = model.Geometry().surfaceOfFace[model.FaceOfPolygon()[i]];
+      items.SurfacesOf.push_back({ number });
+      ++items.FacesOn[number];
+    }
+  }
+}
+
+Items itemsOfCells(const std::vector<std::uint8_t>& flags, vtkDataSet* shown, const Nodes& nodes,
+  const BoundaryModel& model)
+{
+  const morph::BoundaryFaces& faces = model.Faces();
+  std::vector<Corners> selected;
+  vtkNew<vtkIdList> points;
+  for (std::size_t i = 0; i < flags.size(); ++i)
+  {
+    const vtkIdType cell = static_cast<vtkIdType>(i);
+    if (flags[i] && shown->GetCell(cell)->GetCellDimension() == 2)
+    {
+      shown->GetCellPoints(cell, points);
+      selected.push_back(cornersOf(points, nodes));
+    }
+  }
+  Items items;
+  items.FacesOn.assign(model.Geometry().surfaces.size(), 0);
+  std::vector<std::vector<Index>> surfacesOf(flags.size());
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    const Index cell = faces.cells[f];
+    if (cell >= 0 && cell < static_cast<Index>(flags.size()) && flags[cell] &&
+        shown->GetCell(cell)->GetCellDimension() == 3)
+    {
+      const Index number = model.Geometry().surfaceOfFace[f];
+      surfacesOf[cell].push_back(number);
+      ++items.FacesOn[number];
+    }
+  }
+  for (std::vector<Index>& surfaces : surfacesOf)
+  {
+    if (!surfaces.empty())
+    {
+      unify(surfaces);
+      items.SurfacesOf.push_back(std::move(surfaces));
+    }
+  }
+  if (!selected.empty())
+  {
+    addFaces(selected, model, items);
+  }
+  return items;
+}
+
+/// The fewest surfaces, greedily, so that each item lies on one.
+std::vector<Index> cover(const Items& items)
+{
+  std::vector<Index> chosen;
+  std::vector<std::uint8_t> isExplained(items.SurfacesOf.size(), 0);
+  for (;;)
+  {
+    std::vector<Index> count(items.FacesOn.size(), 0);
+    for (std::size_t i = 0; i < isExplained.size(); ++i)
+    {
+      for (Index surface : items.SurfacesOf[i])
+      {
+        count[surface] += isExplained[i] == 0;
+      }
+    }
+    Index best = -1;
+    const auto rank = [&](Index s) { return std::array<Index, 2>{ count[s], items.FacesOn[s] }; };
+    for (Index s = 0; s < static_cast<Index>(count.size()); ++s)
+    {
+      if (count[s] > 0 && (best < 0 || rank(s) > rank(best)))
+      {
+        best = s;
+      }
+    }
+    if (best < 0)
+    {
+      std::sort(chosen.begin(), chosen.end());
+      return chosen;
+    }
+    chosen.push_back(best);
+    for (std::size_t i = 0; i < isExplained.size(); ++i)
+    {
+      const std::vector<Index>& surfaces = items.SurfacesOf[i];
+      isExplained[i] |= std::binary_search(surfaces.begin(), surfaces.end(), best);
+    }
+  }
+}
+
+void writeCurves(const BoundaryModel& model, const std::vector<Index>& curves, vtkPolyData* output)
+{
+  const std::vector<Index>& nodeOfPoint = model.NodeOfPoint();
+  vtkNew<vtkCellArray> lines;
+  for (Index number : curves)
+  {
+    const morph::GeometryCurve& curve = model.Geometry().curves[number];
+    std::vector<vtkIdType> line;
+    for (Index node : curve.nodes)
+    {
+      const auto at = std::lower_bound(nodeOfPoint.begin(), nodeOfPoint.end(), node);
+      line.push_back(at - nodeOfPoint.begin());
+    }
+    if (curve.loop && !line.empty())
+    {
+      line.push_back(line.front());
+    }
+    lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
+  }
+  output->SetLines(lines);
+}
+}
+
+namespace Pick
+{
+std::vector<Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
+  vtkExtractSelection* extractor, const BoundaryModel& model)
+{
+  const Selection::Inside inside = Selection::Evaluate(shown, selection, extractor);
+  const Nodes nodes(shown);
+  return cover(inside.ByPoints ? itemsOfPoints(inside.Flags, nodes, model)
+                               : itemsOfCells(inside.Flags, shown, nodes, model));
+}
+
+void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* extractor,
+  const Blocks& blocks, const BoundaryModel& model, vtkDataArraySelection* names)
+{
+  names->RemoveAllArrays();
+  for (const std::string& name : Patches::Names(model))
+  {
+    names->AddArray(name.c_str(), false);
+  }
+  if (!selection || selection->GetNumberOfNodes() == 0)
+  {
+    return;
+  }
+  if (!model.Surface())
+  {
+    throw morph::Error("The mesh is not read yet. Apply the filter once.");
+  }
+  BlockPick::OnGrid ofBlocks; // keeps what it holds until the end
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(shown))
+  {
+    ofBlocks = BlockPick::Translate(blocks, tree, selection, extractor);
+    shown = ofBlocks.Shown;
+    selection = ofBlocks.Selection;
+  }
+  auto* data = vtkDataSet::SafeDownCast(shown);
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    throw morph::Error("It is of data without points. Select points or cells of the mesh.");
+  }
+  for (Index surface : Surfaces(data, selection, extractor, model))
+  {
+    names->EnableArray(Patches::SurfaceName(model.Geometry(), surface).c_str());
+  }
+}
+
+void Write(const BoundaryModel& model, vtkDataArraySelection* names, vtkPolyData* positions,
+  vtkPolyData* output)
+{
+  output->Initialize();
+  vtkPolyData* surface = model.Surface();
+  if (!surface)
+  {
+    return;
+  }
+  std::set<std::string> enabled;
+  for (const std::string& name : Patches::Names(model))
+  {
+    if (names->ArrayExists(name.c_str()) && names->ArrayIsEnabled(name.c_str()))
+    {
+      enabled.insert(name);
+    }
+  }
+  const bool isMoved = positions && positions->GetNumberOfPoints() == surface->GetNumberOfPoints();
+  output->SetPoints((isMoved ? positions : surface)->GetPoints());
+  output->GetPointData()->AddArray(surface->GetPointData()->GetArray(Surface::IdName));
+  const Patches::Part part = Patches::Find(model, enabled, "the list");
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkIdList> points;
+  for (vtkIdType i = 0; i < surface->GetPolys()->GetNumberOfCells(); ++i)
+  {
+    if (part.HasFace[model.FaceOfPolygon()[i]])
+    {
+      surface->GetPolys()->GetCellAtId(i, points);
+      polygons->InsertNextCell(points);
+    }
+  }
+  output->SetPolys(polygons);
+  writeCurves(model, Patches::Curves(model.Geometry(), enabled), output);
+}
+}
+}

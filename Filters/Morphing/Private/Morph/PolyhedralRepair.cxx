@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Morph/PolyhedralRepair.h"
+
+#include "Mesh/PolyhedronPieces.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/ProgressRange.h"
+#include "Untangling/InversionFree.h"
+
+#include <utility>
+
+namespace morph::filters::PolyhedralRepair
+{
+void Adapt(morph::Morpher& method)
+{
+  if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(&method))
+  {
+    inversionFree->setRaising(false);
+  }
+}
+
+bool Run(const morph::Mesh& mesh, const morph::Points& reference,
+  const morph::NodePartition& partition, const std::vector<std::int8_t>& orientation,
+  morph::Points& moved, morph::Monitor& monitor)
+{
+  constexpr int Rounds = 4;
+  const auto bad = [&](const morph::Points& points)
+  { return morph::invertedCells(mesh, points, orientation, monitor).size(); };
+  std::size_t left = bad(moved);
+  if (left == 0)
+  {
+    return true;
+  }
+  morph::ProgressRange preparing(monitor, 0, 0.3);
+  const morph::PolyhedronPieces pieces(mesh, preparing);
+  morph::InversionFree repair;
+  Adapt(repair);
+  repair.setReference(pieces.extend(reference));
+  repair.prepare(pieces.mesh(), pieces.extend(partition), preparing);
+  morph::Points points = moved;
+  for (int round = 0; round < Rounds && left > 0; ++round)
+  {
+    morph::ProgressRange part(
+      monitor, 0.3 + 0.7 * round / Rounds, 0.3 + 0.7 * (round + 1) / Rounds);
+    morph::Points all = pieces.extend(points);
+    repair.repair(all, part);
+    morph::Points repaired = all.topRows(moved.rows());
+    if (repaired == points)
+    {
+      break;
+    }
+    points = std::move(repaired);
+    const std::size_t now = bad(points);
+    if (now < left)
+    {
+      left = now;
+      moved = points;
+    }
+  }
+  return left == 0;
+}
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+class Morpher;
+}
+
+/// The inversion-free method on meshes with polyhedra, whose pieces it sees (PolyhedronPieces.h).
+namespace morph::filters::PolyhedralRepair
+{
+/// Sets what `method` needs on pieces, if it is the inversion-free one: it does not raise the
+/// minimum scaled Jacobian, which is that of pieces and not of polyhedra.
+void Adapt(morph::Morpher& method);
+
+/// Repairs `moved`, #nodes x 3, in rounds: each puts the centres back to the means of their nodes
+/// and repairs the pieces. Keeps the mesh with the fewest bad polyhedra and other cells. Returns
+/// whether none are left. `reference`: see morph::Morpher::setReference().
+bool Run(const morph::Mesh& mesh, const morph::Points& reference,
+  const morph::NodePartition& partition, const std::vector<std::int8_t>& orientation,
+  morph::Points& moved, morph::Monitor& monitor);
+}

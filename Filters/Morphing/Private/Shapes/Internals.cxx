@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Shapes/Internals.h"
+
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Private/Data/BadCells.h"
+#include "Private/Data/Output.h"
+#include "Private/Data/Quality.h"
+#include "Private/Pipeline/Input.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace filters = morph::filters;
+
+namespace
+{
+std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
+{
+  switch (method)
+  {
+    case vtkMorphShapes::METHOD_LBWARP:
+    {
+      auto lbwarp = std::make_unique<morph::LogBarrierWarp>();
+      lbwarp->setTolerance(tolerance);
+      lbwarp->setOutsideHull(morph::LogBarrierWarp::OutsideHull::Relax);
+      return lbwarp;
+    }
+    case vtkMorphShapes::METHOD_WEIGHTED_RESIDUAL:
+      return std::make_unique<morph::WeightedResidual>();
+    case vtkMorphShapes::METHOD_SIMPLEX_LINEAR:
+      return std::make_unique<morph::SimplexLinear>();
+    case vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR:
+      return std::make_unique<morph::SimplexNaturalNeighbor>();
+    default:
+      break;
+  }
+  auto femwarp = std::make_unique<morph::FemWarp>();
+  femwarp->setTolerance(tolerance);
+  return femwarp;
+}
+}
+
+filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
+{
+  filters::ShapeModes::Options options;
+  options.Matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
+  options.Matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
+  options.Matching.MatchTolerance = this->Filter->MatchTolerance;
+  options.Matching.HoldUnnamedBoundary = this->Filter->HoldUnnamedBoundary;
+  std::ostringstream text;
+  text.precision(17);
+  text << this->Filter->Method << " " << this->Filter->Tolerance;
+  options.Method = text.str();
+  options.CreateMorpher = [filter = this->Filter]
+  { return makeMethod(filter->Method, filter->Tolerance); };
+  return options;
+}
+
+std::vector<filters::ShapeModes::Shape> vtkMorphShapes::vtkInternals::Shapes(
+  vtkInformationVector* boundaries) const
+{
+  const int number = boundaries->GetNumberOfInformationObjects();
+  if (number == 0)
+  {
+    throw morph::Error("There is no shape: connect displaced boundaries to port 1, one for each "
+                       "shape, Boundary Displacement's output for instance.");
+  }
+  std::vector<filters::ShapeModes::Shape> shapes;
+  for (int i = 0; i < number; ++i)
+  {
+    const std::string name = this->Filter->GetShapeName(i);
+    try
+    {
+      shapes.push_back({ name,
+        filters::Input::RequireBoundary(
+          this->Ports.AsOne(vtkDataObject::GetData(boundaries, i), "The boundary")),
+        this->Filter->GetMotion(i) == MOTION_AS_ROTATION });
+    }
+    catch (const morph::Error& error)
+    {
+      throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
+    }
+  }
+  return shapes;
+}
+
+vtkMorphShapes::vtkInternals::Source vtkMorphShapes::vtkInternals::SourceOf(
+  vtkInformationVector* boundaries) const
+{
+  const filters::ShapeModes::Options options = this->Options();
+  std::ostringstream settings;
+  settings.precision(17);
+  settings << options.Method << "\n"
+           << options.Matching.BoundaryIdArray << "\n"
+           << options.Matching.DisplacementArray << "\n"
+           << options.Matching.MatchTolerance << " " << options.Matching.HoldUnnamedBoundary;
+  Source source;
+  for (int i = 0; i < boundaries->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkDataObject* boundary = vtkDataObject::GetData(boundaries, i);
+    if (!vtkPointSet::SafeDownCast(boundary))
+    {
+      return {}; // the time of composite data is not that of its blocks
+    }
+    settings << "\n" << this->Filter->GetMotion(i) << " " << this->Filter->GetShapeName(i);
+    source.second.emplace_back(boundary, boundary->GetMTime());
+  }
+  source.first = settings.str();
+  return source;
+}
+
+void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph::Monitor& monitor)
+{
+  Source source = this->SourceOf(boundaries);
+  if (!source.first.empty() && source == this->SolvedFrom)
+  {
+    for (const std::string& warning : this->Modes.GetWarnings())
+    {
+      monitor.warn(warning);
+    }
+    this->Results.SetInteger("SolverIterations", 0);
+    this->Results.SetNumber("PrepareSeconds", 0);
+    this->Results.SetInteger("PrescribedPoints", this->Prescribed);
+    return;
+  }
+  this->SolvedFrom = {};
+  const filters::ShapeModes::Effort effort =
+    this->Modes.Solve(this->Shapes(boundaries), this->Options(), monitor);
+  this->Results.SetInteger(
+    "PrepareCount", this->Results.Integer("PrepareCount") + effort.Preparations);
+  this->Results.SetInteger("SolveCount", this->Results.Integer("SolveCount") + effort.Solved);
+  this->Results.SetInteger("SolverIterations", effort.Iterations);
+  this->Results.SetNumber("PrepareSeconds", effort.Seconds);
+  this->Results.SetInteger("PrescribedPoints", effort.Prescribed);
+  this->Prescribed = effort.Prescribed;
+  this->SolvedFrom = std::move(source);
+}
+
+std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
+  std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor)
+{
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < shapes; ++i)
+  {
+    weights.push_back(this->Filter->GetWeight(static_cast<int>(i)));
+  }
+  if (!table)
+  {
+    this->Designs = {};
+    return weights;
+  }
+  filters::Designs designs = filters::Designs::Read(table, this->Names(shapes), weights);
+  designs.KeepAnswer(std::move(this->Designs));
+  this->Designs = std::move(designs);
+  if (this->Filter->CheckDesigns)
+  {
+    std::vector<morph::Index> rows;
+    for (const std::size_t row : this->Designs.Inverted(this->Modes, monitor))
+    {
+      rows.push_back(static_cast<morph::Index>(row));
+    }
+    this->Results.SetText("InvertingDesigns", rows.empty() ? "none" : morph::listIds(rows, 100));
+  }
+  const auto last = static_cast<vtkIdType>(this->Designs.Number()) - 1;
+  return this->Designs[std::min(this->Row, last)];
+}
+
+void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
+  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
+  morph::Monitor& monitor)
+{
+  vtkUnstructuredGrid* output = this->Ports.Output(outputs);
+  if (this->Modes.SetGrid(grid, monitor))
+  {
+    this->SolvedFrom = {};
+  }
+  this->Modes.SetFeatureLines(this->Filter->FeatureLines);
+  this->Results.SetInteger("MirroredBodies", this->Modes.GetKept().MirroredBodies());
+  morph::ProgressRange solving(monitor, 0, 0.6);
+  this->Solve(boundaries, solving);
+  morph::ProgressRange checking(monitor, 0.6, 0.8);
+  const std::vector<double> weights =
+    this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
+
+  const auto start = std::chrono::steady_clock::now();
+  const morph::Points& rest = this->Modes.GetKept().Mesh().points;
+  morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
+  this->Results.SetNumber("EvaluateSeconds",
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
+  if (this->Filter->FindValidRanges)
+  {
+    this->FindRanges(weights, monitor);
+  }
+  this->Measure(
+    output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
+  this->WriteShapes(weights, output);
+  this->Weights = weights;
+}
+
+void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+{
+  const bool all = this->Filter->Quality == QUALITY_ALL;
+  const std::vector<std::uint8_t>& inner = this->Modes.GetKept().Surface().InnerCells();
+  const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
+  const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
+  const morph::Quality quality =
+    all ? filters::Quality::Measure(mesh, output, orientation, monitor)
+        : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
+  this->Results.SetInteger("SurfaceInvertedCells",
+    this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
+  filters::Quality::Remove(output);
+  if (all)
+  {
+    filters::Quality::Write(quality, output);
+    filters::BadCells::Extract(quality, output, badCells);
+    this->Results.Set(quality);
+    this->Results.SetText(
+      "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
+  }
+  else
+  {
+    this->Results.SetText("MorphStatus", "Unmeasured");
+  }
+  this->Results.Write(output);
+}
+
+void vtkMorphShapes::vtkInternals::FindRanges(
+  const std::vector<double>& weights, morph::Monitor& monitor)
+{
+  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, this->Moved, monitor);
+  this->Results.SetText("ValidRanges", this->Ranges.Text(this->Names(weights.size())));
+  this->Results.SetNumber("LargestFactor", this->Ranges.LargestFactor);
+}
+
+std::vector<std::string> vtkMorphShapes::vtkInternals::Names(std::size_t number) const
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < number; ++i)
+  {
+    names.push_back(this->Filter->GetShapeName(static_cast<int>(i)));
+  }
+  return names;
+}
+
+void vtkMorphShapes::vtkInternals::WriteShapes(
+  const std::vector<double>& weights, vtkUnstructuredGrid* output) const
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("ShapeNames");
+  for (const std::string& name : this->Names(weights.size()))
+  {
+    names->InsertNextValue(name);
+  }
+  output->GetFieldData()->AddArray(names);
+  const auto add = [&](const char* name, const auto& valueOf)
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(name);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      values->InsertNextValue(valueOf(i));
+    }
+    output->GetFieldData()->AddArray(values);
+  };
+  add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
+  if (this->Filter->FindValidRanges)
+  {
+    add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
+    add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });
+  }
+}

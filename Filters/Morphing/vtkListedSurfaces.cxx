@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkListedSurfaces.h"
+
+#include "vtkBoundaryDisplacement.h"
+#include "vtkMorphMesh.h"
+
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkListedSurfaces);
+
+vtkListedSurfaces::vtkListedSurfaces()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkListedSurfaces::~vtkListedSurfaces() = default;
+
+void vtkListedSurfaces::SetFilter(vtkAlgorithm* filter)
+{
+  if (this->Filter != filter)
+  {
+    this->Filter = filter;
+    this->Modified();
+  }
+}
+
+void vtkListedSurfaces::SetSurfaceStatus(const char* name, int status)
+{
+  if (!name || (this->Names->ArrayExists(name) != 0) == (status != 0))
+  {
+    return;
+  }
+  if (status != 0)
+  {
+    this->Names->AddArray(name, true);
+  }
+  else
+  {
+    this->Names->RemoveArrayByName(name);
+  }
+  this->Modified();
+}
+
+void vtkListedSurfaces::RemoveAllSurfaces()
+{
+  if (this->Names->GetNumberOfArrays() > 0)
+  {
+    this->Names->RemoveAllArrays();
+    this->Modified();
+  }
+}
+
+vtkMTimeType vtkListedSurfaces::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  if (this->Filter)
+  {
+    vtkDataObject* output = this->Filter->GetOutputDataObject(0);
+    time = std::max({ time, this->Filter->GetMTime(), output ? output->GetMTime() : 0 });
+  }
+  return time;
+}
+
+int vtkListedSurfaces::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  if (auto* morph = vtkMorphMesh::SafeDownCast(this->Filter))
+  {
+    morph->CopySurfaces(this->Names, output);
+  }
+  else if (auto* displacement = vtkBoundaryDisplacement::SafeDownCast(this->Filter))
+  {
+    displacement->CopyPatches(this->Names, output);
+  }
+  return 1;
+}
+
+void vtkListedSurfaces::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Filter: " << this->Filter.Get() << "\n";
+  os << indent << "Surfaces: ";
+  for (int i = 0; i < this->Names->GetNumberOfArrays(); ++i)
+  {
+    os << (i > 0 ? ", " : "") << this->Names->GetArrayName(i);
+  }
+  os << "\n";
+}

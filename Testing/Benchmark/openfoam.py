@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same mesh and motion by OpenFOAM's own mesh motion and by ours, in one run.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython openfoam.py [--cells N] [--motion NAME]
+Prints a table: seconds, non-orthogonality, skewness, and cells that checkMesh or the scaled
+Jacobian finds wrong. OpenFOAM's seconds are the processor time of moveDynamicMesh, its start
+included; ours are those of preparing and evaluating. Both run on one processor. The mesh is
+polyDualMesh's, of about 2 (N + 1)^3 polyhedra.
+"""
+import argparse
+import os
+import pathlib
+import re
+import sys
+import tempfile
+
+from paraview.simple import *
+from paraview import servermanager
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "ParaView"))
+import foam_case
+
+LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+CONTROL = """application moveDynamicMesh; startFrom startTime; startTime 0; stopAt endTime;
+endTime 1; deltaT %.17g; writeControl timeStep; writeInterval %d; writeFormat ascii;
+writePrecision 17; libs ("libfvMotionSolvers.so");"""
+SCHEMES = """ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
+divSchemes { default Gauss linear; } laplacianSchemes { default Gauss linear corrected; }
+interpolationSchemes { default linear; } snGradSchemes { default corrected; }"""
+SOLUTION = """solvers { "cellDisplacement.*"
+{ solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; } }
+PIMPLE { nNonOrthogonalCorrectors 2; }"""
+DYNAMIC = """dynamicFvMesh dynamicMotionSolverFvMesh; motionSolverLibs ("libfvMotionSolvers.so");
+motionSolver %s; %sCoeffs { diffusivity %s; }"""
+# Solver, diffusivity and steps. The terms that set displacementSBRStress apart come from the step
+# before, so that one step of it is displacementLaplacian's.
+SETTINGS = (("displacementLaplacian", "uniform", 1),
+            ("displacementLaplacian", "quadratic inverseDistance 1(%s)", 1),
+            ("displacementLaplacian", "inverseVolume", 1),
+            ("displacementSBRStress", "uniform", 10),
+            ("displacementSBRStress", "quadratic inverseDistance 1(%s)", 10))
+OURS = ("FEMWARP", "LBWARP", "SimplexLinear", "InversionFree")
+
+
+def patch(case):
+    """The name of the only patch, and its points in the order of OpenFOAM's patch addressing."""
+    text = (case.mesh / "boundary").read_text()
+    name = re.search(r"\n\d+\n\(\s*(\w+)", text)[1]
+    count = int(re.search(r"nFaces\s+(\d+)", text)[1])
+    start = int(re.search(r"startFace\s+(\d+)", text)[1])
+    faces = re.findall(r"\d+\(([\d ]+)\)", (case.mesh / "faces").read_text())
+    order = {}
+    for face in faces[start:start + count]:
+        for point in face.split():
+            order.setdefault(int(point), None)
+    return name, list(order)
+
+
+def prepare(case, name, points, grid, motion):
+    """Writes the displacement of the patch."""
+    rows = []
+    for point in points:
+        x = grid.GetPoint(point)
+        rows.append("(%.17g %.17g %.17g)" % tuple(b - a for a, b in zip(x, motion(x))))
+    value = "nonuniform List<vector> %d (%s)" % (len(rows), "\n".join(rows))
+    case.write("0/pointDisplacement", "pointVectorField",
+               "dimensions [0 1 0 0 0 0 0]; internalField uniform (0 0 0);\n"
+               f"boundaryField {{ {name} {{ type fixedValue; value {value}; }} }}\n")
+    case.write("system/fvSchemes", "dictionary", SCHEMES)
+    case.write("system/fvSolution", "dictionary", SOLUTION)
+
+
+def openfoam(case, name, solver, diffusivity, steps):
+    """Moves the mesh; returns the seconds of all steps. The result is time 1's mesh."""
+    diffusivity = diffusivity.replace("%s", name)
+    case.write("system/controlDict", "dictionary", CONTROL % (1 / steps, steps))
+    case.write("constant/dynamicMeshDict", "dictionary", DYNAMIC % (solver, solver, diffusivity))
+    output = case.run("moveDynamicMesh")
+    return float(re.findall(r"ExecutionTime = ([\d.e+-]+) s", output)[-1])
+
+
+def checked(output):
+    """Non-orthogonality (largest, mean), skewness, and cells or faces that are wrong."""
+    number = lambda pattern: float(found[1]) if (found := re.search(pattern, output)) else 0.0
+    return (number(r"non-orthogonality Max: ([\d.e+-]+)"), number(r"average: ([\d.e+-]+)"),
+            number(r"[Ss]kewness = ([\d.e+-]+)"),
+            int(number(r"[Nn]umber of negative volume cells: (\d+)")),
+            int(number(r"(\d+) faces are incorrectly oriented") or
+                number(r"incorrectly oriented.*: (\d+)")))
+
+
+def inverted(grid):
+    source = TrivialProducer()
+    source.GetClientSideObject().SetOutput(grid)
+    quality = ScaledJacobian(Input=source)
+    quality.UpdatePipeline()
+    field = servermanager.Fetch(quality).GetFieldData()
+    return (field.GetArray("InvertedCells").GetValue(0),
+            field.GetArray("MinScaledJacobian").GetValue(0))
+
+
+def report(label, seconds, output, bad, least):
+    most, mean, skewness, volumes, pyramids = checked(output)
+    print(f"| {label} | {seconds:.2f} | {most:.1f} | {mean:.1f} | {skewness:.2f} | {volumes} | "
+          f"{pyramids} | {bad} | {least:.3f} |", flush=True)
+
+
+def ours(source, motion, name):
+    extract = ExtractMorphBoundary(Input=source)
+    extract.UpdatePipeline()
+    boundary = servermanager.Fetch(extract)
+    for i in range(boundary.GetNumberOfPoints()):
+        boundary.GetPoints().SetPoint(i, motion(boundary.GetPoint(i)))
+    moved = TrivialProducer()
+    moved.GetClientSideObject().SetOutput(boundary)
+    morph = globals()["Morph" + name](Input=source, Boundary=moved, NumberOfThreads=1)
+    morph.UpdatePipeline()
+    grid = servermanager.Fetch(morph)
+    field = grid.GetFieldData()
+    seconds = [field.GetArray(key).GetValue(0) for key in ("PrepareSeconds", "EvaluateSeconds")]
+    return grid, sum(seconds)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--cells", type=int, default=10, help="boxes along x and y (default 10)")
+    parser.add_argument("--motion", choices=("twisted", "bent", "waved"), default="twisted")
+    arguments = parser.parse_args()
+    absent = foam_case.missing("moveDynamicMesh")
+    if absent:
+        sys.exit(f"OpenFOAM is not installed (openfoam): {', '.join(absent)}")
+    motion = getattr(foam_case, arguments.motion)
+    with tempfile.TemporaryDirectory() as folder:
+        case = foam_case.FoamCase(folder)
+        case.make_dual(arguments.cells, arguments.cells, 2 * arguments.cells)
+        grid = case.read()
+        name, points = patch(case)
+        print(f"{grid.GetNumberOfCells()} cells, {grid.GetNumberOfPoints()} points, "
+              f"{arguments.motion}\n")
+        print("| | seconds | non-orthogonality, degrees | mean | skewness | negative volumes | "
+              "wrong pyramids | inverted cells | min. scaled Jacobian |")
+        print("|---|" + "---|" * 8)
+        report("undeformed", 0, case.check()[1], *inverted(grid))
+        prepare(case, name, points, grid, motion)
+        for solver, diffusivity, steps in SETTINGS:
+            seconds = openfoam(case, name, solver, diffusivity, steps)
+            output = case.run("checkMesh", "-time", "1")
+            report(f"{solver}, {diffusivity.replace(' 1(%s)', '')}", seconds, output,
+                   *inverted(case.read(1)))
+        source = TrivialProducer()
+        source.GetClientSideObject().SetOutput(grid)
+        for method in OURS:
+            moved, seconds = ours(source, motion, method)
+            case.write_points(moved)
+            report(method, seconds, case.run("checkMesh", "-time", "0"), *inverted(moved))
+
+
+if __name__ == "__main__":
+    main()
