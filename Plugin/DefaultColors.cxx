@@ -20,10 +20,20 @@ void MeshMorphingSetDefaultColors()
     list.substr(first, last - first) +
     R"(, "AutomaticRescaleRangeMode": -1, "ScalarRangeInitialized": 1, "Discretize": 0 } } } })";
 
+  // The role of a point or face in a displaced boundary: categories with names.
+  const std::string roles = R"({ "array_lookup_tables": { "Role": { "PVLookupTable": {
+    "IndexedLookup": 1,
+    "Annotations": [ "0", "Stays", "1", "Moves", "2", "Held", "3", "Follows" ],
+    "IndexedColors": [ 0.75, 0.75, 0.75, 0.85, 0.35, 0.05, 0.3, 0.3, 0.3, 0.35, 0.65, 0.85 ],
+    "NanColor": [ 1.0, 1.0, 1.0 ] } } } })";
+
   // With a lower priority than the settings of the site and of the user.
   const double priority = 0;
-  if (!vtkSMSettings::GetInstance()->AddCollectionFromString(settings, priority))
+  for (const std::string& defaults : { settings, roles })
   {
-    vtkLogF(ERROR, "MeshMorphing: the default colors of ScaledJacobian were not accepted.");
+    if (!vtkSMSettings::GetInstance()->AddCollectionFromString(defaults, priority))
+    {
+      vtkLogF(ERROR, "MeshMorphing: these default colors were not accepted: %s", defaults.c_str());
+    }
   }
 }

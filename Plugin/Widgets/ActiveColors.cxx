@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ActiveColors.h"
+
+#include "SurfaceColors.h"
+
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <pqView.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkNew.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
+#include <vtkPVDataSetAttributesInformation.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMTransferFunctionManager.h>
+#include <vtkSMTransferFunctionProxy.h>
+#include <vtkSMViewProxy.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+namespace
+{
+bool isWanted(pqDataRepresentation* representation)
+{
+  pqOutputPort* port = representation->getOutputPortFromInput();
+  vtkPVXMLElement* hints = port ? port->getSource()->getProxy()->GetHints() : nullptr;
+  return hints && hints->FindNestedElementByName("ActiveColors") &&
+         representation->getProxy()->GetProperty("ColorArrayName") &&
+         representation->getProxy()->GetProperty("LookupTable");
+}
+
+/// Shows the legend of `table` in a view in place of that of `before`, unless that one was hidden.
+void showLegend(vtkSMProxy* before, vtkSMProxy* table, const char* title, vtkSMProxy* view)
+{
+  if (before && !vtkSMTransferFunctionProxy::IsScalarBarVisible(before, view))
+  {
+    return;
+  }
+  vtkNew<vtkSMTransferFunctionManager> colors;
+  if (before && before != table)
+  {
+    colors->HideScalarBarIfNotNeeded(before, view);
+  }
+  if (vtkSMProxy* const legend = colors->GetScalarBarRepresentation(table, view))
+  {
+    vtkSMPropertyHelper(legend, "Title").Set(title);
+    vtkSMPropertyHelper(legend, "ComponentTitle").Set("");
+    vtkSMPropertyHelper(legend, "Enabled").Set(1);
+    vtkSMPropertyHelper(legend, "Visibility").Set(1);
+    legend->UpdateVTKObjects();
+  }
+}
+
+/// The active scalars, of cells before points; null without.
+vtkPVArrayInformation* activeScalars(vtkPVDataInformation* data, int& association)
+{
+  for (int where : { vtkDataObject::CELL, vtkDataObject::POINT })
+  {
+    vtkPVDataSetAttributesInformation* arrays = data->GetAttributeInformation(where);
+    vtkPVArrayInformation* scalars =
+      arrays ? arrays->GetAttributeInformation(vtkDataSetAttributes::SCALARS) : nullptr;
+    if (scalars)
+    {
+      association = where;
+      return scalars;
+    }
+  }
+  return nullptr;
+}
+}
+
+void ActiveColors::startup()
+{
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    SIGNAL(representationAdded(pqRepresentation*)), this, SLOT(added(pqRepresentation*)));
+}
+
+void ActiveColors::added(pqRepresentation* representation)
+{
+  auto* data = qobject_cast<pqDataRepresentation*>(representation);
+  if (data)
+  {
+    QObject::connect(data, SIGNAL(dataUpdated()), this, SLOT(dataUpdated()));
+  }
+}
+
+void ActiveColors::dataUpdated()
+{
+  auto* representation = qobject_cast<pqDataRepresentation*>(this->sender());
+  if (representation && isWanted(representation))
+  {
+    this->color(representation);
+  }
+}
+
+void ActiveColors::color(pqDataRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  vtkPVDataInformation* data = representation->getOutputPortFromInput()->getDataInformation();
+  vtkSMPropertyHelper colored(proxy, "ColorArrayName");
+  const char* name = colored.GetInputArrayNameToProcess();
+  const bool isSolid = !name || !*name;
+  int association = vtkDataObject::CELL;
+  vtkPVArrayInformation* scalars = activeScalars(data, association);
+  if (!scalars)
+  {
+    if (isSolid && data->GetNumberOfCells() == 0)
+    {
+      this->Uncolored.insert(representation);
+    }
+    return;
+  }
+  const bool wasEmpty = this->Uncolored.remove(representation);
+  const bool isThere =
+    !isSolid && data->GetArrayInformation(name, colored.GetInputArrayAssociation());
+  if (isThere || (isSolid && !wasEmpty))
+  {
+    if (isThere && std::string(name) == "SurfaceId")
+    {
+      SurfaceColors::Name(vtkSMPropertyHelper(proxy, "LookupTable").GetAsProxy(),
+        representation->getOutputPortFromInput()->getSource()->getProxy());
+    }
+    return;
+  }
+  const vtkSmartPointer<vtkSMProxy> before =
+    isSolid ? nullptr : vtkSMPropertyHelper(proxy, "LookupTable").GetAsProxy();
+  vtkNew<vtkSMTransferFunctionManager> colors;
+  vtkSMProxy* table =
+    colors->GetColorTransferFunction(scalars->GetName(), proxy->GetSessionProxyManager());
+  colored.SetInputArrayToProcess(association, scalars->GetName());
+  vtkSMPropertyHelper(proxy, "LookupTable").Set(table);
+  const vtkSMPropertyHelper isFixed(table, "ScalarRangeInitialized", true);
+  if (isFixed.GetAsInt() == 0)
+  {
+    const double* range = scalars->GetComponentRange(0);
+    vtkSMTransferFunctionProxy::RescaleTransferFunction(table, range[0], range[1]);
+  }
+  if (std::string(scalars->GetName()) == "SurfaceId")
+  {
+    SurfaceColors::Name(table, representation->getOutputPortFromInput()->getSource()->getProxy());
+  }
+  proxy->UpdateVTKObjects();
+  if (representation->isVisible() && representation->getView())
+  {
+    showLegend(before, table, scalars->GetName(), representation->getView()->getProxy());
+  }
+  representation->renderViewEventually();
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ActiveColors_h
+#define ActiveColors_h
+
+#include <QObject>
+#include <QSet>
+
+class pqDataRepresentation;
+class pqRepresentation;
+
+/// Keeps a filter's results coloured in the window. ParaView chooses the colours when it first
+/// shows an output. Where that was empty, or had another array, later results would be white. A
+/// filter asks for it by the hint <ActiveColors/>; its results are then coloured by their active
+/// scalars, unless the user has chosen an array that is there, or a solid colour.
+class ActiveColors : public QObject
+{
+  Q_OBJECT
+
+public:
+  ActiveColors() = default;
+  ~ActiveColors() override = default;
+
+  void startup();
+  void shutdown() {}
+
+private Q_SLOTS:
+  void added(pqRepresentation* representation);
+  void dataUpdated();
+
+private:
+  void color(pqDataRepresentation* representation);
+
+  QSet<QObject*> Uncolored; ///< they were empty so far
+};
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef BoxAboutCenter_h
+#define BoxAboutCenter_h
+
+#include <QObject>
+
+#include <array>
+
+class pqInteractivePropertyWidget;
+class vtkBoundingBox;
+class vtkPVXMLElement;
+class vtkSMProperty;
+class vtkSMProxy;
+
+/// Lets the box of a transform turn and scale about the centre of what moves. ParaView's transform
+/// does so about the origin, and places its box around the whole input.
+///
+/// The box is placed around the surfaces that are ticked, so that it turns about their centre when
+/// it is dragged. When a rotation or a scale is typed, the translation is changed with it, so that
+/// the centre stays where it is. The filter's property Center is the centre where AutoCenter is
+/// off.
+class BoxAboutCenter : public QObject
+{
+  Q_OBJECT
+public:
+  /// `hint`: its attributes name properties of the filter: list, with the ticks, and sizes and
+  /// bounds, with the names in the list and their boxes; moving: the value of the property Moving
+  /// with which the list is used.
+  BoxAboutCenter(pqInteractivePropertyWidget* box, vtkSMProxy* filter, vtkPVXMLElement* hint);
+  ~BoxAboutCenter() override;
+
+private Q_SLOTS:
+  void placeLater();
+  void place();
+  void keepCenter();
+
+private:
+  using Triple = std::array<double, 3>;
+  struct Numbers
+  {
+    Triple Position, Rotation, Scale;
+  };
+
+  pqInteractivePropertyWidget* Box;
+  vtkSMProxy* Filter;
+  vtkSMProperty *List, *Sizes, *Bounds, *Moving;
+  int MovingList = 0; ///< of Moving
+  Triple Middle{};    ///< of the box before it is moved
+  Numbers Before{};
+
+  vtkSMProperty* named(vtkPVXMLElement* hint, const char* role) const;
+  Numbers read() const;
+  Triple center() const;
+  /// Around what is ticked; not valid where nothing is.
+  vtkBoundingBox ticked() const;
+};
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceColors_h
+#define SurfaceColors_h
+
+class vtkSMProxy;
+
+/// The colours of the array SurfaceId: a category for each surface, with its name in the legend.
+namespace SurfaceColors
+{
+/// Gives `table`, the array's colours, the surfaces that the filter's property SurfaceSizes lists.
+/// Does nothing where there are more than a legend can hold (24), and to categories of the user.
+void Name(vtkSMProxy* table, vtkSMProxy* filter);
+}
+
+#endif

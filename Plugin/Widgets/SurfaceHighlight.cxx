@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceHighlight.h"
+
+#include <pqView.h>
+#include <vtkClientServerStream.h>
+#include <vtkNew.h>
+#include <vtkSMParaViewPipelineController.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMSession.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+
+namespace
+{
+/// The view's property for what belongs to no pipeline, as its 3D widgets.
+constexpr const char* Hidden = "HiddenRepresentations";
+}
+
+SurfaceHighlight::SurfaceHighlight(vtkSMProxy* filter)
+  : Filter(filter)
+{
+}
+
+SurfaceHighlight::~SurfaceHighlight()
+{
+  this->hide();
+}
+
+void SurfaceHighlight::create()
+{
+  vtkSMSessionProxyManager* proxies = this->Filter->GetSessionProxyManager();
+  this->Source = vtkSmartPointer<vtkSMSourceProxy>::Take(
+    vtkSMSourceProxy::SafeDownCast(proxies->NewProxy("internal_filters", "MorphListedSurfaces")));
+  this->Representation = vtkSmartPointer<vtkSMProxy>::Take(
+    proxies->NewProxy("representations", "GeometryRepresentation"));
+  this->Source->UpdateVTKObjects();
+  // As a property, the filter would be a producer of the source, and be marked as up to date with
+  // it, without an execution.
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(this->Source.Get()) << "SetFilter"
+         << VTKOBJECT(this->Filter) << vtkClientServerStream::End;
+  this->Filter->GetSession()->ExecuteStream(this->Source->GetLocation(), stream);
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(this->Representation);
+  vtkSMPropertyHelper(this->Representation, "Input").Set(this->Source);
+  controller->PostInitializeProxy(this->Representation);
+  const double orange[] = { 1, 0.55, 0 };
+  vtkSMPropertyHelper(this->Representation, "Representation").Set("Wireframe");
+  vtkSMPropertyHelper(this->Representation, "AmbientColor").Set(orange, 3);
+  vtkSMPropertyHelper(this->Representation, "DiffuseColor").Set(orange, 3);
+  vtkSMPropertyHelper(this->Representation, "LineWidth").Set(2.0);
+  vtkSMPropertyHelper(this->Representation, "Pickable").Set(0);
+  this->Representation->UpdateVTKObjects();
+}
+
+void SurfaceHighlight::show(pqView* view, const QStringList& names)
+{
+  if (!view->getProxy()->GetProperty(Hidden))
+  {
+    this->hide();
+    return;
+  }
+  if (!this->Source)
+  {
+    this->create();
+  }
+  vtkSMPropertyHelper list(this->Source, "Surfaces");
+  list.SetNumberOfElements(static_cast<unsigned int>(names.size()));
+  for (int i = 0; i < names.size(); ++i)
+  {
+    list.Set(static_cast<unsigned int>(i), names[i].toUtf8().data());
+  }
+  this->Source->UpdateVTKObjects();
+  this->Source->MarkModified(this->Source); // the filter may have moved the surfaces
+  if (this->View != view)
+  {
+    this->hide();
+    this->View = view;
+    vtkSMPropertyHelper(view->getProxy(), Hidden).Add(this->Representation);
+    view->getProxy()->UpdateVTKObjects();
+  }
+  view->render();
+}
+
+void SurfaceHighlight::hide()
+{
+  if (this->View)
+  {
+    vtkSMPropertyHelper(this->View->getProxy(), Hidden).Remove(this->Representation);
+    this->View->getProxy()->UpdateVTKObjects();
+    this->View->render();
+    this->View = nullptr;
+  }
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceHighlight_h
+#define SurfaceHighlight_h
+
+#include <vtkSmartPointer.h>
+
+#include <QPointer>
+#include <QStringList>
+
+class pqView;
+class vtkSMProxy;
+class vtkSMSourceProxy;
+
+/// Surfaces of a filter's list as coloured lines in a view, apart from its pipeline. The server
+/// cuts them out (vtkListedSurfaces). Neither the source nor its representation is registered, so
+/// that no browser, state or trace has them.
+class SurfaceHighlight
+{
+public:
+  explicit SurfaceHighlight(vtkSMProxy* filter);
+  ~SurfaceHighlight();
+
+  /// Shows the surfaces and curves of these names, and no others. Does nothing in a view that has
+  /// no place for it, as a chart.
+  void show(pqView* view, const QStringList& names);
+  void hide();
+
+private:
+  SurfaceHighlight(const SurfaceHighlight&) = delete;
+  void operator=(const SurfaceHighlight&) = delete;
+
+  void create();
+
+  vtkSMProxy* Filter;
+  vtkSmartPointer<vtkSMSourceProxy> Source;
+  vtkSmartPointer<vtkSMProxy> Representation;
+  QPointer<pqView> View; ///< that shows it, or null
+};
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceList.h"
+
+#include <pqArrayListDomain.h>
+#include <pqArraySelectionWidget.h>
+#include <pqCoreUtilities.h>
+#include <pqTreeViewSelectionHelper.h>
+#include <vtkCommand.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMArraySelectionDomain.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <QHeaderView>
+#include <QMap>
+#include <QVBoxLayout>
+
+SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent)
+  : Superclass(filter, parent)
+  , List(new pqArraySelectionWidget(3, this))
+  , Sizes(nullptr)
+  , Name(filter->GetPropertyName(list))
+{
+  vtkPVXMLElement* const hints = list->GetHints();
+  vtkPVXMLElement* const own = hints ? hints->FindNestedElementByName("SurfaceList") : nullptr;
+  const char* const sizes = own ? own->GetAttribute("sizes") : nullptr;
+  this->Sizes = sizes ? filter->GetProperty(sizes) : nullptr;
+
+  const QByteArray name = this->Name.toUtf8();
+  this->List->setObjectName("ArraySelectionWidget");
+  this->List->setHeaderLabel(0, list->GetXMLLabel());
+  this->List->setHeaderLabel(1, tr("Faces"));
+  this->List->setHeaderLabel(2, tr("Area"));
+  this->List->setMaximumRowCountBeforeScrolling(
+    pqPropertyWidget::hintsWidgetHeightNumberOfRows(hints));
+  new pqTreeViewSelectionHelper(this->List);
+  // ParaView shows such a list's other columns before the names.
+  QHeaderView* const header = this->List->header();
+  header->moveSection(header->visualIndex(0), 0);
+  header->setSectionResizeMode(0, QHeaderView::Stretch);
+  header->setStretchLastSection(false);
+  for (const int column : { 1, 2 })
+  {
+    header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    this->List->setColumnItemData(
+      column, Qt::TextAlignmentRole, static_cast<int>(Qt::AlignRight | Qt::AlignVCenter));
+  }
+
+  auto* const layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(this->List);
+  this->setShowLabel(false);
+  this->setChangeAvailableAsChangeFinished(true);
+
+  auto* const names = list->FindDomain<vtkSMArraySelectionDomain>();
+  if (names)
+  {
+    new pqArrayListDomain(this->List, this->Name, filter, list, names);
+    pqCoreUtilities::connect(names, vtkCommand::DomainModifiedEvent, this, SLOT(showSizes()));
+  }
+  this->addPropertyLink(this->List, name.data(), SIGNAL(widgetModified()), list);
+  this->showSizes();
+}
+
+SurfaceList::~SurfaceList() = default;
+
+void SurfaceList::showSizes()
+{
+  if (!this->Sizes)
+  {
+    return;
+  }
+  this->proxy()->UpdatePropertyInformation(this->Sizes);
+  QMap<QString, QString> counts, measures;
+  const vtkSMPropertyHelper sizes(this->Sizes);
+  for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
+  {
+    const QString name = sizes.GetAsString(i);
+    const QString measure = QString::number(QString(sizes.GetAsString(i + 2)).toDouble(), 'g', 4);
+    const bool isCurve = name.startsWith("Curve ");
+    counts[name] =
+      isCurve ? tr("%1 edges").arg(sizes.GetAsString(i + 1)) : sizes.GetAsString(i + 1);
+    measures[name] = isCurve ? tr("%1 long").arg(measure) : measure;
+  }
+  this->List->setColumnData(1, this->Name, std::move(counts));
+  this->List->setColumnData(2, this->Name, std::move(measures));
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceList_h
+#define SurfaceList_h
+
+#include <pqPropertyWidget.h>
+
+#include <QString>
+
+class pqArraySelectionWidget;
+
+/// A list of surfaces to tick, with the size of each in columns beside its name: faces and area; of
+/// a curve edges and length. It is the widget of a list with a KeptArraySelectionDomain
+/// (panel_widget="SurfaceList"), whose hint names the property that has the sizes, three texts for
+/// each name:
+///
+///     <SurfaceList sizes="SurfaceSizes"/>
+class SurfaceList : public pqPropertyWidget
+{
+  Q_OBJECT
+  using Superclass = pqPropertyWidget;
+
+public:
+  SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent = nullptr);
+  ~SurfaceList() override;
+
+private Q_SLOTS:
+  void showSizes();
+
+private:
+  pqArraySelectionWidget* List;
+  vtkSMProperty* Sizes;
+  QString Name; ///< of the list
+};
+
+#endif

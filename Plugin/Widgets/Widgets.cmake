@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The code of this folder runs in ParaView's window alone, and needs its Qt, 5 or 6. Each class is
+# one line below. Sets for paraview_add_plugin: widget_interfaces, widget_sources,
+# widget_interface_sources, which ParaView makes, and widget_resources; and widget_libraries to
+# link.
+set(widget_interfaces)
+set(widget_sources)
+set(widget_interface_sources)
+set(widget_resources) # icons, and the filters' places in the menu
+set(widget_libraries)
+
+macro (morph_add_client_class class)
+  list(APPEND widget_interfaces ${widget_interface})
+  list(APPEND widget_interface_sources ${widget_interface_source})
+  list(APPEND widget_sources "Widgets/${class}.cxx" "Widgets/${class}.h")
+endmacro ()
+
+# A class that shows a property in the panel: its XML has panel_widget="<type>". Kind: WIDGET, or
+# GROUP_WIDGET for a group of properties, or WIDGET_DECORATOR.
+macro (morph_property_widget class type kind)
+  paraview_plugin_add_property_widget(
+    KIND       "${kind}"
+    TYPE       "${type}"
+    CLASS_NAME "${class}"
+    INTERFACES widget_interface
+    SOURCES    widget_interface_source)
+  morph_add_client_class("${class}")
+endmacro ()
+
+# A class whose startup() is called once, when the plugin is loaded into the window.
+macro (morph_auto_start class)
+  paraview_plugin_add_auto_start(
+    CLASS_NAME "${class}"
+    INTERFACES widget_interface
+    SOURCES    widget_interface_source)
+  morph_add_client_class("${class}")
+endmacro ()
+
+if (PARAVIEW_USE_QT)
+  morph_auto_start(ActiveColors)
+  morph_auto_start(FirstColumns)
+  morph_auto_start(FirstHit)
+  morph_property_widget(SurfaceList SurfaceList WIDGET)
+  morph_property_widget(SurfacePicker surface_picker WIDGET)
+  morph_property_widget(PanelLabel PanelLabel WIDGET_DECORATOR)
+  morph_property_widget(TakeSelection TakeSelection WIDGET_DECORATOR)
+  morph_property_widget(BoxDragDecorator BoxDrag WIDGET_DECORATOR)
+  morph_property_widget(ShapeSliders ShapeSliders WIDGET)
+  if (separate_help)
+    morph_auto_start(MorphHelp)
+  endif ()
+  list(APPEND widget_sources
+    Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
+    Widgets/LiveDrag.cxx Widgets/LiveDrag.h
+    Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h
+    Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h)
+  set(widget_resources Widgets/MeshMorphing.qrc)
+  set(widget_libraries ParaView::pqApplicationComponents VTK::InteractionWidgets)
+endif ()
