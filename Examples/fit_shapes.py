@@ -85,7 +85,10 @@ def volume_of(points):
 
 def points_at(weights):
     blend.Weights = list(weights)
-    return numpy.array(result_of(blend).Points)
+    result = result_of(blend)
+    if blend.MorphStatus not in ("Valid", "Inverted"):  # "Failed": the error has been printed
+        raise SystemExit(f"no mesh for these weights: {blend.MorphStatus}")
+    return numpy.array(result.Points)
 
 
 goal = points_at(TARGET)

@@ -21,11 +21,14 @@ import tempfile
 
 LIBRARIES = {
     "CGAL": r"CGAL/",
+    "CGNS": r"cgns",
     "Eigen": r"(unsupported/)?Eigen/",
     "MPI": r"mpi\.h$",
     "ParaView": r"(vtkSM([^P]|P[a-z]|PV)|vtkPV|vtkSI|pq)",
     "hypre": r"(HYPRE|_hypre)",
     "nanoflann": r"nanoflann",
+    "netCDF": r"netcdf\.h$",
+    "zlib": r"zlib\.h$",
     "VTK": r"vtk",
 }
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')

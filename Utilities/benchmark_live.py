@@ -4,8 +4,8 @@ upstream to the finished picture, and where the time goes. Median of several dra
 which prepares the method. With --surface: with the output Surface in place of the mesh, beside the
 floor, the same view of a surface of that size whose points change. --fade: the boundary fades,
 so that the morph adds the modes of its affine motion. --outer: only the cells behind the surface
-are measured. With --shapes: from a changed
-weight of Morph Shapes to the picture of its output Surface, beside the floor.
+are measured. With --shapes: from a changed weight of Morph Shapes to the picture of its output
+Surface, beside the floor. With --morph-mesh: from a box dragged as Live Drag does it.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
          pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\
@@ -149,6 +149,26 @@ def measure_floor(surface, drags):
     return statistics.median(times[1:])
 
 
+def drag_to_picture(filter_, move, drags):
+    """Medians of its evaluation, the rest of it, the picture of its Surface and all of these; then
+    the floor, and the first picture. move(i): changes the filter for step i."""
+    view = simple.CreateRenderView(ViewSize=[1000, 800])
+    simple.Show(simple.OutputPort(filter_, "Surface"), view)
+    first = seconds(lambda: simple.Render(view))
+    rows = []
+    for step in range(drags):
+        move(step)
+        whole = seconds(filter_.UpdatePipeline)
+        picture = seconds(lambda: simple.Render(view))
+        filter_.UpdatePropertyInformation()
+        evaluate = filter_.EvaluateSeconds
+        rows.append((evaluate, whole - evaluate, picture, whole + picture))
+    surface = filter_.GetClientSideObject().GetOutputDataObject(2)
+    medians = [statistics.median(column) for column in zip(*rows)]
+    simple.Delete(view)
+    return medians + [measure_floor(surface, drags), first]
+
+
 def measure_shapes(part, drags):
     """Medians of the columns of --shapes."""
     boundary = ExtractMorphBoundary(Input=part)
@@ -158,21 +178,23 @@ def measure_shapes(part, drags):
                                "coords + 0.05*coordsX*kHat")]
     blend = MorphShapes(Input=part, Shapes=shapes, Weights=[0, 0, 0], Quality="Surface",
                         FindValidRanges=0)
-    view = simple.CreateRenderView(ViewSize=[1000, 800])
-    simple.Show(simple.OutputPort(blend, "Surface"), view)
-    first = seconds(lambda: simple.Render(view))
-    rows = []
-    for step in range(drags):
+    def weigh(step):
         blend.Weights = [0.02 * (step + 1), 0.5, -0.5]
-        filter_time = seconds(blend.UpdatePipeline)
-        picture = seconds(lambda: simple.Render(view))
-        blend.UpdatePropertyInformation()
-        rows.append((blend.EvaluateSeconds, filter_time - blend.EvaluateSeconds, picture,
-                     filter_time + picture))
-    surface = blend.GetClientSideObject().GetOutputDataObject(2)
-    medians = [statistics.median(column) for column in zip(*rows)]
-    simple.Delete(view)
-    return medians + [measure_floor(surface, drags), first]
+
+    return drag_to_picture(blend, weigh, drags)
+
+
+def measure_morph_mesh(part, surroundings, drags):
+    """Medians of the columns of --morph-mesh."""
+    morph = MorphMesh(Input=part, Moving="Region", Region="Box", Surroundings=surroundings,
+                      Live=1, Quality="Surface")
+    morph.Region.Position = [-0.1, -0.1, 0.9]
+    morph.Region.Length = [1.2, 1.2, 0.2]
+    def drag(step):
+        morph.Transform.Translate = [0, 0, 0.002 * (step + 1)]
+        morph.Transform.Rotate = [0, 0, 0.2 * (step + 1)]
+
+    return drag_to_picture(morph, drag, drags)
 
 
 def main():
@@ -188,6 +210,7 @@ def main():
     parser.add_argument("--outer", action="store_true",
                         help="with --surface: measure the cells behind the surface alone")
     parser.add_argument("--shapes", action="store_true")
+    parser.add_argument("--morph-mesh", action="store_true")
     options = parser.parse_args()
     grid = cube(options.cells)
     part = simple.TrivialProducer()
@@ -199,6 +222,13 @@ def main():
         names = ("blend", "rest of filter", "render", "weight to picture", "floor", "first")
         print("".join(f"{name:>20}" for name in names))
         print("".join(f"{1e3 * m:20.1f}" for m in measure_shapes(part, options.drags)))
+        return
+    if options.morph_mesh:
+        names = ("evaluate", "rest of filter", "render", "box to picture", "floor", "first")
+        print(f"{'':12}" + "".join(f"{name:>20}" for name in names))
+        for surroundings in ("Follow", "Fade", "Stay"):
+            medians = measure_morph_mesh(part, surroundings, options.drags)
+            print(f"{surroundings:12}" + "".join(f"{1e3 * m:20.1f}" for m in medians), flush=True)
         return
     if options.surface:
         print(f"{'':24}" + "".join(f"{name:>16}" for name in SURFACE_COLUMNS))

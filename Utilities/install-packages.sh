@@ -4,12 +4,14 @@ set -euo pipefail
 
 usage() {
   cat <<END
-Usage: install-packages.sh [--benchmark] [--developer] [--other-debian]
+Usage: install-packages.sh [--benchmark] [--developer] [--site] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed.
-  --benchmark   also the solvers that the benchmark compares with (SuiteSparse, OpenBLAS)
-  --developer   also what format.sh, lint.sh and check-documentation.sh need (clang-format,
-                clang-tidy, doxygen)
+  --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
+                xdotool
+  --developer   also what format.sh, lint.sh, check-documentation.sh and design_picture.py
+                need (clang-format, clang-tidy, doxygen, graphviz)
+  --site        also what site.sh needs (mkdocs, doxygen)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
 END
@@ -24,19 +26,20 @@ packages=(
   libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
   libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
   libavutil-dev libswscale-dev libboost-dev python3-mpi4py
-  libgtest-dev gmsh python3-gmsh python3-matplotlib python3-scipy xvfb xauth
-  imagemagick)
+  libcgns-dev cgns-convert netcdf-bin
+  libgtest-dev gmsh python3-gmsh python3-meshio python3-matplotlib python3-scipy
+  xvfb xauth imagemagick libxtst6)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
 qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
 case "$release" in
   "debian 12")
     packages+=(
-      qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+      calculix-ccx openfoam qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
       libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
-  "debian 13") # xmlpatterns, which makes the plugin's help pages, ended with Qt 5.
+  "debian 13") # It has no CalculiX. xmlpatterns, for the plugin's help pages, ended with Qt 5.
     packages+=("${qt6[@]}" mount qtxmlpatterns5-dev-tools) ;;
   *) # The paraview-dev of Debian's unstable suite stands on the system's VTK.
-    packages+=("${qt6[@]}" mount libvtk9-dev xsltproc)
+    packages+=("${qt6[@]}" mount calculix-ccx libvtk9-dev libvtk9-qt-dev xsltproc)
     if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then
       echo "install-packages.sh: written for Debian, this is '$release'. Going on; package names" \
         "may differ." >&2
@@ -46,8 +49,9 @@ esac
 for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
-    --benchmark) packages+=(libsuitesparse-dev libopenblas-dev) ;;
-    --developer) packages+=(clang-format clang-tidy doxygen) ;;
+    --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
+    --developer) packages+=(clang-format clang-tidy doxygen graphviz) ;;
+    --site) packages+=(mkdocs doxygen) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac

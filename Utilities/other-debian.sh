@@ -56,15 +56,14 @@ make_root() {
   if [ "$suite" = sid ]; then options+=(--aptopt='Acquire::Check-Valid-Until "false"'); fi
   "${as_root[@]}" rm -rf "$root"
   mkdir -p "$(dirname "$root")"
-  mmdebstrap --variant=apt --include=ca-certificates \
+  # A root that a power cut spoils is made again: dpkg need not wait for the disk.
+  mmdebstrap --variant=apt --include=ca-certificates --dpkgopt=force-unsafe-io \
     --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} "$suite" "$root" "$mirror" ||
     { rm -rf "$root"; unavailable "mmdebstrap could not make it from $mirror"; }
 }
 
-# Times of files are kept, so that a second run builds what has changed only.
-copy_sources() {
-  "${as_root[@]}" mkdir -p "$project"
-  "${as_root[@]}" find "$project" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+# The project's files into the folder $1.
+extract_sources() {
   (
     cd "$here"
     if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
@@ -73,7 +72,32 @@ copy_sources() {
     else
       find . -path ./build -prune -o -type f -print0
     fi | tar --create --null --files-from=-
-  ) | "${as_root[@]}" tar --extract --directory "$project" --no-same-owner
+  ) | "${as_root[@]}" tar --extract --directory "$1" --no-same-owner
+}
+
+# Files that have changed get the time of the copy, so that they are built again even if they were
+# edited while an earlier build ran; all others stay.
+copy_sources() {
+  local fresh=$root/MeshMorphing.new
+  "${as_root[@]}" rm -rf "$fresh"
+  "${as_root[@]}" mkdir -p "$fresh" "$project"
+  extract_sources "$fresh"
+  # shellcheck disable=SC2016 # expanded inside
+  "${as_root[@]}" bash -euc '
+    cd "$1"
+    find . -type f -print0 | while IFS= read -r -d "" file; do
+      if ! cmp --silent "$file" "$2/$file"; then
+        mkdir -p "$2/$(dirname "$file")"
+        rm -f "$2/$file"
+        cp "$file" "$2/$file"
+      fi
+    done
+    cd "$2"
+    find . -path ./build -prune -o -type f -print0 | while IFS= read -r -d "" file; do
+      if [ ! -e "$1/$file" ]; then rm "$file"; fi
+    done
+    rm -rf "$1"
+  ' bash "$fresh" "$project"
 }
 
 # A private view of the machine with the other root: what is mounted goes with the process.

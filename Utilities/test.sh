@@ -7,11 +7,12 @@ cd "$(dirname "$0")/.."
 debian_budget=35
 sanitizer_budget=12
 debian13_budget=18
+site_budget=2
 
 usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
-               [--no-debian13] [--labels REGEX] [-j N]
+               [--no-debian13] [--no-site] [--labels REGEX] [-j N]
 From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
@@ -20,6 +21,7 @@ From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
   vtk91), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
+- on Debian 12 builds the site (site.sh), and checks its links and pictures;
 - on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
   other-debian.sh), without the labels fuzz and programs. Where none can be made, the summary says
   so.
@@ -31,6 +33,7 @@ stage that takes longer than its budget is named, but is no failure.
   --no-plain-vtk  leave VTK 9.1 out
   --no-package    leave the Debian package out
   --no-debian13   leave Debian 13 out
+  --no-site       leave the site out
   --labels REGEX  of the preset paraview run the tests with these labels alone
   -j N            processes to build and to test with (default: all cores)
 END
@@ -41,6 +44,7 @@ package=yes
 asan_filters=no
 presets=(paraview asan vtk91)
 debian13=yes
+site=yes
 labels=()
 jobs=$(nproc)
 leave_out() {
@@ -57,6 +61,7 @@ while [ $# -gt 0 ]; do
     --no-plain-vtk) leave_out vtk91 ;;
     --no-package) package=no ;;
     --no-debian13) debian13=no ;;
+    --no-site) site=no ;;
     --labels) shift; labels=(-L "${1:?"--labels needs a regular expression"}") ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
@@ -67,6 +72,7 @@ done
 if [ "$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")" != "debian 12" ]; then
   leave_out vtk91
   debian13=no
+  site=no
 fi
 
 stages=() # "seconds group name" of each
@@ -111,7 +117,8 @@ sanitized() {
     left_out+=("filters with sanitizers: less than half of the budget was left")
     return
   fi
-  stage sanitizers "build asan (filters)" build asan --target MeshMorphingFiltersTests soak
+  stage sanitizers "build asan (filters)" \
+    build asan --target MeshMorphingFiltersTests MeshMorphingIOTests soak
   stage sanitizers "tests asan (filters)" tests asan -L filters || status=1
 }
 
@@ -120,7 +127,11 @@ make_package() {
     tee build/package.log
 }
 
-if [ "$install" = yes ]; then stage setup "packages" Utilities/install-packages.sh; fi
+if [ "$install" = yes ]; then
+  packages=(Utilities/install-packages.sh)
+  if [ "$site" = yes ]; then packages+=(--site); fi
+  stage setup "packages" "${packages[@]}"
+fi
 if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 for preset in "${presets[@]}"; do
   if [ "$preset" = vtk91 ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
@@ -145,6 +156,14 @@ if [ "$package" = yes ]; then
   if [ "$package_status" -ne 0 ] && [ "$package_status" -ne 77 ]; then status=1; fi
 fi
 
+site_summary="left out"
+if [ "$site" = yes ]; then
+  mkdir -p build
+  make_site() { Utilities/site.sh 2>&1 | tee build/site.log; }
+  stage site "site" make_site || status=1
+  site_summary=$(tail -n 2 build/site.log)
+fi
+
 if [ "$debian13" = yes ]; then
   debian13_status=0
   stage debian13 "Debian 13" Utilities/other-debian.sh trixie test -j "$jobs" \
@@ -165,12 +184,13 @@ for preset in "${presets[@]}"; do
   printf '\n== preset %s\n' "$preset"
   summary "build/$preset/ctest.log"
 done
-printf '\n== Debian package\n%s\n\n== Minutes\n' "$package_summary"
+printf '\n== Debian package\n%s\n\n== Site\n%s\n\n== Minutes\n' "$package_summary" "$site_summary"
 for one in "${stages[@]}"; do
   read -r seconds group name <<< "$one"
   printf '%-26s%6s\n' "$name" "$(minutes "$seconds")"
 done
-for group in "debian $debian_budget" "sanitizers $sanitizer_budget" "debian13 $debian13_budget"; do
+for group in "debian $debian_budget" "sanitizers $sanitizer_budget" "debian13 $debian13_budget" \
+  "site $site_budget"; do
   read -r group budget <<< "$group"
   taken=$(seconds_of "$group")
   if [ "$taken" -eq 0 ]; then continue; fi

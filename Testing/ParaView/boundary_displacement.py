@@ -222,7 +222,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
     def test_coloured_by_role(self):
         self.displacement.UpdatePipeline()
         display = simple.Show(self.displacement, simple.CreateRenderView())
-        self.assertEqual(list(display.ColorArrayName), ["POINTS", "Role"])
+        self.assertEqual(list(display.ColorArrayName), ["CELLS", "Role"])
 
     def test_fit_to_surface(self):
         """The face at the end of z goes onto a square of its size, 0.5 beyond it."""

@@ -38,7 +38,9 @@ Mesh.SaveAll = 1;
 
 def fetched(proxy):
     proxy.UpdatePipeline()
-    return servermanager.Fetch(proxy)
+    # ParaView 5.11 fetches nothing of a collection of partitioned data sets.
+    data = proxy.SMProxy.GetClientSideObject().GetOutputDataObject(0)
+    return data if data.IsA("vtkDataObjectTree") else servermanager.Fetch(proxy)
 
 
 def points(data):
@@ -49,24 +51,55 @@ def values(attributes, name):
     return vtk_to_numpy(attributes.GetArray(name))
 
 
-def one_grid(reader):
-    """A file's cells with every array, as one unstructured grid."""
+def opened(path):
+    """A file with every array."""
+    reader = simple.OpenDataFile(path)
     for name in ("CellArrayStatus", "PointArrayStatus"):
         if name in reader.ListProperties():
             setattr(reader, name, reader.GetProperty(name).GetAvailable())
     reader.UpdatePipeline()
-    if reader.GetDataInformation().IsCompositeDataSet():
-        # Merge Blocks merges nodes of one id. Nodes that the file holds once for each block need
-        # Clean to Grid.
-        return simple.CleantoGrid(Input=simple.MergeBlocks(Input=reader))
     return reader
 
 
-def bent(grid):
+def grids(data):
+    """The grids of a file: it, or its blocks."""
+    if not data.IsA("vtkDataObjectTree"):
+        return [data]
+    found = []
+    item = data.NewIterator()
+    item.InitTraversal()
+    while not item.IsDoneWithTraversal():
+        found.append(item.GetCurrentDataObject())
+        item.GoToNextItem()
+    return found
+
+
+def names(data):
+    """The names of a file's blocks, in order."""
+    if not data.IsA("vtkDataObjectTree"):
+        return []
+    item = data.NewTreeIterator()
+    item.VisitOnlyLeavesOff()
+    item.InitTraversal()
+    found = []
+    while not item.IsDoneWithTraversal():
+        if item.HasCurrentMetaData() and item.GetCurrentMetaData().Has(data.NAME()):
+            found.append(item.GetCurrentMetaData().Get(data.NAME()))
+        item.GoToNextItem()
+    return found
+
+
+def together(data, attributes, name):
+    """An array of all grids, one after another."""
+    return np.concatenate([values(getattr(grid, attributes)(), name) for grid in grids(data)])
+
+
+def bent(grid, coincident="Merge"):
     grid.UpdatePipeline()
-    boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid), CoordinateResults=1,
-                                 Function=BENT)
-    return MorphFEMWARP(Input=grid, Boundary=boundary)
+    boundary = simple.Calculator(
+        Input=ExtractMorphBoundary(Input=grid, CoincidentPoints=coincident), CoordinateResults=1,
+        Function=BENT)
+    return MorphFEMWARP(Input=grid, Boundary=boundary, CoincidentPoints=coincident)
 
 
 class FileFormats(unittest.TestCase):
@@ -93,14 +126,17 @@ class FileFormats(unittest.TestCase):
     def assertIsMoved(self, data, cells=None):
         """Checks a morph of the mesh, or its surface, from a file.
 
-        Its nodes come in any order, told apart by the array Node."""
-        self.assertEqual(data.GetNumberOfPoints(), len(self.moved))
-        self.assertEqual(data.GetNumberOfCells(),
+        Its nodes come in any order, told apart by the array Node. Blocks have nodes of their
+        own."""
+        self.assertEqual(sum(grid.GetNumberOfCells() for grid in grids(data)),
                          cells or self.part.GetDataInformation().GetNumberOfCells())
-        node = values(data.GetPointData(), "Node").astype(int)
-        self.assertEqual(sorted(node), list(range(len(node))))
-        np.testing.assert_allclose(points(data), self.moved[node], rtol=0, atol=1e-5)
-        np.testing.assert_allclose(values(data.GetPointData(), "FinalDisplacement"),
+        node = together(data, "GetPointData", "Node").astype(int)
+        self.assertEqual(sorted(set(node)), list(range(len(self.moved))))
+        moved = np.concatenate([points(grid) for grid in grids(data)])
+        np.testing.assert_allclose(moved, self.moved[node], rtol=0, atol=1e-5)
+        first = {n: x for n, x in zip(node[::-1], moved[::-1])}
+        np.testing.assert_array_equal(moved, [first[n] for n in node])  # no interface is torn
+        np.testing.assert_allclose(together(data, "GetPointData", "FinalDisplacement"),
                                    self.vectors[node], rtol=0, atol=1e-6)
 
     def test_read(self):
@@ -110,10 +146,15 @@ class FileFormats(unittest.TestCase):
                                       ("part.cgns", self.part, {})):
             with self.subTest(file=name):
                 simple.SaveData(self.path(name), proxy=source, **options)
-                morph = bent(one_grid(simple.OpenDataFile(self.path(name))))
-                data = fetched(morph)
+                file = opened(self.path(name))
+                # These blocks are one body, and the file numbers the nodes of each apart.
+                morph = bent(file, "Merge by Position" if source is self.blocks else "Merge")
+                data, before = fetched(morph), fetched(file)
+                self.assertEqual(data.GetClassName(), before.GetClassName())
+                self.assertEqual(names(data), names(before))
+                self.assertEqual(len(grids(data)), 2 if source is self.blocks else 1)
                 self.assertIsMoved(data)
-                element = values(data.GetCellData(), "Element").astype(int)
+                element = together(data, "GetCellData", "Element").astype(int)
                 self.assertEqual(sorted(element), list(range(len(element))))
                 self.assertEqual(morph.UnmatchedPoints, 0)
                 self.assertAlmostEqual(morph.MinScaledJacobian, self.morph.MinScaledJacobian,
@@ -148,10 +189,38 @@ class FileFormats(unittest.TestCase):
                               ("moved.cgns", {})):
             with self.subTest(file=name):
                 simple.SaveData(self.path(name), proxy=self.morph, **options)
-                data = fetched(one_grid(simple.OpenDataFile(self.path(name))))
+                data = fetched(opened(self.path(name)))
                 self.assertIsMoved(data)
-                quality = values(data.GetCellData(), "ScaledJacobian")
+                quality = together(data, "GetCellData", "ScaledJacobian")
                 self.assertAlmostEqual(quality.min(), self.morph.MinScaledJacobian, delta=1e-12)
+
+    def test_blocks_through_morph_mesh(self):
+        """Blocks from an Exodus file, moved by Morph Mesh and saved to another."""
+        simple.SaveData(self.path("bore.e"), proxy=self.blocks)
+        file = opened(self.path("bore.e"))
+        file.UpdatePipeline()
+        low, high = np.reshape(fetched(self.part).GetBounds(), (3, 2)).T
+        region = {"Position": list(low - 1), "Length": [high[0] - low[0] + 2, high[1] - low[1] + 2,
+                                                        1 + 0.01 * (high[2] - low[2])]}
+        options = {"Moving": "Region", "Displacement": "Vector", "Vector": [0, 0.1, -0.1]}
+        whole = MorphMesh(Input=self.part, **options)
+        morph = MorphMesh(Input=file, CoincidentPoints="Merge by Position", **options)
+        for one in (whole, morph):
+            one.Region.Position, one.Region.Length = region["Position"], region["Length"]
+        expected, data = fetched(whole), fetched(morph)
+        morph.UpdatePropertyInformation()
+        self.assertEqual(morph.MorphStatus, "Valid")
+        self.assertGreater(np.abs(points(expected) - points(fetched(self.part))).max(), 0.05)
+        self.assertEqual(names(data), names(fetched(file)))
+        simple.SaveData(self.path("bore_moved.e"), proxy=morph)
+        saved = fetched(opened(self.path("bore_moved.e")))
+        self.assertEqual(len(grids(saved)), 2)
+        for result in (data, saved):
+            node = together(result, "GetPointData", "Node").astype(int)
+            moved = np.concatenate([points(grid) for grid in grids(result)])
+            np.testing.assert_allclose(moved, points(expected)[node], rtol=0, atol=1e-5)
+        quality = together(saved, "GetCellData", "ScaledJacobian")
+        self.assertAlmostEqual(quality.min(), morph.MinScaledJacobian, delta=1e-12)
 
     def test_save_surface(self):
         surface = simple.ExtractSurface(Input=self.morph)

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 from paraview import servermanager, simple
 from paraview.simple import (AppendDatasets, Calculator, ExtractSurface, GroupDatasets,
-                             LoadPlugin, MergeBlocks, Tetrahedralize, Transform, WarpByVector,
+                             LoadPlugin, Tetrahedralize, Threshold, Transform, WarpByVector,
                              Wavelet)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
@@ -212,26 +212,30 @@ class Routes(unittest.TestCase):
         np.testing.assert_allclose(points(MorphFEMWARP(Input=tets, Boundary=moved)),
                                    rest * [2, 1, 1], atol=2e-6 * self.size)
 
-    def test_composite_data_are_refused_and_merge_blocks_helps(self):
-        blocks = GroupDatasets(Input=[self.grid, hexes()])
-        with Messages() as messages:
-            boundary = ExtractMorphBoundary(Input=blocks)
-            boundary.UpdatePipeline()
-        self.assertEqual(messages.text.count("Merge Blocks"), 1, messages.text)
-        self.assertEqual(len(points(boundary)), 0)
-
-        boundary = ExtractMorphBoundary(Input=self.grid)
-        with Messages() as messages:
-            morph = MorphFEMWARP(Input=blocks, Boundary=boundary)
-            morph.UpdatePipeline()
-        self.assertEqual(messages.text.count("Merge Blocks"), 1, messages.text)
-        self.assertEqual(len(points(morph)), 0)
-
-        single = GroupDatasets(Input=[self.grid])
-        merged = MergeBlocks(Input=single)
-        merged.UpdatePipeline()
-        morph = MorphFEMWARP(Input=merged, Boundary=ExtractMorphBoundary(Input=merged))
-        self.assertEqual(len(points(morph)), len(self.rest))
+    def test_blocks_come_out_as_blocks(self):
+        ids = number_points(Input=self.grid, PointIdsArrayName="Node", CellIdsArrayName="Cell")
+        half = CELLS ** 3 // 2
+        parts = [Threshold(Input=ids, Scalars=["CELLS", "Cell"], LowerThreshold=first,
+                           UpperThreshold=first + half - 1) for first in (0, half)]
+        blocks = GroupDatasets(Input=parts)
+        moved = Transform(Input=ExtractMorphBoundary(Input=blocks))
+        moved.Transform.Rotate = [0, 0, 30]
+        morph = updated(MorphFEMWARP(Input=blocks, Boundary=moved))
+        self.assertEqual(morph.InvertedCells, 0)
+        self.assertEqual(morph.MorphStatus, "Valid")
+        self.assertEqual(morph.GetDataInformation().GetCompositeDataClassName(),
+                         blocks.GetDataInformation().GetCompositeDataClassName())
+        expected = self.rest @ rotation(30).T
+        item = servermanager.Fetch(morph).NewIterator()
+        item.InitTraversal()
+        for part in parts:
+            grid = item.GetCurrentDataObject()
+            moved = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+            node = vtk_to_numpy(grid.GetPointData().GetArray("Node")).astype(int)
+            self.assertEqual(len(moved), len(points(part)))
+            np.testing.assert_allclose(moved, expected[node], atol=2e-6 * self.size)
+            item.GoToNextItem()
+        self.assertTrue(item.IsDoneWithTraversal())
 
     def test_surface_without_ids_is_one_error(self):
         moved = Transform(Input=ExtractSurface(Input=self.grid))

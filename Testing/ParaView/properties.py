@@ -12,20 +12,28 @@ import re
 import sqlite3
 import unittest
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 from paraview import simple
 
 from versions import number_points
-from window_events import category
+from window_events import FIRST, category
 
+WIDGETS = Path(__file__).resolve().parents[2] / "Plugin/Widgets"
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 
+def icons():
+    """Of the plugin's resources, those that are there."""
+    files = ElementTree.parse(WIDGETS / "MeshMorphing.qrc").getroot().iter("file")
+    return [f.get("alias") for f in files if (WIDGETS / f.text).is_file()]
+
+
 def proxies():
-    """The XML element of each proxy."""
+    """The XML element of each filter's proxy; solver_files.py has the reader and the writer."""
     found = []
     for path in os.environ["MESHMORPHING_XML"].split(":"):
-        found += ElementTree.parse(path).getroot().find("ProxyGroup[@name='filters']")
+        found += ElementTree.parse(path).getroot().findall("ProxyGroup[@name='filters']/*")
     return found
 
 
@@ -39,6 +47,10 @@ def printed(filter_proxy, name):
     match = re.search(rf"^ *{name}: (.*)$", text, re.MULTILINE)
     assert match, f"{name} is not in:\n{text}"
     return match.group(1)
+
+#: What widgets of the panel are made from; not among its results.
+FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "PatchBounds", "PickedSurfaces",
+               "ValidWeights")
 
 
 def results(*sections):
@@ -107,25 +119,77 @@ class Properties(unittest.TestCase):
 
     def test_every_proxy_has_texts_and_a_place_in_the_menu(self):
         self.assertGreaterEqual(len(proxies()), 3)
+        menu = ElementTree.parse(WIDGETS / "Menu.xml").getroot()
+        menus = {proxy.get("name"): part.get("name") for part in menu for proxy in part}
+        first = menu.find("Category")
+        self.assertEqual([proxy.get("name") for proxy in first], list(FIRST))
+        self.assertEqual((first.get("show_in_toolbar"), first.get("preserve_order")), ("1", "1"))
         for xml in proxies():
             with self.subTest(proxy=xml.get("name")):
                 documentation = xml.find("Documentation")
                 self.assertTrue(documentation.text.strip())
                 self.assertTrue(documentation.get("short_help"))
                 self.assertTrue(documentation.get("long_help"))
-                self.assertEqual(xml.find("Hints/ShowInMenu").get("category"),
-                                 category(xml.get("name")))
+                icon = xml.find("Hints/ShowInMenu").get("icon")
+                self.assertIn(icon.replace(":/MeshMorphing/Icons/", ""), icons())
+                self.assertEqual(menus.pop(xml.get("name")), category(xml.get("name")))
                 for p in list(xml.iter("InputProperty")) + properties(xml):
                     text = p.findtext("Documentation", "")
                     self.assertTrue(text.strip(), p.get("name"))
                     # reStructuredText: an indented line would start a quotation.
                     self.assertFalse([line for line in text.splitlines()[1:-1] if line[:1] == " "],
                                      p.get("name"))
+        self.assertEqual(menus, {})
+
+    def test_labels_are_english(self):
+        """What the panel shows: a label of its own, or the name with spaces."""
+        own = {}
+        for xml in proxies():
+            for p in properties(xml):
+                hint = p.find("Hints/PropertyWidgetDecorator[@type='PanelLabel']")
+                name = p.get("label") or re.sub("(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ",
+                                                p.get("name"))
+                if p.get("label"):  # Python calls the property by it
+                    self.assertEqual(p.get("label").replace(" ", ""), p.get("name"))
+                label = hint.get("text") if hint is not None else name
+                self.assertNotRegex(label, r"\b[B-Zb-z]\b")
+                if hint is not None:
+                    self.assertEqual(own.setdefault(p.get("name"), label), label)
+        self.assertEqual(own["HoldUnnamedBoundary"], "Fix the rest of the boundary")
+        self.assertEqual(own["MorphStatus"], "Status")
+
+    def test_results_come_last_and_the_status_first(self):
+        tested = 0
+        for xml in proxies():
+            groups = [group.get("label") for group in xml.iter("PropertyGroup")]
+            if "Result" in groups and "MorphStatus" in {
+                    p.get("name") for p in properties(xml)}:
+                tested += 1
+                with self.subTest(proxy=xml.get("name")):
+                    results_group = xml.find("PropertyGroup[@label='Result']")
+                    self.assertEqual(results_group[0].get("name"), "MorphStatus")
+                    names = [p.get("name") for p in xml if p.get("name")]
+                    inputs = [p.get("name") for p in properties(xml)
+                              if p.get("information_only") != "1"]
+                    self.assertLess(max(names.index(name) for name in inputs),
+                                    names.index("MorphStatus"))
+        self.assertGreaterEqual(tested, 9)
+
+    def test_numbers_with_a_range_have_a_slider(self):
+        for xml in proxies():
+            for p in xml.findall("DoubleVectorProperty[@name='ScaleFactor']"):
+                domain = p.find("DoubleRangeDomain")
+                self.assertEqual((domain.get("min"), domain.get("max")), ("0", "1"))
+            for p in xml.findall("DoubleVectorProperty[@name='MatchTolerance']"):
+                self.assertEqual(p.find("DoubleRangeDomain").get("max"), "1")
+            for p in xml.findall("IntVectorProperty[@name='NumberOfSteps']"):
+                self.assertIn("1000000", p.findtext("Documentation"))
 
     def test_defaults_in_xml_are_those_of_the_class(self):
         for xml in proxies():
             for p in properties(xml):
-                if p.get("information_only") == "1" or p.tag == "StringVectorProperty":
+                if (p.get("information_only") == "1" or p.tag == "StringVectorProperty"
+                        or p.get("command") is None):  # the window's own, unknown to the filter
                     continue
                 with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                     default = [float(v) for v in p.get("default_values").split()]
@@ -140,12 +204,14 @@ class Properties(unittest.TestCase):
                 with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                     filter_proxy = self.create(xml)
                     value = another_value(p, filter_proxy)
-                    before = printed(filter_proxy, p.get("name"))
+                    of_filter = p.get("command") is not None  # else the window's own
+                    before = printed(filter_proxy, p.get("name")) if of_filter else None
                     setattr(filter_proxy, p.get("name"), value)
                     filter_proxy.UpdateVTKObjects()
-                    after = printed(filter_proxy, p.get("name"))
-                    self.assertNotEqual(before, after)
-                    self.assertTrue(same(value, after), f"{value} became {after}")
+                    if of_filter:
+                        after = printed(filter_proxy, p.get("name"))
+                        self.assertNotEqual(before, after)
+                        self.assertTrue(same(value, after), f"{value} became {after}")
                     if p.find("KeptArraySelectionDomain") is not None:
                         self.assertEqual(list(getattr(filter_proxy, p.get("name"))), [value])
                     else:
@@ -166,7 +232,7 @@ class Properties(unittest.TestCase):
                 # Of the times, which ParaView's pipeline holds, the filter prints nothing.
                 times = p.find("TimeStepsInformationHelper") is not None
                 if (p.get("information_only") == "1" and p.tag != "StringVectorProperty"
-                        and not times):
+                        and not times and p.get("name") not in FOR_WIDGETS):
                     with self.subTest(proxy=xml.get("name"), property=p.get("name")):
                         shown = getattr(filter_proxy, p.get("name"))
                         self.assertTrue(same(shown, printed(filter_proxy, p.get("name"))), shown)
@@ -194,7 +260,7 @@ class Properties(unittest.TestCase):
                           p.findtext("Documentation").strip())
                          for p in properties(xml)
                          if p.get("information_only") == "1"
-                         and p.get("name") not in ("TimestepValues", "SurfaceList")]
+                         and p.get("name") not in ("TimestepValues", *FOR_WIDGETS)]
                 self.assertEqual(sorted(shown), expected)
                 names = {name for name, _, _ in shown}
                 for group in xml.iter("PropertyGroup"):

@@ -30,7 +30,7 @@ def proxies():
     """The XML element of each proxy."""
     found = []
     for path in os.environ["MESHMORPHING_XML"].split(":"):
-        found += ElementTree.parse(path).getroot().find("ProxyGroup[@name='filters']")
+        found += ElementTree.parse(path).getroot().findall("ProxyGroup[@name='filters']/*")
     return found
 
 

@@ -82,7 +82,7 @@ def methods():
     """The proxies that have Validity, by name in pvpython: the properties' XML elements."""
     found = {}
     for path in os.environ["MESHMORPHING_XML"].split(":"):
-        for proxy in ElementTree.parse(path).getroot().find("ProxyGroup[@name='filters']"):
+        for proxy in ElementTree.parse(path).getroot().findall("ProxyGroup[@name='filters']/*"):
             for p in proxy:
                 if p.get("name") == "Validity":
                     found[proxy.get("label").replace(" ", "")] = p

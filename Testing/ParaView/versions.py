@@ -15,6 +15,9 @@ SETTINGS = "ParaView.ini" if MAJOR >= 6 else f"ParaView{MAJOR}.{MINOR}.{PATCH}.i
 #: The fields of the box that can be dragged, as test scripts name them.
 BOX_FIELDS = "" if MAJOR < 6 else "tabWidget/qt_tabwidget_stackedwidget/fieldsPage/"
 
+#: Debian 13's ParaView 5.13 crashes when it opens its script editor, without this plugin, too.
+HAS_SCRIPT_EDITOR = (MAJOR, MINOR) != (5, 13)
+
 #: The file dialog of the plugin manager, as test scripts name it.
 PLUGIN_FILE_DIALOG = "pqFileDialog" if (MAJOR, MINOR) < (5, 12) else "1pqFileDialog0"
 

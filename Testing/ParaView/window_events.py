@@ -11,11 +11,15 @@ MAIN = "pqClientMainWindow/"
 PROPERTIES = MAIN + "propertiesDock/propertiesPanel/"
 PANEL = (PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/"
          "PropertiesFrame/ProxyPanel/")
+#: The first view's frame, and what is drawn in it.
+FRAME = MAIN + ("centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/"
+                "MultiViewWidget1/Container/Frame.0/")
+VIEW = FRAME + "CentralWidgetFrame/Viewport"
 BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
 #: The filters of the menu Mesh Morphing; those for one step of a morph have a menu of their own.
-FIRST = ("MorphMesh", "FitToSurface", "MorphShapes", "ScaledJacobian", "CompareMorphMethods")
+FIRST = ("MorphMesh", "FitToSurface", "ScaledJacobian", "CompareMorphMethods", "MorphShapes")
 
 
 def category(name):
@@ -69,30 +73,51 @@ class Events:
         dialog = MAIN + "SelectInputDialog/"
         self.do(dialog + "buttonFrame/" + port, "set_boolean", "true")
         self.select(place, dialog + "pipelineView")
-        self.do(dialog + "buttonBox/1QPushButton0", "activate")
+        self.accept_inputs()
+
+    def accept_inputs(self):
+        self.do(MAIN + "SelectInputDialog/buttonBox/1QPushButton0", "activate")
+
+    def save_state(self, path):
+        self.menu("menu_File", "actionFileSaveServerState")
+        self.do(MAIN + "FileSaveServerStateDialog", "filesSelected", str(path))
+
+    def select_cells(self, first, last):
+        """By a rectangle in the view, from one corner to the other: (x, y) in parts of its size."""
+        self.do(FRAME + "actionSelectSurfaceCells", "activate")
+        for command, (x, y), buttons in (("mousePress", first, "1,1"), ("mouseMove", last, "0,1"),
+                                         ("mouseRelease", last, "1,0")):
+            self.do(VIEW, command, f"({x},{y},{buttons},0)")
 
     def set(self, name, command, value):
         """In the panel; name: of the property and its widget."""
         self.do(PANEL + name, command, value)
 
-    def play(self, folder, seconds=500):
-        """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
-        messages."""
+    def prepare(self, folder, size="800 700", script=None, environment=None):
+        """Writes the events and ParaView's settings into `folder`; returns the arguments of
+        subprocess.Popen that play them, after the Python script `script`, if any."""
         settings = folder / ".config/ParaView" / SETTINGS
         settings.parent.mkdir(parents=True)
         settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
-                            "[MainWindow]\nSize=@Size(800 700)\nPosition=@Point(0 0)\n",
+                            f"[MainWindow]\nSize=@Size({size})\nPosition=@Point(0 0)\n",
                             encoding="utf-8")
-        script = folder / "events.xml"
-        script.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines,
+        played = folder / "events.xml"
+        played.write_text("\n".join(['<?xml version="1.0"?>', "<pqevents>", *self.lines,
                                      "</pqevents>"]), encoding="utf-8")
         folder.chmod(0o700)
         # Without DASHBOARD_TEST_FROM_CTEST ParaView asks whether to save the session when it
         # leaves.
-        environment = {**os.environ, "HOME": str(folder), "XDG_RUNTIME_DIR": str(folder),
-                       "DASHBOARD_TEST_FROM_CTEST": "1"}
+        environment = {**os.environ, **(environment or {}), "HOME": str(folder),
+                       "XDG_RUNTIME_DIR": str(folder), "DASHBOARD_TEST_FROM_CTEST": "1"}
         environment.pop("PV_PLUGIN_PATH", None)
-        played = subprocess.run(["paraview", f"--test-script={script}", "--exit"],
-                                env=environment, cwd=folder, text=True, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, timeout=seconds)
-        return played.returncode, played.stdout
+        command = ["paraview", *([f"--script={script}"] if script else []),
+                   f"--test-script={played}"]
+        return {"args": command, "env": environment, "cwd": folder, "text": True,
+                "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+
+    def play(self, folder, seconds=500, script=None, environment=None):
+        """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
+        messages."""
+        how = self.prepare(folder, script=script, environment=environment)
+        run = subprocess.run([*how.pop("args"), "--exit"], timeout=seconds, check=False, **how)
+        return run.returncode, run.stdout

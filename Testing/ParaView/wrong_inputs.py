@@ -94,9 +94,9 @@ class WrongInputs(unittest.TestCase):
                            Boundary=self.boundary)
         self.assertRefused(["The boundary is a vtkImageData", "polygonal data"], Input=self.grid,
                            Boundary=Wavelet())
-        self.assertRefused(["The input is composite data", "Merge Blocks"],
-                           Input=GroupDatasets(Input=[self.grid, self.grid]),
-                           Boundary=self.boundary)
+        self.assertMessage(MorphBoundary(Input=self.grid, Boundary=self.boundary,
+                                         Target=GroupDatasets(Input=[Sphere()])),
+                           "The target is composite data", "Merge Blocks")
 
     def test_meshes_without_volume_cells(self):
         parts = "None of the input's 1 cells is a volume cell", "quad"

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solvers' own files in ParaView: opened, morphed by the names that they have, and saved again with
+nothing but their coordinates changed.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython solver_files.py
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "Programs"))
+import exodus_models
+import gmsh_models
+import solver_models as models
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+SHIFT = np.array([0.05, 0.02, -0.03])
+WRITERS = {".inp": (models.abaqus, "Wall"), ".bdf": (models.nastran, "PID 2"),
+           ".dat": (models.nastran, "PID 2"), ".su2": (models.su2, "wall"),
+           ".msh": (gmsh_models.gmsh, "wall")}
+
+
+def fetched(proxy):
+    proxy.UpdatePipeline()
+    return servermanager.Fetch(proxy)
+
+
+def possible_readers(path):
+    """The names of the readers that File > Open asks for."""
+    factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
+    found = factory.GetReaders(str(path), servermanager.ActiveConnection.Session)
+    strings = [found.GetString(i) for i in range(found.GetLength())]
+    return strings[1::3]
+
+
+class SolverFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(simple.ResetSession)
+        self.folder = Path(folder.name)
+
+    def write(self, extension):
+        write, wall = WRITERS[extension]
+        model, rng = models.random_model(f"paraview {extension}")
+        pieces = write(model, rng)
+        path = self.folder / ("model" + extension)
+        path.write_bytes(models.text_of(pieces))
+        return model, pieces, path, wall
+
+    def test_file_open_offers_the_reader(self):
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                path = self.write(extension)[2]
+                readers = possible_readers(path)
+                self.assertIn("SolverFileReader", readers)
+                # ParaView has other readers of these extensions: it asks.
+                if extension in (".inp", ".dat"):
+                    self.assertGreater(len(readers), 1)
+        avs = self.folder / "avs.inp"
+        avs.write_text("# AVS\n1 0 0 0 0\n1 0 0 0\n")
+        self.assertNotIn("SolverFileReader", possible_readers(avs))
+
+    def test_numbers_and_names(self):
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                model, _, path, wall = self.write(extension)
+                data = fetched(SolverFileReader(FileName=str(path)))
+                numbers = vtk_to_numpy(data.GetPointData().GetArray("NodeNumber"))
+                expected = (range(len(model.order)) if extension == ".su2" else
+                            [model.numbers[n] for n in model.order])
+                self.assertEqual(list(numbers), list(expected))
+                names = data.GetFieldData().GetAbstractArray("SurfaceNames")
+                self.assertIn(wall, [names.GetValue(i) for i in range(names.GetNumberOfValues())])
+                file = data.GetFieldData().GetAbstractArray("SolverFile")
+                self.assertEqual(file.GetValue(0), str(path))
+
+    def test_a_morph_is_saved_into_a_copy(self):
+        """By the original that the mesh knows, and by one that is given."""
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                _, pieces, path, wall = self.write(extension)
+                reader = SolverFileReader(FileName=str(path))
+                reader.UpdatePipeline()
+                morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=[wall],
+                                  Displacement="Vector", Vector=list(SHIFT), Validity="Report")
+                data = fetched(morph)
+                out, again = self.folder / ("out" + extension), self.folder / ("o" + extension)
+                simple.SaveData(str(out), proxy=morph)
+                self.compare(data, pieces, path, out, 1e-6 if "PID" in wall else 1e-14)
+                other = self.folder / ("other" + extension)
+                shutil.copy(path, other)
+                path.unlink()
+                simple.SaveData(str(again), proxy=morph, OriginalFileName=str(other))
+                self.assertEqual(again.read_bytes(), out.read_bytes())
+
+    def compare(self, data, pieces, path, out, rounding):
+        found = models.coordinates_in(pieces, out.read_bytes())  # nothing else differs
+        old = models.coordinates_in(pieces, path.read_bytes())
+        read = fetched(SolverFileReader(FileName=str(out)))
+        self.assertEqual(read.GetNumberOfCells(), data.GetNumberOfCells())
+        points = [vtk_to_numpy(d.GetPoints().GetData()) for d in (read, data)]
+        np.testing.assert_allclose(*points, rtol=0, atol=rounding)
+        moved = [k for k in old if models.value(old[k]) != models.value(found[k])]
+        self.assertGreater(len(moved), len(old) // 4)
+
+    def test_a_mesh_without_node_numbers_is_not_written(self):
+        path = self.write(".su2")[2]
+        sphere = simple.Sphere()
+        sphere.UpdatePipeline()
+        simple.SaveData(str(self.folder / "out.su2"), proxy=sphere, OriginalFileName=str(path))
+        self.assertFalse((self.folder / "out.su2").exists())
+
+    @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
+    def test_exodus_at_its_own_coordinates(self):
+        """The file has displacements, which ParaView's own reader adds."""
+        model, _ = models.random_model("paraview exodus")
+        cdl, path = self.folder / "model.cdl", self.folder / "model.exo"
+        cdl.write_text(exodus_models.exodus(model))
+        subprocess.run(["ncgen", "-o", path, cdl], check=True, timeout=60)
+        reader = SolverFileReader(FileName=str(path))
+        points = vtk_to_numpy(fetched(reader).GetPoints().GetData())
+        np.testing.assert_array_equal(points, [model.points[n] for n in model.order])
+        morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=["wall"],
+                          Displacement="Vector", Vector=list(SHIFT), Validity="Report")
+        # Save Data may take ParaView's own writer of Exodus files.
+        servermanager.writers.SolverFileWriter(
+            Input=morph, FileName=str(self.folder / "out.exo")).UpdatePipeline()
+        out = fetched(SolverFileReader(FileName=str(self.folder / "out.exo")))
+        np.testing.assert_array_equal(vtk_to_numpy(out.GetPoints().GetData()),
+                                      vtk_to_numpy(fetched(morph).GetPoints().GetData()))
+        if shutil.which("ncdump"):
+            texts = [re.sub(r"\n coord[xyz] =[^;]*;", "", subprocess.run(
+                ["ncdump", file], capture_output=True, text=True, check=True).stdout).partition(
+                    "{")[2] for file in (path, self.folder / "out.exo")]
+            self.assertEqual(*texts)
+
+    @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
+    def test_the_example_of_the_page(self):
+        page = Path(__file__).resolve().parents[2] / "Documentation/SolverFiles.md"
+        example = re.search(r"^```py\n(from paraview.*?wing = .*?)^```", page.read_text(),
+                            re.M | re.S)
+        (self.folder / "model.cdl").write_text(
+            exodus_models.exodus(models.random_model("paraview page")[0]))
+        subprocess.run(["ncgen", "-o", "wing.exo", "model.cdl"], cwd=self.folder, check=True)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        names = {"SaveData": simple.SaveData, **globals()}
+        exec(example[1], names)  # pylint: disable=exec-used
+        moved = fetched(SolverFileReader(FileName="wing-moved.exo"))
+        self.assertEqual(moved.GetPoints().GetData().GetTuple(0),
+                         fetched(names["moved"]).GetPoints().GetData().GetTuple(0))
+
+    def test_cgns_that_paraview_has_written(self):
+        bore = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
+        part = simple.OpenDataFile(str(bore))
+        path, out = str(self.folder / "part.cgns"), str(self.folder / "out.cgns")
+        simple.SaveData(path, proxy=part)
+        reader = SolverFileReader(FileName=path)
+        read = fetched(reader)
+        if read.GetNumberOfPoints() == 0:
+            self.skipTest("the plugin was built without CGNS")
+        self.assertEqual(read.GetNumberOfCells(), fetched(part).GetNumberOfCells())
+        morph = MorphMesh(Input=reader, Moving="Everything", Displacement="Vector",
+                          Vector=[0.5, 0, 0])
+        simple.SaveData(out, proxy=morph)
+        # In single precision, as ParaView writes it.
+        for name in (path, out):
+            again = fetched(SolverFileReader(FileName=name)).GetPoints().GetData()
+            moved = [0.5 if name == out else 0, 0, 0]
+            np.testing.assert_allclose(vtk_to_numpy(again),
+                                       vtk_to_numpy(read.GetPoints().GetData()) + moved,
+                                       rtol=0, atol=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""More of what a user tries first, in ParaView's window: a fit to an STL file, cells selected
+before the filter, an Exodus file, a filter without its boundary, methods compared. Clicks are
+counted as in window_tasks.py, and the panel's numbers are those of pvpython.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
+         pvpython window_first_tasks.py
+"""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+from versions import blocks_for_exodus
+from window_events import PANEL
+from window_morph_mesh import BOX, text
+from window_tasks import COLORS, NUMBERS, Tasks
+
+PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+SMALL = Path(__file__).resolve().parents[2] / "Data/Models/small"
+BORE, CANISTER = SMALL / "bore_hex_small.vtu", SMALL / "canister_hex_small.vtu"
+TARGET = "coords*1.05 + 0.02*sin(coordsZ)*iHat"
+DISTANCES = ("MaxTargetDistanceBefore", "MeanTargetDistanceBefore", "MaxTargetDistance",
+             "MeanTargetDistance")
+TOP, UP = "Surface 1", "0.2"
+LID = "Surface 3"
+
+
+def updated(morph):
+    morph.UpdatePipeline()
+    return morph
+
+
+class FirstTasks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.events = Tasks()
+        self.events.load_plugin(PLUGIN)
+
+    def play(self, clicks, errors=0):
+        """Plays what was recorded; returns the messages."""
+        (self.folder / "home").mkdir()
+        code, messages = self.events.play(self.folder / "home")
+        self.assertEqual(code, 0, messages)
+        self.assertEqual(messages.count("ERR|"), errors, messages)
+        self.assertEqual(self.events.counted, clicks)
+        return messages
+
+    def open(self, *paths):
+        for path in paths:
+            self.events.open(str(path))
+        self.events.clicks = 0
+
+    def names(self, path):
+        """As ParaView sorts them in its list."""
+        mesh = simple.OpenDataFile(str(path))
+        mesh.UpdatePipeline()
+        return mesh, sorted(MorphMesh(Input=mesh).GetProperty("Surfaces").GetAvailable())
+
+    def test_fit_to_an_stl_file(self):
+        mesh = simple.OpenDataFile(str(CANISTER))
+        moved = simple.Calculator(Input=simple.ExtractSurface(Input=mesh), CoordinateResults=1,
+                                  Function=TARGET)
+        stl = self.folder / "part.stl"
+        simple.SaveData(str(stl), proxy=simple.Triangulate(Input=moved))
+        fit = updated(FittoSurface(Input=mesh, Target=simple.OpenDataFile(str(stl))))
+        self.assertIn(fit.MorphStatus, ("Valid", "Repaired"))
+        self.assertLess(fit.MaxTargetDistance, 1e-6)
+        self.assertGreater(fit.MeanTargetDistanceBefore, 1e-2)
+
+        self.open(stl, CANISTER)
+        self.events.task("fit to a surface")
+        self.events.filter("FitToSurface")
+        self.events.choose("Target", "part.stl", "1QComboBox0")
+        self.events.apply()
+        self.events.done()
+        self.events.shows(fit)
+        self.events.shows(fit, DISTANCES)
+        self.play({"fit to a surface": 6})
+
+    def test_colors_after_nothing_was_ticked(self):
+        mesh, names = self.names(BORE)
+        morph = MorphMesh(Input=mesh, Surfaces=[TOP])
+        morph.Transform.Translate = [0, 0, float(UP)]
+        self.open(BORE)
+        self.events.task("see the surfaces, then move one")
+        self.events.filter("MorphMesh")
+        self.events.apply()
+        self.events.expect(COLORS, "SurfaceId", "currentText")
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.type(BOX + "translateZ", UP)
+        self.events.apply()
+        self.events.done()
+        self.events.shows(updated(morph))
+        self.events.expect(COLORS, "ScaledJacobian", "currentText")
+        self.play({"see the surfaces, then move one": 7})
+
+    def test_cells_selected_before_the_filter(self):
+        self.open(BORE)
+        self.events.select_cells((0.3, 0.4), (0.4, 0.6))
+        self.events.task("move what is selected")
+        self.events.filter("MorphMesh")
+        self.events.type(BOX + "translateX", "0.05")
+        self.events.apply()
+        self.events.done()
+        self.events.expect(f"{PANEL}MorphStatus/MorphStatus", "Valid")
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
+        self.play({"move what is selected": 5})
+        simple.ResetSession()
+        simple.LoadState(str(state))
+        morph = updated(simple.FindSource("MorphMesh1"))
+        self.assertEqual(morph.MorphStatus, "Valid")
+        moved = vtk_to_numpy(servermanager.Fetch(morph).GetPointData().GetArray(
+            "MorphDisplacement"))
+        asked = np.abs(moved - (0.05, 0, 0)).max(axis=1) < 1e-6
+        self.assertTrue(8 <= asked.sum() < len(asked) / 4, asked.sum())
+
+    def test_the_box_turns_about_its_centre(self):
+        mesh, names = self.names(CANISTER)
+        turned = updated(MorphMesh(Input=mesh, Surfaces=[LID], Rotation=[5, 0, 0],
+                                   Displacement="Translate, rotate, scale"))
+        self.assertEqual(turned.MorphStatus, "Valid")
+        self.open(CANISTER)
+        self.events.task("turn a surface")
+        self.events.filter("MorphMesh")
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(LID))
+        self.events.type(BOX + "rotateX", "5")
+        self.events.apply()
+        self.events.done()
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
+        self.play({"turn a surface": 6})
+        least, bounds = turned.MinScaledJacobian, turned.GetDataInformation().GetBounds()
+        simple.ResetSession()
+        simple.LoadState(str(state))
+        morph = updated(simple.FindSource("MorphMesh1"))
+        self.assertGreater(morph.Transform.Translate[1], 0.1)  # what keeps the centre
+        self.assertAlmostEqual(morph.MinScaledJacobian, least, delta=1e-9)
+        for bound, wanted in zip(morph.GetDataInformation().GetBounds(), bounds):
+            self.assertAlmostEqual(bound, wanted, delta=1e-9)
+
+    def test_a_surface_dragged_live(self):
+        mesh, names = self.names(BORE)
+        mesh.UpdatePipeline()
+        self.open(BORE)
+        self.events.task("drag a surface")
+        self.events.filter("MorphMesh")
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.toggle("LiveDrag")
+        self.events.apply()
+        self.events.drag((0.5, 0.5), (0.53, 0.52))
+        self.events.done()
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
+        messages = self.play({"drag a surface": 7})
+        self.assertNotIn("repair", messages.lower())
+        simple.ResetSession()
+        simple.LoadState(str(state))
+        morph = updated(simple.FindSource("MorphMesh1"))
+        self.assertEqual(morph.MorphStatus, "Valid")
+        self.assertEqual((morph.Live, morph.Quality), (0, "All"))  # as before the drag
+        self.assertGreater(np.linalg.norm(morph.Transform.Translate), 0.01)
+
+    def test_exodus(self):
+        mesh = simple.OpenDataFile(str(BORE))
+        file = self.folder / "part.ex2"
+        simple.SaveData(str(file), proxy=blocks_for_exodus(simple.GroupDatasets(Input=mesh)))
+        blocks, names = self.names(file)
+        morph = MorphMesh(Input=blocks, Surfaces=[TOP])
+        morph.Transform.Translate = [0, 0, float(UP)]
+        self.assertEqual(updated(morph).MorphStatus, "Valid")
+        self.open(file)
+        self.events.task("morph an Exodus file")
+        self.events.filter("MorphMesh")
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.type(BOX + "translateZ", UP)
+        self.events.apply()
+        self.events.done()
+        self.events.shows(morph)
+        self.events.expect(COLORS, "ScaledJacobian", "currentText")
+        self.play({"morph an Exodus file": 6})
+
+    def test_a_method_without_its_boundary(self):
+        self.open(BORE)
+        self.events.task("a method alone")
+        self.events.filter("MorphFEMWARP")
+        self.events.accept_inputs()
+        self.events.apply()
+        self.events.done()
+        self.events.expect(f"{PANEL}MorphStatus/MorphStatus", "Failed")
+        self.events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "-1")
+        messages = self.play({"a method alone": 5}, errors=1)
+        self.assertIn("Connect Boundary Displacement", messages)
+        self.assertNotIn("FORWARD_DIRECTION", messages)
+
+    def test_compare_methods(self):
+        mesh, names = self.names(BORE)
+        moved = BoundaryDisplacement(Input=mesh, Moving="Patches", Patches=[TOP], Motion="Vector",
+                                     Vector=[0, 0, 1.5], Surroundings="Stay")
+        best = updated(CompareMorphMethods(Input=mesh, Boundary=moved)).BestMethod
+        self.assertEqual(best, "Inversion-free")  # the only valid one
+        self.open(BORE)
+        self.events.filter("BoundaryDisplacement")
+        self.events.choose("Moving", "Patches")
+        self.events.tick("Patches/ArraySelectionWidget", names.index(TOP))
+        self.events.choose("Motion", "Vector")
+        self.events.type("Vector/DoubleLineEdit2", "1.5")
+        self.events.choose("Surroundings", "Stay")
+        self.events.apply()
+        self.events.select("/0:0/0:0")
+        self.events.task("compare the methods")
+        self.events.filter("CompareMorphMethods")
+        self.events.choose_input("Boundary", "/0:0/0:0/0:0")
+        self.events.apply()
+        self.events.done()
+        self.events.expect(f"{PANEL}BestMethod/BestMethod", best)
+        self.play({"compare the methods": 7})
+
+
+if __name__ == "__main__":
+    unittest.main()

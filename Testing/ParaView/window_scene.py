@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs in ParaView's window (paraview --script): makes the scene that MORPH_SCENE names, then
+writes a line of JSON to MORPH_FRAMES for each picture: the outputs that are shown, with the sum of
+their points' coordinates, and the filter's properties."""
+import json
+import os
+from pathlib import Path
+
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+# ParaView runs a script without the name of its file.
+MESH = Path(os.environ["MORPH_SOURCE"]) / "Data/Models/small/bore_hex_small.vtu"
+SHAPES = "coords + 0.1*coordsZ*iHat", "coords + 0.2*coordsX*kHat"
+#: Names of properties that each line has.
+WATCHED = {"box": ("LiveDrag", "Live", "Quality", "MinScaledJacobian", "MorphStatus"),
+           "sliders": ("LiveDrag", "FindValidRanges", "Quality", "MinScaledJacobian",
+                       "MorphStatus", "Weights", "ValidRanges")}
+
+
+def scene(name, **more):
+    """The filter of a scene, in this process."""
+    part = simple.OpenDataFile(str(MESH))
+    if name == "box":
+        return MorphMesh(Input=part, Surfaces=["Surface 1"], **more)
+    boundary = ExtractMorphBoundary(Input=part)
+    shapes = [simple.Calculator(Input=boundary, Function=function, CoordinateResults=1)
+              for function in SHAPES]
+    return MorphShapes(Input=part, Shapes=shapes, ShapeNames=["lean", "rise"], Weights=[0, 0.5],
+                       **more)
+
+
+def points(morph, port):
+    """The sum of the coordinates of an output in this process."""
+    data = morph.SMProxy.GetClientSideObject().GetOutputDataObject(port)
+    found = data.GetPoints()
+    return float(vtk_to_numpy(found.GetData()).sum()) if found else 0.
+
+
+def main():
+    name = os.environ["MORPH_SCENE"]
+    view = simple.GetActiveViewOrCreate("RenderView")
+    morph = scene(name, LiveDrag=1)
+    simple.Show(morph, view)
+    view.ResetCamera()
+    simple.SetActiveSource(morph)
+    frames = open(os.environ["MORPH_FRAMES"], "w", encoding="utf-8")
+
+    def finished(*_):
+        shown = {}
+        for representation in view.Representations:
+            source = getattr(representation, "Input", None)
+            if source and representation.Visibility and source.SMProxy == morph.SMProxy:
+                shown[source.Port] = points(morph, source.Port)
+        line = {"shown": shown}
+        for key in WATCHED[name]:
+            value = getattr(morph, key)
+            line[key] = (list(value) if key == "Weights" else
+                         value if isinstance(value, (int, float)) else str(value).strip("'"))
+        if name == "box":
+            line["Position"] = list(morph.Transform.Translate)
+        frames.write(json.dumps(line) + "\n")
+        frames.flush()
+
+    view.GetRenderWindow().AddObserver("EndEvent", finished)
+    simple.Render(view)
+
+
+if "MORPH_SCENE" in os.environ:
+    main()

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a user tries first, in ParaView's window, in one session: clicks are counted, and the
+panel's numbers are those of pvpython.
+
+A click is one press of the mouse, each level of a menu included; the choice of an entry of a list
+is two. Typing is counted apart.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
+         pvpython window_tasks.py
+"""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview import simple
+
+from window_events import MAIN, PANEL, VIEW
+from window_morph_mesh import Clicks, text
+
+PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/canister_hex_small.vtu"
+HOLE, WALL, LID = "Surface 0", "Surface 1", "Surface 3"
+NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId")
+COLORS = MAIN + "variableToolbar/displayColor/Variables"
+#: Of each task; numbers are typed besides.
+CLICKS = {"see which surface has which number": 4, "widen a hole by a number": 8,
+          "undo and redo": 4, "move a surface along a vector, in 20 steps": 10,
+          "an error keeps the picture": 8}
+
+
+class Tasks(Clicks):
+    """Counts the clicks of each task."""
+
+    def __init__(self):
+        super().__init__()
+        self.counted = {}
+
+    def task(self, name):
+        """The clicks from here on are those of this task."""
+        self.counted[name] = -self.clicks
+        self.name = name
+
+    def done(self):
+        self.counted[self.name] += self.clicks
+
+    def select(self, *arguments):
+        super().select(*arguments)
+        self.clicks += 1
+
+    def choose(self, name, entry, widget="ComboBox"):
+        """An entry of a list in the panel."""
+        self.set(f"{name}/{widget}", "set_string", entry)
+        self.clicks += 2
+
+    def toggle(self, name):
+        """A tick of the panel, which was off."""
+        self.set(f"{name}/CheckBox", "set_boolean", "true")
+        self.clicks += 1
+
+    def drag(self, first, last):
+        """A box as a whole, with the middle button, in ten steps."""
+        self.do(VIEW, "mousePress", f"({first[0]},{first[1]},4,4,0)")
+        for step in range(1, 11):
+            x, y = (a + (b - a) * step / 10 for a, b in zip(first, last))
+            self.do(VIEW, "mouseMove", f"({x:.4f},{y:.4f},0,4,0)")
+        self.do(VIEW, "mouseRelease", f"({last[0]},{last[1]},4,0,0)")
+        self.clicks += 1
+
+    def accept_inputs(self):
+        """Of a filter with several inputs, as the dialog has them."""
+        super().accept_inputs()
+        self.clicks += 1
+
+    def choose_input(self, port, place):
+        super().choose_input(port, place)
+        self.clicks += 1  # the port; what it gets is counted as a selection
+
+    def shows(self, morph, names=NUMBERS):
+        """The numbers of a filter of this process."""
+        for name in names:
+            self.expect(f"{PANEL}{name}/DoubleLineEdit0", text(getattr(morph, name)))
+
+
+class WindowTasks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = simple.OpenDataFile(str(MESH))
+        cls.mesh.UpdatePipeline()
+        cls.names = sorted(MorphMesh(Input=cls.mesh).GetProperty("Surfaces").GetAvailable())
+
+    def expected(self, **properties):
+        morph = MorphMesh(Input=self.mesh, **properties)
+        morph.UpdatePipeline()
+        self.assertIn(morph.MorphStatus, ("Valid", "Repaired"))
+        self.assertEqual(morph.InvertedCells, 0)
+        return morph
+
+    def row(self, surface):
+        """ParaView sorts the list: curves come first."""
+        return self.names.index(surface)
+
+    def test_tasks(self):
+        wider = self.expected(Surfaces=[HOLE], Displacement="Radius", RadiusChange=0.1)
+        bounds = wider.GetDataInformation().GetBounds()
+        for bound, wanted in zip(bounds, (-1, 1, -1, 1, 0, 2.2)):  # the wall stays
+            self.assertAlmostEqual(bound, wanted, delta=1e-6)
+        moved = self.expected(Surfaces=[LID], Displacement="Vector", Vector=[0, 0, 0.3])
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            events = Tasks()
+            events.load_plugin(PLUGIN)
+            events.open(str(MESH))
+            events.clicks = 0
+
+            events.task("see which surface has which number")
+            events.filter("MorphMesh")
+            events.apply()
+            events.done()
+            events.expect(COLORS, "SurfaceId", "currentText")
+            events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+
+            events.select("/0:0/0:0")
+            events.task("widen a hole by a number")
+            events.filter("MorphMesh")
+            events.tick("Surfaces/ArraySelectionWidget", self.row(HOLE))
+            events.choose("Displacement", "Radius")
+            events.type("RadiusChange/DoubleLineEdit0", "0.1")
+            events.apply()
+            events.done()
+            events.shows(wider)
+            events.expect(COLORS, "ScaledJacobian", "currentText")
+
+            events.task("undo and redo")
+            events.menu("menu_Edit", "actionEditUndo")
+            events.menu("menu_Edit", "actionEditRedo")
+            events.done()
+            events.shows(wider)
+
+            events.select("/0:0/0:0")
+            events.task("move a surface along a vector, in 20 steps")
+            events.filter("MorphMesh")
+            events.tick("Surfaces/ArraySelectionWidget", self.row(LID))
+            events.choose("Displacement", "Vector")
+            events.type("Vector/DoubleLineEdit2", "0.3")
+            events.type("NumberOfSteps/LineEdit0", "20")
+            events.apply()
+            events.do(MAIN + "VCRToolbar/actionVCRLastFrame", "activate")
+            events.clicks += 1
+            events.done()
+            events.shows(moved)
+
+            events.select("/0:0/0:0")
+            events.task("an error keeps the picture")
+            events.filter("MorphMesh")
+            events.tick("Surfaces/ArraySelectionWidget", self.row(LID))
+            events.choose("Displacement", "Radius")
+            events.type("RadiusChange/DoubleLineEdit0", "0.1")
+            events.apply()
+            events.done()
+            events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "-1")
+
+            events.save_state(folder / "state.pvsm")
+            code, messages = events.play(folder)
+            self.assertEqual(code, 0, messages)
+            self.assertIn("RadiusChange needs cylinders, and Surface 3, which moves, is none",
+                          messages)
+            self.assertEqual(messages.count("ERR|"), 1, messages)
+            self.assertNotIn("FORWARD_DIRECTION", messages)
+            self.assertEqual(events.counted, CLICKS)
+            simple.LoadState(str(folder / "state.pvsm"))
+            again = simple.FindSource("MorphMesh2")
+            again.UpdatePipeline()
+            for number in NUMBERS:
+                self.assertEqual(getattr(again, number), getattr(wider, number))
+
+
+if __name__ == "__main__":
+    unittest.main()
