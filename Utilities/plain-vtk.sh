@@ -6,10 +6,10 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: plain-vtk.sh [--unpack-only] [-j N]
-Builds and tests the VTK library and the Python module with Debian's own VTK 9.1. Its packages
-cannot be installed beside ParaView's Python, so they are downloaded and unpacked (about 35 MB and
-200 MB) into build/vtk-9.1; then the preset vtk91 is configured, built and tested there. The exit
-status is 0 if every test passed.
+Builds and tests the VTK library and the Python module with Debian's own VTK: 9.1 on Debian 12, 9.3
+on Debian 13. Its packages cannot be installed beside ParaView's Python, so they are downloaded and
+unpacked (about 35 MB and 200 MB) into build/debian-vtk. Then the preset plain-vtk is configured,
+built and tested there. The exit status is 0 if every test passed.
   --unpack-only  stop before configuring
   -j N           processes to build and to test with (default: all cores)
 END
@@ -27,11 +27,17 @@ while [ $# -gt 0 ]; do
   shift
 done
 
+release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")
+case "$release" in
+  "debian 12") versioned=(libvtk9.1 libvtk9.1-qt libjsoncpp25) ;;
+  "debian 13") versioned=(libvtk9.3 libvtk9.3-qt libjsoncpp26) ;;
+  *) echo "plain-vtk.sh: written for Debian 12 and 13, this is '$release'." >&2; exit 2 ;;
+esac
 # VTK's CMake files check that every library and wrapper of VTK is there, and look for TBB (its
 # threads) and JsonCpp.
-packages=(libvtk9-dev libvtk9.1 libvtk9.1-qt libvtk9-java python3-vtk9 vtk9 libtbb-dev libtbb12
-  libtbbmalloc2 libtbbbind-2-5 libjsoncpp-dev libjsoncpp25)
-folder=build/vtk-9.1
+packages=(libvtk9-dev libvtk9-java python3-vtk9 vtk9 libtbb-dev libtbb12 libtbbmalloc2
+  libtbbbind-2-5 libjsoncpp-dev "${versioned[@]}")
+folder=build/debian-vtk
 if [ ! -e "$folder/complete" ]; then
   rm -rf "$folder"
   mkdir -p "$folder/packages"
@@ -47,6 +53,6 @@ fi
 if [ "$unpack_only" = yes ]; then exit 0; fi
 
 if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
-cmake --preset vtk91
-cmake --build --preset vtk91 -j "$jobs"
-ctest --preset vtk91 -j "$jobs" 2>&1 | tee build/vtk91/ctest.log
+cmake --preset plain-vtk
+cmake --build --preset plain-vtk -j "$jobs"
+ctest --preset plain-vtk -j "$jobs" 2>&1 | tee build/plain-vtk/ctest.log

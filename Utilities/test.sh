@@ -19,7 +19,7 @@ From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
   of $sanitizer_budget minutes is left;
 - on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
-  vtk91), and runs core, filters, fuzz, programs and install;
+  plain-vtk), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
 - on Debian 12 builds the site (site.sh), and checks its links and pictures;
 - on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
@@ -42,7 +42,7 @@ END
 install=yes
 package=yes
 asan_filters=no
-presets=(paraview asan vtk91)
+presets=(paraview asan plain-vtk)
 debian13=yes
 site=yes
 labels=()
@@ -58,7 +58,7 @@ while [ $# -gt 0 ]; do
     --no-install) install=no ;;
     --no-asan) leave_out asan ;;
     --asan-filters) asan_filters=yes ;;
-    --no-plain-vtk) leave_out vtk91 ;;
+    --no-plain-vtk) leave_out plain-vtk ;;
     --no-package) package=no ;;
     --no-debian13) debian13=no ;;
     --no-site) site=no ;;
@@ -70,7 +70,7 @@ while [ $# -gt 0 ]; do
 done
 
 if [ "$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")" != "debian 12" ]; then
-  leave_out vtk91
+  leave_out plain-vtk
   debian13=no
   site=no
 fi
@@ -134,7 +134,7 @@ if [ "$install" = yes ]; then
 fi
 if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 for preset in "${presets[@]}"; do
-  if [ "$preset" = vtk91 ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
+  if [ "$preset" = plain-vtk ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
   cmake --preset "$preset"
   rm -f "build/$preset/ctest.log"
   if [ "$preset" = asan ]; then
