@@ -100,7 +100,8 @@ copy_sources() {
   ' bash "$fresh" "$project"
 }
 
-# A private view of the machine with the other root: what is mounted goes with the process.
+# A private view of the machine with the other root: what is mounted goes with the process. Its
+# first process is a shell, since Xvfb never tells process 1 that it is ready, and xvfb-run waits.
 inside() {
   # shellcheck disable=SC2016 # expanded inside
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -euc '
@@ -112,7 +113,7 @@ inside() {
     mount -t tmpfs tmpfs "$root/tmp"
     cp --dereference /etc/resolv.conf "$root/etc/resolv.conf"
     exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-      TERM="${TERM:-dumb}" bash -c "cd /MeshMorphing && exec \"\$@\"" bash "$@"
+      TERM="${TERM:-dumb}" bash -c "cd /MeshMorphing && \"\$@\"; exit \$?" bash "$@"
   ' bash "$root" "$@"
 }
 
