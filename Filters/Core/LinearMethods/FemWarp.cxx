@@ -3,6 +3,7 @@
 
 #include "LinearMethods/ElementStiffness.h"
 #include "LinearMethods/SplitRows.h"
+#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
@@ -99,7 +100,9 @@ void reportBadCells(const Mesh& mesh, const ConnectedComponents& bodies,
   monitor.warn(text + " Repair the reference mesh if you can.");
 }
 
-CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor)
+/// `factors`: of the cells; none: 1.
+CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<double>& factors, Monitor& monitor)
 {
   const Index cells = mesh.numberOfCells();
   CellMatrices result;
@@ -128,6 +131,10 @@ CellMatrices cellMatrices(const Mesh& mesh, const ConnectedComponents& bodies, M
         copyCorners(mesh, c, shape, mesh.points, corners[0]);
         sign[c] = static_cast<std::int8_t>(
           elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
+        if (!factors.empty())
+        {
+          result.K.segment(result.start[c], triangleSize(n)) *= factors[c];
+        }
         // The sign of a tetrahedron or pyramid is that of its corners.
         const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
         isBad[c] =
@@ -210,9 +217,10 @@ private:
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
 /// sums do not depend on threads.
 std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& bodies,
-  const std::vector<Index>& free, const std::vector<Index>& prescribed, Monitor& monitor)
+  const std::vector<double>& factors, const std::vector<Index>& free,
+  const std::vector<Index>& prescribed, Monitor& monitor)
 {
-  const CellMatrices matrices = cellMatrices(mesh, bodies, monitor);
+  const CellMatrices matrices = cellMatrices(mesh, bodies, factors, monitor);
   monitor.check();
   monitor.progress(0.3);
   const Adjacency around = nodeToCells(mesh);
@@ -309,11 +317,12 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const ConnectedComponents& b
     });
 }
 
-System assemble(const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<Index>& free,
+System assemble(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<double>& factors, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, Monitor& monitor)
 {
   // Frees the cells' matrices before the rows are joined.
-  std::vector<SplitRows> chunks = gatherRows(mesh, bodies, free, prescribed, monitor);
+  std::vector<SplitRows> chunks = gatherRows(mesh, bodies, factors, free, prescribed, monitor);
   monitor.check();
   monitor.progress(0.5);
   System system;
@@ -336,7 +345,10 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const ConnectedComponents parts = connectedComponents(rest);
   requirePrescribedBodies(rest, parts, partition);
   this->rows_ = unknownOrdering(rest, partition.free);
-  System system = assemble(rest, parts, this->rows_, partition.prescribed, monitor);
+  const std::vector<double> factors =
+    stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
+  this->isUniform_ = factors.empty();
+  System system = assemble(rest, parts, factors, this->rows_, partition.prescribed, monitor);
   monitor.check();
   monitor.progress(0.6);
 
@@ -363,11 +375,20 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points rhs, x;
+  Points rhs, x, fitted;
   rightHandSideAndGuess(
     this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
+  if (!this->isUniform_)
+  {
+    this->guess_.takeOff(
+      this->restPoints(), this->partition(), this->coupling_, prescribed, rhs, x, fitted, monitor);
+  }
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
+  if (!this->isUniform_)
+  {
+    x += fitted;
+  }
   unpermute(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
@@ -382,6 +403,11 @@ EvaluateReport FemWarp::displaceTranspose(
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
   prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows_, this->coupling_,
+      rhs, solution, prescribed);
+  }
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 
