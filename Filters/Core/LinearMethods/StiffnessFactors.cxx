@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <string>
@@ -166,26 +167,28 @@ void normalize(const Mesh& mesh, std::vector<double>& factors)
 std::vector<double> stiffnessFactors(const Mesh& mesh, const std::vector<Index>& prescribed,
   const CellStiffness& stiffness, Monitor& monitor)
 {
-  std::vector<double> factors;
-  switch (stiffness.kind)
+  if (stiffness.kind == CellStiffness::Kind::Uniform && stiffness.values.empty())
   {
-    case CellStiffness::Kind::Uniform:
-      return factors;
-    case CellStiffness::Kind::InverseVolume:
-      requireExponent(stiffness.exponent);
-      factors = inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume);
-      break;
-    case CellStiffness::Kind::WallDistance:
-      requireExponent(stiffness.exponent);
-      requireWalls(mesh, stiffness.walls);
-      factors = inversePower(mesh,
-        wallDistances(mesh, stiffness.walls.empty() ? prescribed : stiffness.walls, monitor),
-        stiffness.exponent, LeastDistance);
-      break;
-    case CellStiffness::Kind::Values:
-      requireValues(mesh, stiffness.values);
-      factors = stiffness.values;
-      break;
+    return {};
+  }
+  requireExponent(stiffness.exponent);
+  std::vector<double> factors(mesh.numberOfCells(), 1);
+  if (stiffness.kind == CellStiffness::Kind::InverseVolume)
+  {
+    factors = inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume);
+  }
+  else if (stiffness.kind == CellStiffness::Kind::WallDistance)
+  {
+    requireWalls(mesh, stiffness.walls);
+    factors = inversePower(mesh,
+      wallDistances(mesh, stiffness.walls.empty() ? prescribed : stiffness.walls, monitor),
+      stiffness.exponent, LeastDistance);
+  }
+  if (!stiffness.values.empty())
+  {
+    requireValues(mesh, stiffness.values);
+    std::transform(factors.begin(), factors.end(), stiffness.values.begin(), factors.begin(),
+      std::multiplies<>());
   }
   normalize(mesh, factors);
   return factors;

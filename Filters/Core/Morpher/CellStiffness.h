@@ -17,13 +17,12 @@ struct CellStiffness
     InverseVolume, ///< 1 / volume: small cells are stiff
     /// 1 / distance from `walls`: cells near them are stiff. The distance of a cell is that of its
     /// centre from the nearest wall node, at least 1e-3 of the mesh's mean distance.
-    WallDistance,
-    Values ///< `values`
+    WallDistance
   };
   Kind kind = Kind::Uniform;
-  double exponent = 1;       ///< power of volume or distance, in [0, 4]
-  std::vector<Index> walls;  ///< node ids; none: all prescribed nodes
-  std::vector<double> values; ///< #cells, positive
+  double exponent = 1;        ///< power of volume or distance, in [0, 4]
+  std::vector<Index> walls;   ///< node ids; none: all prescribed nodes
+  std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
 };
 
 /// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
