@@ -27,7 +27,8 @@
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:
- * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades, 4 is free, 5 is of a zone, 6 of a layer;
+ * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades,
+ *   4 is free, 5 is of a zone, 6 of a layer;
  * - `BoundaryDisplacement` (active vectors): the point as written minus its RestPosition.
  * No motion gives the input's points bit for bit.
  *
@@ -630,6 +631,7 @@ private:
   vtkBoundaryDisplacement(const vtkBoundaryDisplacement&) = delete;
   void operator=(const vtkBoundaryDisplacement&) = delete;
 
+  friend class vtkMorphMesh; // tells it the blocks of its mesh
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 

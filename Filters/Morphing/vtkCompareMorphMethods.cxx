@@ -50,6 +50,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 vtkStandardNewMacro(vtkCompareMorphMethods);
 
 morphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
+  morphSetNumberMacro(vtkCompareMorphMethods, StiffnessExponent, 0.0, 4.0)
   morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
     morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
       morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
@@ -237,6 +238,11 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
   filter->SetMatchTolerance(this->MatchTolerance);
   filter->SetHoldUnnamedBoundary(this->HoldUnnamedBoundary);
   filter->SetNumberOfThreads(this->NumberOfThreads);
+  if (auto* stiff = vtkStiffnessMorph::SafeDownCast(filter))
+  {
+    stiff->SetStiffness(this->Stiffness);
+    stiff->SetStiffnessExponent(this->StiffnessExponent);
+  }
 }
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
@@ -348,6 +354,8 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Relative: " << this->Relative << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Percentile: " << this->Percentile << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
   os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";

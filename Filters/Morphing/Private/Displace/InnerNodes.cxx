@@ -101,7 +101,6 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   for (const Zones::Part& part : Zones::Find(Zones::Rigid, grid, mesh, blocks, options.Zones))
   {
     Zone& zone = this->RigidZones.emplace_back();
-    zone.Name = part.Name;
     zone.Edge = edgeOf(mesh, part);
     for (const Index node : flagged(part.IsNode))
     {

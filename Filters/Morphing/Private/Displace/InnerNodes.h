@@ -52,7 +52,6 @@ public:
 private:
   struct Zone
   {
-    std::string Name;
     std::vector<morph::Index> Nodes; ///< ascending, in no zone before
     std::vector<morph::Index> Edge;  ///< those with a cell outside the zone
   };

@@ -220,7 +220,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
       throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
                          "volume mesh to this filter.");
     }
-    this->Inner.Find(grid, this->Model, this->Blocks.Merged(), inner);
+    this->Inner.Find(
+      grid, this->Model, this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner);
     this->Inner.Constrain(this->Model, inner, choice, targets);
   }
 

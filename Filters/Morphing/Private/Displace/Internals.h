@@ -64,6 +64,7 @@ struct vtkBoundaryDisplacement::vtkInternals
   vtkSmartPointer<vtkExtractSelection> Extractor;
 
   morph::filters::Blocks Blocks;
+  const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
   morph::filters::BlockSelection Selected, ZoneSelected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
