@@ -365,6 +365,8 @@ const char* vtkMorphMesh::GetMorphStatus() const
   }
 morphResultMacro(MinScaledJacobian, double, Number);
 morphResultMacro(MeanScaledJacobian, double, Number);
+morphResultMacro(WorstMeanScaledJacobian, double, Number);
+morphResultMacro(BoundaryMinimum, double, Number);
 morphResultMacro(InvertedCells, vtkIdType, Integer);
 morphResultMacro(DegenerateCells, vtkIdType, Integer);
 morphResultMacro(WorstCellId, vtkIdType, Integer);

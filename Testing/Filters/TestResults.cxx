@@ -65,6 +65,8 @@ Getters gettersOf(vtkMorphAlgorithm* f)
   return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
     { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
     { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
+    { "WorstMeanScaledJacobian", [f] { return f->GetWorstMeanScaledJacobian(); } },
+    { "BoundaryMinimum", [f] { return f->GetBoundaryMinimum(); } },
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },

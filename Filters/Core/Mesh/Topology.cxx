@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/ShapeWindings.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Support/UnionFind.h"
 
@@ -386,6 +387,7 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
       }
     }
   }
+  alignShapeSigns(mesh, bodies, result);
   return result;
 }
 }

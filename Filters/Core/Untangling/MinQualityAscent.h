@@ -24,4 +24,10 @@ bool hasReached(double minimum, double goal);
 /// a round, and the minimisation near the worst cells.
 int raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
+
+/// Raises the next-worst cells of a mesh whose worst cells have reached the bound that the boundary
+/// sets them. The nodes of these cells stay, and the minimum over the others is raised in the same
+/// way, up to three times. So no cell that stays is worse than before, and no minimum falls.
+/// Returns the number of rounds with a gain. Cost: as raiseMinimumQuality() for each of the three.
+int raiseNextWorst(const MovableQuality& quality, Points& points, Monitor& monitor);
 }

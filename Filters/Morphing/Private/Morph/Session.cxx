@@ -11,6 +11,7 @@
 #include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -269,6 +271,10 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
+    const double minimum =
+      morph::MovableQuality(from, this->Kept.Orientation(), partition.free).bounds(result.Moved).fixed;
+    result.BoundaryMinimum =
+      std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
   else
   {
