@@ -28,8 +28,7 @@ void scramble(Mesh& mesh, const NodePartition& partition, double spread)
   for (Index node : partition.free)
   {
     mesh.points.row(node) =
-      (low + high) / 2 +
-      spread * Eigen::RowVector3d::Random().cwiseProduct(high - low) / 2;
+      (low + high) / 2 + spread * Eigen::RowVector3d::Random().cwiseProduct(high - low) / 2;
   }
 }
 
@@ -53,8 +52,8 @@ TEST(GraphLaplace, FreeNodesLieAtTheMeanOfTheirNeighbors)
   EXPECT_LT(motions::difference(result, expected), 1e-4);
   EXPECT_TRUE(
     motions::identical(result, morph::graphLaplaceMesh(mesh, partition, mesh.points, three)));
-  EXPECT_TRUE(motions::identical(meshes::rows(result, partition.prescribed),
-    meshes::rows(expected, partition.prescribed)));
+  EXPECT_TRUE(motions::identical(
+    meshes::rows(result, partition.prescribed), meshes::rows(expected, partition.prescribed)));
 }
 
 TEST(GraphLaplace, MeshesWithInnerNodesAnywhereComeOutValid)
@@ -73,8 +72,7 @@ TEST(GraphLaplace, MeshesWithInnerNodesAnywhereComeOutValid)
       method.prepare(mesh, partition, monitor);
       Points moved;
       method.evaluate(meshes::rows(rest.points, partition.prescribed), moved, monitor);
-      const morph::Quality quality =
-        morph::measureCorners(rest, moved, signsOf(rest), {}, monitor);
+      const morph::Quality quality = morph::measureCorners(rest, moved, signsOf(rest), {}, monitor);
       EXPECT_EQ(quality.inverted + quality.degenerate, 0);
       EXPECT_GT(quality.minimum, 0.3);
       EXPECT_TRUE(motions::identical(meshes::rows(moved, partition.prescribed),

@@ -46,8 +46,8 @@ Points graphLaplaceMesh(
   const Index n = static_cast<Index>(partition.free.size());
   // Distances from the middle lose no digits far from the origin.
   const Eigen::RowVector3d middle = partition.prescribed.empty()
-    ? Eigen::RowVector3d::Zero()
-    : Eigen::RowVector3d(points.row(partition.prescribed[0]));
+                                      ? Eigen::RowVector3d::Zero()
+                                      : Eigen::RowVector3d(points.row(partition.prescribed[0]));
   Points b = Points::Zero(n, 3), x = Points::Zero(n, 3);
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(4 * edges.size());

@@ -20,8 +20,9 @@ struct Group
 {
   double volume = 0, absolute = 0;
   Index cells = 0;
-  std::array<Index, Shapes> votes{}; ///< faces with another shape that wind alike, less those that do not
-  int relative = 0;                  ///< to the body's first group; 0: not known
+  std::array<Index, Shapes>
+    votes{};        ///< faces with another shape that wind alike, less those that do not
+  int relative = 0; ///< to the body's first group; 0: not known
 };
 
 /// A face, and the direction in which its cell's node list runs round it.
@@ -207,7 +208,7 @@ private:
 
   const Mesh& mesh_;
   const ConnectedComponents& bodies_;
-  std::vector<Group> groups_; ///< #bodies x Shapes
+  std::vector<Group> groups_;   ///< #bodies x Shapes
   std::vector<char> isInDoubt_; ///< #bodies
 };
 }

@@ -144,13 +144,13 @@ void InversionFree::startFromGraph(
   Points& points, Points& alternative, TargetConstruction& target, Monitor& monitor) const
 {
   const MovableQuality quality = this->movableQuality();
-  const Points graph =
-    graphLaplaceMesh(this->referenceMesh_, this->partition(), points, monitor);
+  const Points graph = graphLaplaceMesh(this->referenceMesh_, this->partition(), points, monitor);
   const MovableQuality::Result drawn = quality.measure(graph, monitor);
   if (drawn.inverted < quality.measure(points, monitor).inverted)
   {
     points = graph;
-    target = this->target_ == TargetConstruction::Initial ? this->target_ : TargetConstruction::IdealSkew;
+    target =
+      this->target_ == TargetConstruction::Initial ? this->target_ : TargetConstruction::IdealSkew;
     if (quality.measure(alternative, monitor) < drawn)
     {
       alternative = graph;
@@ -220,8 +220,8 @@ bool InversionFree::untangleNear(
   return done;
 }
 
-InversionFree::Outcome InversionFree::improve(Points& points, const Aim& aim,
-  const Points& alternative, double enough, Monitor& monitor) const
+InversionFree::Outcome InversionFree::improve(
+  Points& points, const Aim& aim, const Points& alternative, double enough, Monitor& monitor) const
 {
   monitor.check();
   const MovableQuality quality = this->movableQuality();
@@ -251,6 +251,10 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Aim& aim,
     }
     if (hasReached(best.minimum, goal) || best.minimum >= enough * this->minimumAtRest_)
     {
+      if (best.minimum < enough * this->minimumAtRest_)
+      {
+        raiseNextWorst(quality, bestPoints, monitor);
+      }
       points = std::move(bestPoints);
       return outcome;
     }
@@ -259,8 +263,8 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Aim& aim,
       points = bestPoints;
     }
   }
-  outcome.untangled = this->minimizeEnergy(quality, goal, isValid ? best.minimum : 0, aim, points,
-                        outcome, monitor) ||
+  outcome.untangled = this->minimizeEnergy(
+                        quality, goal, isValid ? best.minimum : 0, aim, points, outcome, monitor) ||
                       isValid;
   if (quality.measure(points, monitor) < best)
   {

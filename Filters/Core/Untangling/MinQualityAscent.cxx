@@ -48,7 +48,8 @@ std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& qu
 
 namespace
 {
-constexpr int MostLevels = 3;
+constexpr int MostLevels = 2;
+constexpr double FewCells = 0.01; // of all: where more are at the minimum, it is no single place's
 
 /// Returns the cells at the minimum, within NearBound.
 std::vector<Index> atMinimum(const MovableQuality::Result& quality)
@@ -125,9 +126,9 @@ int raiseMinimumQuality(
 int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& monitor)
 {
   const Mesh& mesh = measured.mesh();
+  int kept = raiseMinimumQuality(measured, measured.bounds(points).movable, points, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
-  int kept = 0;
   for (int level = 0; level < MostLevels && !free.empty(); ++level)
   {
     const MovableQuality rest(mesh, measured.orientation(), free);
@@ -136,7 +137,12 @@ int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& moni
     {
       break;
     }
-    for (const Index c : atMinimum(quality))
+    const std::vector<Index> worst = atMinimum(quality);
+    if (static_cast<double>(worst.size()) > FewCells * static_cast<double>(mesh.numberOfCells()))
+    {
+      break;
+    }
+    for (const Index c : worst)
     {
       const Index* corners = mesh.cell(c);
       const int count = cellShape(mesh.types[c])->numberOfCorners;

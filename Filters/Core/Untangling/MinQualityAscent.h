@@ -25,9 +25,10 @@ bool hasReached(double minimum, double goal);
 int raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 
-/// Raises the next-worst cells of a mesh whose worst cells have reached the bound that the boundary
-/// sets them. The nodes of these cells stay, and the minimum over the others is raised in the same
-/// way, up to three times. So no cell that stays is worse than before, and no minimum falls.
-/// Returns the number of rounds with a gain. Cost: as raiseMinimumQuality() for each of the three.
+/// Raises the next-worst cells of a mesh whose minimum has reached a bound. First the minimum over
+/// what free nodes can change is raised as far as prescribed nodes allow. Then the nodes of the
+/// cells at the minimum stay, and the minimum over the others is raised, twice at most. That ends
+/// where more than 1 % of the cells are at the minimum. No minimum falls. Returns the number of
+/// rounds with a gain. Cost: as raiseMinimumQuality(), three times.
 int raiseNextWorst(const MovableQuality& quality, Points& points, Monitor& monitor);
 }

@@ -271,8 +271,9 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
-    const double minimum =
-      morph::MovableQuality(from, this->Kept.Orientation(), partition.free).bounds(result.Moved).fixed;
+    const double minimum = morph::MovableQuality(from, this->Kept.Orientation(), partition.free)
+                             .bounds(result.Moved)
+                             .fixed;
     result.BoundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
