@@ -23,9 +23,10 @@ PAGES = ROOT / "Documentation/HowTo"
 MODELS = ROOT / "Data/Models/small"
 EXAMPLES = ROOT / "Examples"
 BLOCK = re.compile(r"^```(python|bash)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-#: Programs of others that a page runs.
+#: Programs that a page runs, and that may be missing.
 NEEDS = {"CalculixAndScipy": ("ccx",),
-         "MorphAFoamCase": ("blockMesh", "icoFoam", "checkMesh")}
+         "MorphAFoamCase": ("blockMesh", "icoFoam", "checkMesh"),
+         "WriteYourOwnMethod": ("own-method",)}  # built by the test install.Examples
 
 
 def blocks(page, plugin):
@@ -41,17 +42,23 @@ def pages():
     return [page.stem for page in sorted(PAGES.glob("*.md")) if blocks(page.stem, "")]
 
 
-def missing(page):
-    """The programs that a page needs and that are not installed."""
-    return [name for name in NEEDS.get(page, ()) if not shutil.which(name)]
+def search_path(plugin):
+    """PATH with the programs that are built with the plugin, morph-mesh and the examples."""
+    build = next(folder for folder in Path(plugin).parents if folder.name == "lib").parent
+    return f"{build}/bin:{build}/installed-examples:{os.environ['PATH']}"
+
+
+def missing(page, plugin):
+    """The programs that a page needs and that are not there."""
+    return [name for name in NEEDS.get(page, ())
+            if not shutil.which(name, path=search_path(plugin))]
 
 
 def run(page, plugin, images):
     """Runs a page, and copies its picture to the folder `images`; returns its path."""
     text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
     picture = re.search(r"images/howto-([\w-]+\.png)", text).group(1)
-    programs = next(folder for folder in Path(plugin).parents if folder.name == "lib").parent / "bin"
-    environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+    environment = {**os.environ, "PATH": search_path(plugin)}
     commands = {"python": ["pvpython", "--force-offscreen-rendering", "page.py"],
                 "bash": ["bash", "-e", "-o", "pipefail", "page.sh"]}
     with tempfile.TemporaryDirectory() as name:
@@ -79,11 +86,12 @@ def main():
     plugin = options.plugin or next((ROOT / "build/paraview/lib").glob("**/MeshMorphing.so"), None)
     if not plugin:
         sys.exit("There is no plugin: build it, by Utilities/demo.sh for one, or use --plugin.")
+    plugin = plugin.resolve()
     for page in options.page or pages():
-        if missing(page):
-            print(f"{page}.md left out: {', '.join(missing(page))} is not installed")
+        if missing(page, plugin):
+            print(f"{page}.md left out, there is no {', '.join(missing(page, plugin))}")
             continue
-        print(run(page, plugin.resolve(), options.folder))
+        print(run(page, plugin, options.folder))
 
 
 if __name__ == "__main__":
