@@ -43,8 +43,7 @@ public:
 
   /// Sets `found` to the nodes at most `radius` from `x`, ascending. Several threads may search at
   /// once. Cost: O(log n) and the nodes found.
-  void within(
-    const Eigen::RowVector3d& x, double radius, std::vector<std::int32_t>& found) const;
+  void within(const Eigen::RowVector3d& x, double radius, std::vector<std::int32_t>& found) const;
 
   Index size() const;
 

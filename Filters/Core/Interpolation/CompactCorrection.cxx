@@ -98,8 +98,10 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::ve
 void CompactCorrection::prepare(
   const Points& sites, const std::vector<double>& radii, const Points& targets, Monitor& monitor)
 {
-  this->atSites_ = kernelsAt(sites, sites, radii, [](Index i) { return i; }, monitor);
-  this->atTargets_ = kernelsAt(targets, sites, radii, [](Index) { return Index(-1); }, monitor);
+  this->atSites_ = kernelsAt(
+    sites, sites, radii, [](Index i) { return i; }, monitor);
+  this->atTargets_ = kernelsAt(
+    targets, sites, radii, [](Index) { return Index(-1); }, monitor);
 }
 
 void CompactCorrection::solve(Points& residuals) const

@@ -23,8 +23,8 @@ public:
   /// `sites`, #sites x 3, and `radii`, of each: in farthest-point order (FarthestPoints.h), without
   /// the sites that need no correction. `targets`: #targets x 3. Cost and memory: 12 bytes a pair
   /// of a kernel and a target or later site in it, and searches in a k-d tree.
-  void prepare(const Points& sites, const std::vector<double>& radii, const Points& targets,
-    Monitor& monitor);
+  void prepare(
+    const Points& sites, const std::vector<double>& radii, const Points& targets, Monitor& monitor);
 
   Index numberOfSites() const { return this->atSites_.columns(); }
   /// Turns residuals, #sites x 3, into the kernels' coefficients, in place.

@@ -95,7 +95,8 @@ RadialInterpolant::Coefficients RadialInterpolant::solve(const Points& values) c
   Eigen::MatrixXd x = this->reflect(values);
   solveCholesky(this->matrix_.bottomRightCorner(rest, rest), x.bottomRows(rest));
   Eigen::Matrix<double, Terms, 3> top =
-    x.topRows<Terms>() - this->matrix_.bottomLeftCorner(rest, Terms).transpose() * x.bottomRows(rest);
+    x.topRows<Terms>() -
+    this->matrix_.bottomLeftCorner(rest, Terms).transpose() * x.bottomRows(rest);
   this->triangle_.triangularView<Eigen::Upper>().solveInPlace(top);
   x.topRows<Terms>().setZero();
   return { this->reflectBack(std::move(x)), top };
@@ -116,16 +117,15 @@ Points RadialInterpolant::solveTranspose(const Coefficients& gradient) const
 void RadialInterpolant::evaluate(
   const Coefficients& coefficients, const Points& targets, Points& values, Monitor& monitor) const
 {
-  kernelSums(
-    this->kernel_, targets, this->centres_, coefficients.ofKernels, values, monitor);
+  kernelSums(this->kernel_, targets, this->centres_, coefficients.ofKernels, values, monitor);
   const auto& p = coefficients.ofPolynomial;
   monitor.parallelFor(targets.rows(), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        values.row(i) += p.row(0) + targets(i, 0) * p.row(1) + targets(i, 1) * p.row(2) +
-                         targets(i, 2) * p.row(3);
+        values.row(i) +=
+          p.row(0) + targets(i, 0) * p.row(1) + targets(i, 1) * p.row(2) + targets(i, 2) * p.row(3);
       }
     });
 }
@@ -142,7 +142,6 @@ RadialInterpolant::Coefficients RadialInterpolant::evaluateTranspose(
 
 std::size_t RadialInterpolant::memory() const
 {
-  return sizeof(double) *
-         (this->matrix_.size() + this->reflectors_.size() + this->centres_.size());
+  return sizeof(double) * (this->matrix_.size() + this->reflectors_.size() + this->centres_.size());
 }
 }

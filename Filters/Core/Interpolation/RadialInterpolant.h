@@ -29,8 +29,8 @@ public:
   /// What the values at the centres determine.
   struct Coefficients
   {
-    Points ofKernels;                            ///< #centres x 3
-    Eigen::Matrix<double, 4, 3> ofPolynomial;    ///< 1, x, y, z
+    Points ofKernels;                         ///< #centres x 3
+    Eigen::Matrix<double, 4, 3> ofPolynomial; ///< 1, x, y, z
   };
 
   /// `centres`: #centres x 3, of about unit extent around the origin, at least four, not all in a

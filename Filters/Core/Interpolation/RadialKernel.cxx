@@ -12,7 +12,7 @@ namespace morph
 {
 namespace
 {
-constexpr Index Lanes = 2 * SimdWidth; // targets a block: two registers hide the root's latency
+constexpr Index Lanes = 2 * SimdWidth;     // targets a block: two registers hide the root's latency
 constexpr double PairsBetweenChecks = 2e7; // about 20 ms
 
 struct Triharmonic
@@ -122,8 +122,7 @@ void sumOver(const Kernel& kernel, const Points& targets, const std::vector<Sour
     monitor.check();
     const Index end = std::min(blocks, begin + stretch);
     monitor.parallelFor(end - begin, 4,
-      [&](Index first, Index last)
-      {
+      [&](Index first, Index last) {
         dispatchedFor<BlockSums<Kernel>>(
           begin + first, begin + last, kernel, places, sources, sums);
       });

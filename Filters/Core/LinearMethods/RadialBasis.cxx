@@ -15,7 +15,6 @@ namespace morph
 namespace
 {
 constexpr double NearestCentres = 1e-5; // of the extent
-constexpr Index FewestCentres = 4;
 }
 
 void RadialBasis::setSupportRadius(double radius)
@@ -101,18 +100,20 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
   this->largestResidual_ = 0;
 }
 
-EvaluateReport RadialBasis::report() const
+EvaluateReport RadialBasis::report(double residual) const
 {
   EvaluateReport report;
   report.bytesMoved = static_cast<double>(this->memory()) +
                       sizeof(double) * static_cast<double>(this->freePlaces_.size());
-  report.statistics = { { "Centres", this->centres() },
-    { "CorrectedSites", this->correctedSites() } };
+  // Counts are whole numbers; rounded up, so that 0 means none.
+  const double millionths = std::min(std::ceil(1e6 * residual / this->extent_), 1e18);
+  report.statistics = { { "Centers", this->centres() },
+    { "CorrectedSites", this->correctedSites() },
+    { "LargestResidualPPM", millionths > 0 ? static_cast<Index>(millionths) : 0 } };
   return report;
 }
 
-EvaluateReport RadialBasis::displace(
-  const Points& prescribed, Points& free, Monitor& monitor) const
+EvaluateReport RadialBasis::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const Points values = this->sites_.average(prescribed);
   monitor.check();
@@ -120,7 +121,8 @@ EvaluateReport RadialBasis::displace(
   Points residuals;
   this->interpolant_.evaluate(coefficients, this->otherPlaces_, residuals, monitor);
   residuals = values(this->otherSites_, allColumns) - residuals;
-  this->largestResidual_ = residuals.rows() > 0 ? residuals.rowwise().norm().maxCoeff() : 0;
+  const double largest = residuals.rows() > 0 ? residuals.rowwise().norm().maxCoeff() : 0;
+  this->largestResidual_ = largest;
   this->correction_.solve(residuals);
 
   this->interpolant_.evaluate(coefficients, this->freePlaces_, free, monitor);
@@ -130,7 +132,7 @@ EvaluateReport RadialBasis::displace(
     this->correction_.atTargets().multiply(residuals, correction, monitor);
     free += correction;
   }
-  return this->report();
+  return this->report(largest);
 }
 
 EvaluateReport RadialBasis::displaceTranspose(
@@ -152,7 +154,17 @@ EvaluateReport RadialBasis::displaceTranspose(
   }
   result(this->centreSites_, allColumns) = this->interpolant_.solveTranspose(gradient);
   this->sites_.scatterTranspose(result, prescribed);
-  return this->report();
+  return this->report(0);
+}
+
+std::vector<Index> RadialBasis::centreNodes() const
+{
+  std::vector<Index> nodes;
+  for (const Index site : this->centreSites_)
+  {
+    nodes.push_back(this->partition().prescribed[*this->sites_.prescribed().begin(site)]);
+  }
+  return nodes;
 }
 
 std::size_t RadialBasis::memory() const

@@ -36,7 +36,8 @@ namespace morph
 class RadialBasis : public LinearMorpher
 {
 public:
-  static constexpr Index MostCentres = 4000; ///< of the dense system
+  static constexpr Index FewestCentres = 4;
+  static constexpr Index MostCentres = 4000;   ///< of the dense system
   static constexpr Index CentresOfMany = 2000; ///< where there are more sites
 
   /// Default Triharmonic.
@@ -59,6 +60,8 @@ public:
   Index centres() const { return this->interpolant_.centres().rows(); }
   Index correctedSites() const { return this->correction_.numberOfSites(); }
   ///@}
+  /// Returns for each centre a prescribed node there, in farthest-point order.
+  std::vector<Index> centreNodes() const;
   /// Returns the largest residual that the centres left at the other sites in the last evaluate(),
   /// before the correction, in the mesh's unit. Calls from several threads at once leave that of
   /// one.
@@ -75,7 +78,8 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  EvaluateReport report() const;
+  /// `residual`: the largest of the centres, in the mesh's unit.
+  EvaluateReport report(double residual) const;
   void requireSpace() const;
   Points scaled(const Points& positions) const;
 

@@ -17,7 +17,8 @@ constexpr Index Panel = 96;
 constexpr Index Tile = 192;
 
 /// Subtracts the panel's part from the lower triangle that begins at row and column `first`.
-void updateTrailing(DenseMatrixRef& matrix, Index column, Index width, Index first, Monitor& monitor)
+void updateTrailing(
+  DenseMatrixRef& matrix, Index column, Index width, Index first, Monitor& monitor)
 {
   const Index n = matrix.rows();
   std::vector<std::pair<Index, Index>> tiles;
