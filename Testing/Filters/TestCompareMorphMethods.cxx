@@ -51,6 +51,7 @@ protected:
     this->Filter->SetSmoothing(others);
     this->Filter->SetSimplexLinear(others);
     this->Filter->SetSimplexNaturalNeighbor(others);
+    this->Filter->SetRadialBasis(others);
     this->Filter->SetLBWARP(others);
     this->Filter->SetInversionFree(others);
   }
