@@ -34,6 +34,7 @@ public:
   using FigureRun::FigureRun;
 
   void cube(const Problem& problem);
+  void radialBasis(const Problem& problem);
   template <typename Method>
   void series(const std::string& name, const std::vector<Problem>& problems);
 
@@ -48,7 +49,6 @@ private:
   double bandwidth() const;
   void addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
     double bandwidth, double paper);
-  void radialBasis(const Problem& problem);
   void againstSibson(const Problem& problem, const morph::InterpolationSites& sites,
     const CgalBaseline& cgal, const morph::Points& moved, double cold);
 };

@@ -13,6 +13,7 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 256;
+constexpr double Negligible = 1e-40; // at the radius, and up to rounding within
 
 /// A target within a kernel's radius.
 struct Entry
@@ -57,7 +58,7 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::ve
           {
             const double weight =
               target > above(i) ? kernel((targets.row(target) - sites.row(i)).squaredNorm()) : 0;
-            if (weight > 0)
+            if (weight > Negligible)
             {
               found[b].entries.push_back({ target, weight });
             }
