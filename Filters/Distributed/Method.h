@@ -22,6 +22,10 @@ public:
   /// The layers of ghost cells that the method reads.
   virtual int layers() const { return 1; }
 
+  /// Takes the options that evaluate() reads from the serial method of the same name. It sets no
+  /// option that prepare() reads.
+  virtual void takeEvaluateOptions(const Morpher& serial) = 0;
+
   /// Prepares the method. `partition`: of mesh.mesh(), with the owner's choice at ghosts. `mesh`
   /// has to outlive this object's use. Throws Error on all ranks.
   void prepare(const DistributedMesh& mesh, const NodePartition& partition, Monitor& monitor);

@@ -2,8 +2,10 @@
 #include "Distributed/SystemMethod.h"
 
 #include "LinearMethods/DirichletSystem.h"
+#include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
 #include "LinearMethods/LogBarrierSystem.h"
+#include "LinearMethods/LogBarrierWarp.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -192,6 +194,11 @@ EvaluateReport SystemMethod::displace(
   return report;
 }
 
+void FemWarp::takeEvaluateOptions(const Morpher& serial)
+{
+  this->setTolerance(static_cast<const morph::FemWarp&>(serial).tolerance());
+}
+
 SystemMethod::Rows FemWarp::assemble(const std::vector<Index>& columns, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
@@ -227,6 +234,11 @@ SystemMethod::Rows FemWarp::assemble(const std::vector<Index>& columns, Monitor&
     monitor.warn(warning);
   }
   return { std::move(system.interior), std::move(system.coupling) };
+}
+
+void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
+{
+  this->setTolerance(static_cast<const morph::LogBarrierWarp&>(serial).tolerance());
 }
 
 SystemMethod::Rows LogBarrierWarp::assemble(const std::vector<Index>& columns, Monitor& monitor)

@@ -56,6 +56,7 @@ public:
     : SystemMethod(HypreSolver::Kind::Symmetric)
   {
   }
+  void takeEvaluateOptions(const Morpher& serial) override;
 
 protected:
   Rows assemble(const std::vector<Index>& columns, Monitor& monitor) override;
@@ -65,13 +66,14 @@ protected:
 class LogBarrierWarp : public SystemMethod
 {
 public:
-  LogBarrierWarp()
+  /// `relax`: free nodes outside the hull of their neighbors take fall-backs; otherwise they are an
+  /// error.
+  explicit LogBarrierWarp(bool relax)
     : SystemMethod(HypreSolver::Kind::General)
+    , relax_(relax)
   {
   }
-
-  /// Whether free nodes outside the hull of their neighbors take fall-backs, or are an error.
-  void setRelax(bool relax) { this->relax_ = relax; }
+  void takeEvaluateOptions(const Morpher& serial) override;
   /// The second ring of a node's neighbors is a fall-back.
   int layers() const override { return 2; }
 
@@ -80,7 +82,7 @@ protected:
   std::vector<Statistic> counts() const override { return this->counts_; }
 
 private:
-  bool relax_ = true;
+  bool relax_;
   std::vector<Statistic> counts_;
 };
 }

@@ -114,7 +114,8 @@ int vtkScaledJacobian::RequestData(
     [&]
     {
       const filters::Input::Mesh mesh = filters::Input::TakeMesh(
-        input, blocks, this->CoincidentPoints, filters::Input::Use::ToMeasure, monitor);
+        input, blocks, this->CoincidentPoints, filters::Input::Use::ToMeasure,
+        this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
       this->Measure(filters::Input::RequireGrid(mesh.Data, "The input"), output, monitor);
     },
