@@ -33,4 +33,9 @@ void ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
 {
   refuse();
 }
+
+Measured Measure(vtkUnstructuredGrid*, bool, vtkUnstructuredGrid*, morph::Monitor&)
+{
+  refuse();
+}
 }

@@ -3,8 +3,12 @@
 
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Morph/Session.h"
+#include "Quality/Certificate.h"
+#include "Quality/ScaledJacobian.h"
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 class vtkDataObject;
 class vtkPolyData;
@@ -55,5 +59,17 @@ private:
 /// Writes the outer faces of the whole mesh that belong to this process's cells, as
 /// Surface::Write() does, with global ids.
 void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor);
+
+/// The quality of the mesh; see vtkScaledJacobian.
+struct Measured
+{
+  morph::Quality Whole;                  ///< the numbers of the whole mesh, without cells
+  std::vector<morph::Index> Unmeasured;  ///< Quality::Unmeasured() of the whole mesh
+  morph::CertificateReport Certificates; ///< counts of the whole mesh
+  morph::Index MirroredBodies = 0;
+};
+/// Measures the mesh and, if `certified`, examines it; `output` becomes the grid with the arrays.
+Measured Measure(vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor);
 }
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankMesh.h"
 
-#include "Mesh/CellShape.h"
-#include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
@@ -19,6 +17,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -92,7 +91,8 @@ RankMesh::RankMesh()
 {
 }
 
-bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, morph::Monitor& monitor)
+bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown,
+  morph::Monitor& monitor)
 {
   const morph::distributed::Ranks& ranks = this->Processes;
   std::vector<std::int64_t> nodeIds = globalIds(grid->GetPointData());
@@ -106,29 +106,25 @@ bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, morph::Monitor& monit
     return false;
   }
   this->Distributed.reset();
-  ranks.together([&] { this->Copy = GridMesh::FromGrid(grid); });
-  if (const morph::Index with = ranks.sum(morph::Index(morph::hasPolyhedra(this->Copy))))
-  {
-    throw morph::Error("Polyhedra need one MPI rank, and they are on " + std::to_string(with) +
-                       ". Run on one rank.");
-  }
+  ranks.together([&] { this->Copy = GridMesh::FromGrid(grid, unknown); });
   morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
   morph::distributed::requireNodeIds(ranks, piece);
   morph::distributed::requireCellIds(ranks, piece);
   auto whole = std::make_unique<morph::distributed::DistributedMesh>(
     ranks, std::move(piece), layers, monitor);
-  if (whole->volumeCells() == 0)
-  {
-    throw morph::Error("None of the input's cells is a volume cell. Tetrahedra, hexahedra, wedges "
-                       "or pyramids are needed.");
-  }
-  DataCheck::RequireExtent(whole->size(), "The input's volume mesh");
   const morph::Index cells = whole->pieceCells();
   this->Signs.assign(whole->orientation().begin(), whole->orientation().begin() + cells);
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
+  const auto dimension = [this](morph::Index c) { return GridMesh::Dimension(this->Copy.types[c]); };
+  morph::Index highest = 0;
   for (morph::Index c = 0; c < cells; ++c)
   {
-    this->Skip[c] |= morph::cellShape(this->Copy.types[c])->dimension < 3;
+    highest = std::max<morph::Index>(highest, dimension(c));
+  }
+  this->Dimension = static_cast<int>(ranks.maximum(highest));
+  for (morph::Index c = 0; c < cells; ++c)
+  {
+    this->Skip[c] |= dimension(c) < this->Dimension;
   }
   this->Polygons = {};
   ranks.together(
@@ -139,6 +135,16 @@ bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, morph::Monitor& monit
   this->Layers = layers;
   this->Distributed = std::move(whole);
   return true;
+}
+
+void RankMesh::RequireVolumeCells() const
+{
+  if (this->Distributed->volumeCells() == 0)
+  {
+    throw morph::Error("None of the input's cells is a volume cell. Tetrahedra, hexahedra, wedges "
+                       "or pyramids are needed.");
+  }
+  DataCheck::RequireExtent(this->Distributed->size(), "The input's volume mesh");
 }
 
 void RankMesh::WriteGlobalIds(vtkDataSet* output) const

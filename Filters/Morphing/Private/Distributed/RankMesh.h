@@ -4,6 +4,7 @@
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
+#include "Private/Data/GridMesh.h"
 #include "Private/Data/MovedSurface.h"
 
 #include <cstdint>
@@ -27,8 +28,11 @@ public:
 
   /// Takes the pieces, unless they are the ones that are kept; returns whether it did. Points and
   /// cells are known by their global ids where there are some. Throws morph::Error on all
-  /// processes for a mesh that cannot be morphed. `layers`: of ghost cells.
-  bool Take(vtkUnstructuredGrid* grid, int layers, morph::Monitor& monitor);
+  /// processes for a mesh that cannot be read. `layers`: of ghost cells.
+  bool Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown,
+    morph::Monitor& monitor);
+  /// Throws morph::Error on all processes unless the mesh can be morphed.
+  void RequireVolumeCells() const;
 
   const morph::distributed::Ranks& Ranks() const { return this->Processes; }
   const morph::distributed::DistributedMesh& Whole() const { return *this->Distributed; }
@@ -36,8 +40,11 @@ public:
   const morph::Mesh& Piece() const { return this->Copy; }
   /// Of the piece's cells, as of the whole mesh.
   const std::vector<std::int8_t>& Orientation() const { return this->Signs; }
-  /// #cells of the piece: nonzero for ghosts, and for cells that are no volumes.
+  /// #cells of the piece: nonzero for ghosts, and for cells of a lower dimension than the whole
+  /// mesh has.
   const std::vector<std::uint8_t>& Unmeasured() const { return this->Skip; }
+  /// Of the whole mesh.
+  int HighestDimension() const { return this->Dimension; }
   /// The outer faces of this process's cells.
   const MovedSurface& Surface() const { return this->Polygons; }
 
@@ -49,7 +56,7 @@ private:
   morph::Mesh Copy;
   std::vector<std::int64_t> NodeIds, CellIds; ///< as they came, or empty
   std::vector<std::uint8_t> Ghosts;
-  int Layers = 0;
+  int Layers = 0, Dimension = 0;
   std::unique_ptr<morph::distributed::DistributedMesh> Distributed;
   std::vector<std::int8_t> Signs;
   std::vector<std::uint8_t> Skip;

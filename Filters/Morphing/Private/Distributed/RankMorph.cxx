@@ -2,6 +2,7 @@
 #include "Distributed/Methods.h"
 #include "Distributed/Quality.h"
 #include "Mesh/NodePartition.h"
+#include "Mesh/Polyhedra.h"
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
@@ -63,6 +64,22 @@ void requireAvailable(const Morphing::Task& task, const Session::Options& option
   {
     refuse("FeatureLines");
   }
+}
+
+/// Certifies this process's cells. The counts are those of the whole mesh.
+morph::CertificateReport certify(const RankMesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::uint8_t>& skip, morph::Monitor& monitor)
+{
+  morph::CertificateReport report;
+  mesh.Ranks().together(
+    [&]
+    { report = Quality::Certify(mesh.Piece(), output, mesh.Orientation(), skip, monitor); });
+  morph::Index counts[3] = { report.certified, report.inverted, report.undecided };
+  mesh.Ranks().sum(counts, 3);
+  report.certified = counts[0];
+  report.inverted = counts[1];
+  report.undecided = counts[2];
+  return report;
 }
 }
 
@@ -246,19 +263,8 @@ void Morphing::Internals::Write(const Task& task, const Session::Options& option
     this->Results.Set(whole);
     if (task.Measures.Certify)
     {
-      morph::CertificateReport report;
-      ranks.together(
-        [&]
-        {
-          report =
-            Quality::Certify(piece, task.Output, this->Mesh.Orientation(), skip, monitor);
-        });
+      const morph::CertificateReport report = certify(this->Mesh, task.Output, skip, monitor);
       Quality::Write(report, task.Output);
-      morph::Index counts[3] = { report.certified, report.inverted, report.undecided };
-      ranks.sum(counts, 3);
-      report.certified = counts[0];
-      report.inverted = counts[1];
-      report.undecided = counts[2];
       this->Results.Set(report);
     }
     this->Results.SetText("MorphStatus", bad > 0 ? "Inverted" : "Valid");
@@ -298,9 +304,16 @@ void Morphing::Run(const Task& task, const Session::Options& options, morph::Mon
                        " needs one MPI rank, and the mesh is distributed over several. Run on one, "
                        "or use a linear method, Morph FEMWARP for instance.");
   }
-  if (own.Mesh.Take(task.Grid, sample->layers(), monitor))
+  if (own.Mesh.Take(task.Grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor))
   {
     own.Prepared.reset();
+  }
+  own.Mesh.RequireVolumeCells();
+  if (own.Mesh.Ranks().sum(morph::Index(morph::hasPolyhedra(own.Mesh.Piece()))) > 0)
+  {
+    throw morph::Error(options.Method +
+                       " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
+                       "over several. Run on one.");
   }
   const DistributedMesh& whole = own.Mesh.Whole();
   const auto& ranks = whole.ranks();
@@ -363,7 +376,8 @@ void Morphing::Run(const Task& task, const Session::Options& options, morph::Mon
 void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor)
 {
   RankMesh mesh;
-  mesh.Take(grid, 1, monitor);
+  mesh.Take(grid, 1, GridMesh::UnknownCells::Refuse, monitor);
+  mesh.RequireVolumeCells();
   const morph::distributed::Ranks& ranks = mesh.Ranks();
   const morph::BoundaryFaces& faces = mesh.Whole().outerFaces();
   if (ranks.sum(static_cast<morph::Index>(faces.cells.size())) == 0 && ranks.rank() == 0)
@@ -373,5 +387,35 @@ void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Moni
   ranks.together(
     [&] { Surface::Write(grid, mesh.Piece(), faces, output, &mesh.Orientation()); });
   mesh.WriteGlobalIds(output);
+}
+
+Measured Measure(vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor)
+{
+  RankMesh mesh;
+  mesh.Take(grid, 1, GridMesh::UnknownCells::Keep, monitor);
+  Measured result;
+  const std::vector<std::uint8_t>& skip = mesh.Unmeasured();
+  morph::Quality mine;
+  mesh.Ranks().together(
+    [&]
+    {
+      output->ShallowCopy(grid);
+      mine = Quality::Measure(mesh.Piece(), output, mesh.Orientation(), skip, monitor);
+      Quality::Remove(output);
+      Quality::Write(mine, output);
+      result.Unmeasured = Quality::Unmeasured(mesh.Piece(), mine, skip, grid);
+    });
+  mesh.Ranks().sum(result.Unmeasured.data(), result.Unmeasured.size());
+  result.Whole = morph::distributed::reduce(mesh.Ranks(), mine, mesh.Whole().cellIds());
+  if (certified)
+  {
+    result.Certificates = certify(mesh, output,
+      mesh.HighestDimension() == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1),
+      monitor);
+    Quality::Write(result.Certificates, output);
+  }
+  result.MirroredBodies = mesh.Whole().mirroredBodies();
+  return result;
 }
 }
