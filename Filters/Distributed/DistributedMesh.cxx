@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace morph::distributed
@@ -209,15 +211,8 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
   , cellIds_(std::move(piece.cellIds))
 {
   this->isGhost_.resize(this->pieceCells_, 0);
-  this->isUsed_.assign(this->pieceNodes_, 0);
+  this->isUsed_ = usedNodes(this->mesh_, this->isGhost_);
   std::vector<Index> wrong;
-  for (Index c = 0; c < this->pieceCells_; ++c)
-  {
-    for (Index k = 0; k < this->mesh_.cellSize(c) && this->isGhost_[c] == 0; ++k)
-    {
-      this->isUsed_[this->mesh_.cell(c)[k]] = 1;
-    }
-  }
   for (Index n = 0; n < this->pieceNodes_; ++n)
   {
     if (this->nodeIds_[n] < 0 || this->nodeIds_[n] >= NoBody)
@@ -235,22 +230,51 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
       }
     });
   this->measure();
-  std::vector<NodeRecord> records;
-  for (Index n = 0; n < this->pieceNodes_; ++n)
-  {
-    records.push_back({ this->nodeIds_[n],
-      { this->mesh_.points(n, 0), this->mesh_.points(n, 1), this->mesh_.points(n, 2) },
-      this->isUsed_[n] });
-    this->byId_.emplace_back(this->nodeIds_[n], n);
-  }
-  std::sort(this->byId_.begin(), this->byId_.end());
-  this->directory_ = std::make_unique<Directory>(ranks, records, 1e-6 * this->size_);
+  this->directory_ = std::make_unique<Directory>(ranks, this->numberNodes(), 1e-6 * this->size_);
   this->owner_ = this->directory_->owners(this->nodeIds_);
+  for (const auto& pair : this->doubles_)
+  {
+    this->owner_[pair.first] = -1;
+  }
   this->addGhosts(layers, monitor);
   this->halo_ = Halo(
     ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
   this->findBodies();
   this->findOuter(monitor);
+}
+
+/// Fills byId_ and doubles_; returns what the directory is to know.
+std::vector<NodeRecord> DistributedMesh::numberNodes()
+{
+  std::vector<Index> order(this->pieceNodes_);
+  std::iota(order.begin(), order.end(), Index(0));
+  // A node of own cells stands for its copies in ghost cells.
+  const auto key = [this](Index n)
+  { return std::tuple(this->nodeIds_[n], this->isUsed_[n] == 0, n); };
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  std::vector<NodeRecord> records;
+  for (Index n : order)
+  {
+    const std::int64_t id = this->nodeIds_[n];
+    if (this->isUsed_[n] == 0 && !this->byId_.empty() && this->byId_.back().first == id)
+    {
+      this->doubles_.emplace_back(n, this->byId_.back().second);
+      continue;
+    }
+    records.push_back({ id,
+      { this->mesh_.points(n, 0), this->mesh_.points(n, 1), this->mesh_.points(n, 2) },
+      this->isUsed_[n] });
+    this->byId_.emplace_back(id, n);
+  }
+  return records;
+}
+
+void DistributedMesh::copyToDoubles(Points& values) const
+{
+  for (const auto& [copy, node] : this->doubles_)
+  {
+    values.row(copy) = values.row(node);
+  }
 }
 
 std::vector<Index> DistributedMesh::idsOfNodes(const std::vector<Index>& nodes) const

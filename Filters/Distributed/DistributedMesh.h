@@ -36,6 +36,9 @@ public:
   Index pieceNodes() const { return this->pieceNodes_; }
   Index pieceCells() const { return this->pieceCells_; }
 
+  /// Gives the piece's further copies of a node, as ghost cells may have them, the row of that node;
+  /// #nodes x 3. They take part in nothing else.
+  void copyToDoubles(Points& values) const;
   bool owns(Index node) const { return this->owner_[node] == this->ranks_->rank(); }
   /// #cells: nonzero for ghosts.
   const std::vector<std::uint8_t>& isGhost() const { return this->isGhost_; }
@@ -71,6 +74,7 @@ public:
 
 private:
   struct Builder;
+  std::vector<NodeRecord> numberNodes();
   void addGhosts(int layers, Monitor& monitor);
   void findBodies();
   void findOuter(Monitor& monitor);
@@ -84,6 +88,7 @@ private:
   std::vector<std::uint8_t> isUsed_; ///< #nodes of the piece, by its own cells
   std::vector<int> owner_;
   std::vector<std::pair<std::int64_t, Index>> byId_; ///< sorted
+  std::vector<std::pair<Index, Index>> doubles_;     ///< a node, and the one that stands for it
   std::unique_ptr<Directory> directory_;
   Halo halo_;
   ConnectedComponents bodies_;

@@ -73,6 +73,7 @@ EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor
     this->higherOrderNodes_.apply(all);
     mesh.halo().update(ranks, all);
   }
+  mesh.copyToDoubles(all);
   moved = rest;
   for (Index n = 0; n < rest.rows(); ++n)
   {

@@ -46,12 +46,32 @@ bool haveIds(const Ranks& ranks, bool isHere, bool hasItems, const char* what)
   return with > 0;
 }
 
+struct Sent
+{
+  Position x;
+  std::int64_t isUsed;
+};
+
 struct Met
 {
   Position x;
+  bool isGhost; ///< those that are not come first
   int rank;
   Index number; ///< in the order of what the rank sent
 };
+}
+
+std::vector<std::uint8_t> usedNodes(const Mesh& mesh, const std::vector<std::uint8_t>& isGhost)
+{
+  std::vector<std::uint8_t> isUsed(mesh.numberOfNodes(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 0; k < mesh.cellSize(c) && (isGhost.empty() || isGhost[c] == 0); ++k)
+    {
+      isUsed[mesh.cell(c)[k]] = 1;
+    }
+  }
+  return isUsed;
 }
 
 void requireNodeIds(const Ranks& ranks, Piece& piece)
@@ -61,14 +81,15 @@ void requireNodeIds(const Ranks& ranks, Piece& piece)
   {
     return;
   }
-  std::vector<std::vector<Position>> to(ranks.count());
+  const std::vector<std::uint8_t> isUsed = usedNodes(piece.mesh, piece.isGhost);
+  std::vector<std::vector<Sent>> to(ranks.count());
   std::vector<std::vector<Index>> senders(ranks.count());
   for (Index n = 0; n < nodes; ++n)
   {
     const Position x = { piece.mesh.points(n, 0), piece.mesh.points(n, 1),
       piece.mesh.points(n, 2) };
     const int place = placeOf(x, ranks.count());
-    to[place].push_back(x);
+    to[place].push_back({ x, isUsed[n] });
     senders[place].push_back(n);
   }
   const auto from = ranks.exchange(to);
@@ -80,22 +101,26 @@ void requireNodeIds(const Ranks& ranks, Piece& piece)
     answers[r].resize(from[r].size());
     for (std::size_t i = 0; i < from[r].size(); ++i)
     {
-      met.push_back({ from[r][i], r, static_cast<Index>(i) });
+      met.push_back({ from[r][i].x, from[r][i].isUsed == 0, r, static_cast<Index>(i) });
     }
   }
   std::sort(met.begin(), met.end(),
     [](const Met& a, const Met& b)
-    { return std::tie(a.x, a.rank, a.number) < std::tie(b.x, b.rank, b.number); });
+    {
+      return std::tie(a.x, a.isGhost, a.rank, a.number) <
+             std::tie(b.x, b.isGhost, b.rank, b.number);
+    });
   std::int64_t ids = 0;
   std::string problem;
   for (std::size_t first = 0, last = 0; first < met.size(); first = last)
   {
-    bool isTwice = false;
+    bool isTwice = false, isShared = false;
     for (last = first; last < met.size() && met[last].x == met[first].x; ++last)
     {
-      isTwice = isTwice || (last > first && met[last].rank == met[last - 1].rank);
+      isTwice = isTwice || (last > first && !met[last].isGhost &&
+                             met[last].rank == met[last - 1].rank);
+      isShared = isShared || met[last].isGhost || met[last].rank != met[first].rank;
     }
-    const bool isShared = met[last - 1].rank != met[first].rank;
     if (isTwice && isShared && problem.empty())
     {
       std::ostringstream text;

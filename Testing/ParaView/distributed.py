@@ -191,7 +191,8 @@ class Distributed(unittest.TestCase):
         path = os.path.join(folder, case["name"] + "_whole.vtu")
         write(grid_of(points, cells, shape), path)
         grid = XMLUnstructuredGridReader(FileName=[path])
-        expected = servermanager.Fetch(morph(grid, boundary_of(grid, case), case))
+        serial = morph(grid, boundary_of(grid, case), case)
+        expected = servermanager.Fetch(serial)
         positions = vtk_to_numpy(expected.GetPoints().GetData())
         size = numpy.linalg.norm(points.max(0) - points.min(0))
         tolerance = size * case.get("tolerance", 1e-8)
@@ -225,7 +226,8 @@ class Distributed(unittest.TestCase):
         self.assertTrue(seen.all(), case["name"])
         self.assertEqual(measured, len(cells), case["name"])
         self.compare_boundary(folder, case, grid, points, ranks)
-        self.compare_quality(folder, case, expected, ranks)
+        self.compare_quality(folder, case, servermanager.Fetch(ScaledJacobian(Input=serial)),
+                             ranks)
 
     def compare_boundary(self, folder, case, grid, points, ranks):
         """Interfaces are no boundary, and ids are global."""
