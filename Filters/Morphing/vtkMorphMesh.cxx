@@ -309,7 +309,7 @@ int vtkMorphMesh::RequestData(
   {
     if (filters::Ranks::Count(true) > 1)
     {
-      throw morph::Error("Morph Mesh runs on a single MPI process only. Run on one.");
+      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph Boundary and a method's filter.");
     }
     input = own.Blocks.Gather(
       input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
