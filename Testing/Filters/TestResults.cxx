@@ -163,7 +163,8 @@ Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
     { "BridgingTetrahedra", [f] { return f->GetBridgingTetrahedra(); } },
-    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } } };
+    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
+    { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
 }
 
 Getters countsOf(vtkSimplexNaturalNeighborMorph* f)
