@@ -7,6 +7,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/MinQualityAscent.h"
 #include "Untangling/Untangling.h"
 
@@ -407,6 +408,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
+  untangleHigherOrder(this->referenceMesh_, partition, this->orientation_, moved, monitor);
   monitor.progress(1);
   return this->report(outcome, determined, monitor);
 }

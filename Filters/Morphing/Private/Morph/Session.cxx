@@ -15,6 +15,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/SmoothMesh.h"
 
@@ -249,6 +250,11 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     auto repairing = part(0.7, 0.75);
     PolyhedralRepair::Run(
       from, this->Kept.Mesh().points, partition, this->Kept.Orientation(), result.Moved, repairing);
+  }
+  if (validity.IsInversionFree)
+  {
+    auto untangling = part(0.74, 0.75);
+    morph::untangleHigherOrder(from, partition, this->Kept.Orientation(), result.Moved, untangling);
   }
   if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
   {
