@@ -86,8 +86,9 @@ def openfoam(case, name, rows, solver, diffusivity, steps):
         if step > 0:
             text = (case.folder / start / "pointDisplacement").read_text()
             internal = re.search(r"internalField.*?;\n", text, re.S)[0]
-        case.write(f"{start}/pointDisplacement", "pointVectorField", "dimensions [0 1 0 0 0 0 0];\n" +
-                   internal + boundary_field(name, rows, (step + 1) / steps))
+        case.write(f"{start}/pointDisplacement", "pointVectorField",
+                   "dimensions [0 1 0 0 0 0 0];\n" + internal +
+                   boundary_field(name, rows, (step + 1) / steps))
         case.write("system/controlDict", "dictionary",
                    CONTROL % (step / steps, (step + 1) / steps, 1 / steps))
         output = case.run("moveDynamicMesh")
