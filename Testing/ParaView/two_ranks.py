@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors of pvbatch on two MPI ranks: one each, on both ranks, without a deadlock; and a mesh that is
-on one of them. distributed.py compares meshes on both with one rank.
+"""Errors of pvbatch on two MPI ranks: one each, on both ranks, without a deadlock; and a mesh that
+is on one of them. distributed.py compares meshes on both with one rank.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython two_ranks.py
 The same file is the job that the ranks run:

@@ -66,8 +66,8 @@ public:
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
     /// Work() for a mesh with pieces on several MPI processes, called on all of them: it
     /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.
-    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> WorkOnRanks =
-      {};
+    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)>
+      WorkOnRanks = {};
   };
   /// The grid that the work of a task fills for output 0, which may be composite.
   vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)
