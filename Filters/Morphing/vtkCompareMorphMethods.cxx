@@ -20,6 +20,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -249,6 +250,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
     { this->SimplexLinear, { "Simplex-linear", make<vtkSimplexLinearMorph> } },
     { this->SimplexNaturalNeighbor,
       { "Simplex-natural neighbor", make<vtkSimplexNaturalNeighborMorph> } },
+    { this->RadialBasis, { "Radial basis", make<vtkRadialBasisMorph> } },
     { this->FEMWARP, { "FEMWARP", make<vtkFEMWarpMorph> } },
     { this->LBWARP, { "LBWARP", make<vtkLBWarpMorph> } },
     { this->InversionFree, { "Inversion-free", make<vtkInversionFreeMorph> } } };
@@ -341,6 +343,7 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WeightedResidual: " << this->WeightedResidual << "\n";
   os << indent << "SimplexLinear: " << this->SimplexLinear << "\n";
   os << indent << "SimplexNaturalNeighbor: " << this->SimplexNaturalNeighbor << "\n";
+  os << indent << "RadialBasis: " << this->RadialBasis << "\n";
   os << indent << "FEMWARP: " << this->FEMWARP << "\n";
   os << indent << "LBWARP: " << this->LBWARP << "\n";
   os << indent << "InversionFree: " << this->InversionFree << "\n";

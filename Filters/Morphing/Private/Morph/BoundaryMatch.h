@@ -61,8 +61,8 @@ struct NamedPoints
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options);
 
-/// The part of Match() that follows once nodes are found: it verifies RestPosition, and computes the
-/// targets. `globalIds`: of the nodes, for a part of a mesh that is distributed over MPI ranks.
+/// The part of Match() that follows once nodes are found: it verifies RestPosition, and computes
+/// the targets. `globalIds`: of the nodes, for a part of a mesh that is distributed over MPI ranks.
 /// Messages name these then, and no point need be there.
 Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options, const std::vector<std::int64_t>* globalIds = nullptr);

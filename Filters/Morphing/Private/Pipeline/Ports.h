@@ -78,10 +78,10 @@ public:
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
   const Blocks& GetBlocks() const { return this->Mesh; }
 
-  /// Calls `task.Work`, on the one MPI process with cells if there are several processes, or
-  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary. After an exception
-  /// the outputs are empty; errors and warnings are the filter's. Returns the result of
-  /// RequestData.
+  /// Calls `task.Work`, on the one MPI process with cells if there are several processes. Calls
+  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary.
+  /// After an exception the outputs are empty; errors and warnings are the filter's. Returns the
+  /// result of RequestData.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
