@@ -198,8 +198,9 @@ int Ports::RequestData(
     {
       if (!task.WorkOnRanks || !Ranks::TakePieces())
       {
-        throw morph::Error(std::string("The boundary is on MPI ranks that have no part of the mesh; ") +
-                           name + " needs both on one rank.");
+        throw morph::Error(
+          std::string("The boundary is on MPI ranks that have no part of the mesh; ") + name +
+          " needs both on one rank.");
       }
       mesh.IsDistributed = true;
     }
