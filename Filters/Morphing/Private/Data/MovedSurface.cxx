@@ -9,6 +9,8 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -29,11 +31,13 @@ void MovedSurface::Make(
   this->Polygons = surface->GetPolys();
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
-  this->Inner.assign(mesh.numberOfCells(), 1);
-  for (const morph::Index cell : faces.cells)
-  {
-    this->Inner[cell] = 0;
-  }
+  this->NodeList = vtkSmartPointer<vtkIdList>::New();
+  this->NodeList->SetNumberOfIds(this->Nodes->GetNumberOfValues());
+  std::copy_n(this->Nodes->GetPointer(0), this->Nodes->GetNumberOfValues(),
+    this->NodeList->GetPointer(0));
+  this->Outer = faces.cells;
+  std::sort(this->Outer.begin(), this->Outer.end());
+  this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
 }
 
 void MovedSurface::SetFeatureLines(
@@ -83,10 +87,8 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
   vtkNew<vtkPoints> points;
   points->SetDataType(moved->GetDataType());
   points->SetNumberOfPoints(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
-  }
+  // In the type of the array, without a call for each point.
+  moved->GetData()->GetTuples(this->NodeList, points->GetData());
   output->SetPoints(points);
   output->SetLines(this->Lines);
   output->SetPolys(this->Polygons);
@@ -108,8 +110,7 @@ vtkIdType MovedSurface::Write(
       i, owner < 0 ? std::numeric_limits<double>::quiet_NaN() : quality.scaledJacobian[owner]);
   }
   output->GetCellData()->SetScalars(scaledJacobian);
-  const std::vector<morph::Index> bad = morph::invertedCells(quality);
-  return std::count_if(
-    bad.begin(), bad.end(), [this](morph::Index cell) { return this->Inner[cell] == 0; });
+  return std::count_if(this->Outer.begin(), this->Outer.end(),
+    [&quality](morph::Index cell) { return quality.scaledJacobian[cell] <= 0; });
 }
 }

@@ -26,6 +26,11 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
 
+/// As the first, of these cells alone. `cells`: their ids, ascending.
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
+  morph::Monitor& monitor);
+
 /// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells
 /// (Topology.h).
 morph::Index MirroredBodies(

@@ -185,7 +185,7 @@ int Ports::RequestData(
       Input::TakeMesh(input, this->Mesh, task.CoincidentPoints, Input::Use::ToMorph, monitor);
     input = mesh.Data;
     Input::RequireNotSwapped(input, boundary);
-    vtkUnstructuredGrid* grid = Input::RequireGrid(input, "The input");
+    vtkUnstructuredGrid* grid = Input::RequireGrid(input, "The input", this->Checked);
     if (!mesh.IsElsewhere)
     {
       task.Work(grid, this->AsOne(boundary, "The boundary"), monitor);

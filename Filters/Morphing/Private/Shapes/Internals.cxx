@@ -221,12 +221,12 @@ void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
-  const std::vector<std::uint8_t>& inner = this->Modes.GetKept().Surface().InnerCells();
+  const std::vector<morph::Index>& outer = this->Modes.GetKept().Surface().OuterCells();
   const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
   const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
   const morph::Quality quality =
     all ? filters::Quality::Measure(mesh, output, orientation, monitor)
-        : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
+        : filters::Quality::Measure(mesh, output, orientation, outer, monitor);
   this->Results.SetInteger("SurfaceInvertedCells",
     this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
   filters::Quality::Remove(output);
