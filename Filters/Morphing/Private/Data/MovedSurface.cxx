@@ -10,7 +10,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkDataArray.h>
-#include <vtkIdList.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -23,6 +23,27 @@
 
 namespace morph::filters
 {
+namespace
+{
+/// Copies the points `ids` where both arrays are of this class; returns whether they are.
+template <typename Array>
+bool gather(vtkDataArray* from, vtkIdTypeArray* ids, vtkDataArray* to)
+{
+  auto *source = Array::FastDownCast(from), *target = Array::FastDownCast(to);
+  if (!source || !target)
+  {
+    return false;
+  }
+  const auto* values = source->GetPointer(0);
+  auto* next = target->GetPointer(0);
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+  {
+    next = std::copy_n(values + 3 * ids->GetValue(i), 3, next);
+  }
+  return true;
+}
+}
+
 void MovedSurface::Make(
   vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
 {
@@ -31,10 +52,6 @@ void MovedSurface::Make(
   this->Polygons = surface->GetPolys();
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
-  this->NodeList = vtkSmartPointer<vtkIdList>::New();
-  this->NodeList->SetNumberOfIds(this->Nodes->GetNumberOfValues());
-  std::copy_n(this->Nodes->GetPointer(0), this->Nodes->GetNumberOfValues(),
-    this->NodeList->GetPointer(0));
   this->Outer = faces.cells;
   std::sort(this->Outer.begin(), this->Outer.end());
   this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
@@ -87,8 +104,14 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
   vtkNew<vtkPoints> points;
   points->SetDataType(moved->GetDataType());
   points->SetNumberOfPoints(count);
-  // In the type of the array, without a call for each point.
-  moved->GetData()->GetTuples(this->NodeList, points->GetData());
+  if (!gather<vtkDoubleArray>(moved->GetData(), this->Nodes, points->GetData()) &&
+      !gather<vtkFloatArray>(moved->GetData(), this->Nodes, points->GetData()))
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
+    }
+  }
   output->SetPoints(points);
   output->SetLines(this->Lines);
   output->SetPolys(this->Polygons);

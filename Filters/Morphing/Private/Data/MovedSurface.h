@@ -11,7 +11,6 @@
 #include <vector>
 
 class vtkCellArray;
-class vtkIdList;
 class vtkIdTypeArray;
 class vtkPoints;
 class vtkPolyData;
@@ -45,7 +44,6 @@ private:
   std::vector<morph::Index> Outer;
   vtkSmartPointer<vtkCellArray> Polygons;
   vtkSmartPointer<vtkIdTypeArray> Nodes;  ///< MorphPointId
-  vtkSmartPointer<vtkIdList> NodeList;    ///< the same
   vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId: that of the lines, then of the polygons
   vtkSmartPointer<vtkCellArray> Lines;    ///< or null
 };
