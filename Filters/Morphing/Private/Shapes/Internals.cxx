@@ -207,9 +207,13 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Results.SetNumber("EvaluateSeconds",
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
-  if (this->Filter->FindValidRanges)
+  if (this->Filter->FindValidRanges && this->Modes.HasRanges())
   {
     this->FindRanges(weights, monitor);
+  }
+  else if (this->Filter->FindValidRanges)
+  {
+    this->Results.SetText("ValidRanges", "not known for polyhedra");
   }
   this->Measure(
     output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
@@ -284,7 +288,7 @@ void vtkMorphShapes::vtkInternals::WriteShapes(
     output->GetFieldData()->AddArray(values);
   };
   add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
-  if (this->Filter->FindValidRanges)
+  if (!this->Ranges.Shapes.empty())
   {
     add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
     add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });
