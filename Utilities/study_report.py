@@ -16,7 +16,8 @@ from study_series import METHODS  # noqa: E402
 
 #: Told apart by colour and by marker.
 STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
-                            ("#009e73", "^"), ("#cc79a7", "x"), ("#d55e00", "*"))))
+                            ("#009e73", "^"), ("#cc79a7", "x"), ("#000000", "P"),
+                            ("#d55e00", "*"))))
 
 #: Whose absolute steps are a fixed matrix times the boundary's motion.
 LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))

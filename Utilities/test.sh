@@ -132,7 +132,11 @@ if [ "$install" = yes ]; then
   if [ "$site" = yes ]; then packages+=(--site); fi
   stage setup "packages" "${packages[@]}"
 fi
-if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+if command -v ccache > /dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  # The presets share what they compile alike, such as the core, whatever their build folder is.
+  export CCACHE_BASEDIR=$PWD
+fi
 for preset in "${presets[@]}"; do
   if [ "$preset" = plain-vtk ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
   cmake --preset "$preset"

@@ -125,20 +125,22 @@ public:
     METHOD_LBWARP = 1,
     METHOD_WEIGHTED_RESIDUAL = 2,
     METHOD_SIMPLEX_LINEAR = 3,
-    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4
+    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4,
+    METHOD_RADIAL_BASIS = 5
   };
   ///@{
   /**
    * The linear method that moves the interior nodes, with the default options of its own filter.
    * LBWARP relaxes nodes outside the hull of their neighbors. Default METHOD_FEMWARP.
    */
-  vtkSetClampMacro(Method, int, METHOD_FEMWARP, METHOD_SIMPLEX_NATURAL_NEIGHBOR);
+  vtkSetClampMacro(Method, int, METHOD_FEMWARP, METHOD_RADIAL_BASIS);
   vtkGetMacro(Method, int);
   void SetMethodToFEMWARP() { this->SetMethod(METHOD_FEMWARP); }
   void SetMethodToLBWARP() { this->SetMethod(METHOD_LBWARP); }
   void SetMethodToWeightedResidual() { this->SetMethod(METHOD_WEIGHTED_RESIDUAL); }
   void SetMethodToSimplexLinear() { this->SetMethod(METHOD_SIMPLEX_LINEAR); }
   void SetMethodToSimplexNaturalNeighbor() { this->SetMethod(METHOD_SIMPLEX_NATURAL_NEIGHBOR); }
+  void SetMethodToRadialBasis() { this->SetMethod(METHOD_RADIAL_BASIS); }
   ///@}
 
   ///@{

@@ -6,6 +6,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundary.h"
 #include "vtkMorphShapes.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -149,6 +150,13 @@ Getters countsOf(vtkLBWarpMorph* f)
     { "StiffnessNodes", [f] { return f->GetStiffnessNodes(); } } };
 }
 
+Getters countsOf(vtkRadialBasisMorph* f)
+{
+  return { { "Centers", [f] { return f->GetCenters(); } },
+    { "CorrectedSites", [f] { return f->GetCorrectedSites(); } },
+    { "LargestResidualPPM", [f] { return f->GetLargestResidualPPM(); } } };
+}
+
 Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
@@ -279,8 +287,8 @@ template <typename Filter>
 class MethodCounts : public testing::Test
 {
 };
-using Methods = testing::Types<vtkInversionFreeMorph, vtkLBWarpMorph, vtkSimplexLinearMorph,
-  vtkSimplexNaturalNeighborMorph, vtkSmoothingMorph>;
+using Methods = testing::Types<vtkInversionFreeMorph, vtkLBWarpMorph, vtkRadialBasisMorph,
+  vtkSimplexLinearMorph, vtkSimplexNaturalNeighborMorph, vtkSmoothingMorph>;
 TYPED_TEST_SUITE(MethodCounts, Methods);
 }
 

@@ -119,12 +119,24 @@ class HowTos(unittest.TestCase):
     def test_pages(self):
         for page in howto_pictures.pages():
             with self.subTest(page=page), tempfile.TemporaryDirectory() as folder:
+                absent = howto_pictures.missing(page, PLUGIN)
+                if absent:
+                    self.skipTest(f"{page}.md: there is no {', '.join(absent)}")
                 path = howto_pictures.run(page, PLUGIN, folder)
                 made = image(path)
                 kept = image(ROOT / "Documentation/images" / Path(path).name)
                 self.assertEqual(made.shape, kept.shape)
                 # As the page shows it, but for fonts and the colours of this ParaView.
                 self.assertLess(abs(made - kept).mean(), 20)
+
+    def test_cxx_is_that_of_the_example(self):
+        """Each C++ block is a part of OwnMethod.cxx, which another test compiles and runs."""
+        source = (ROOT / "Examples/OwnMethod.cxx").read_text(encoding="utf-8")
+        page = (ROOT / "Documentation/HowTo/WriteYourOwnMethod.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```c\+\+\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 2)
+        for block in blocks:
+            self.assertIn(block, source)
 
 
 def image(path):

@@ -87,7 +87,7 @@ def rows_of(file):
 
 
 class Study(unittest.TestCase):
-    """Of two methods on the small bore, as --quick runs all seven."""
+    """Of two methods on the small bore, as --quick runs all eight."""
 
     def run_study(self, folder, *options):
         command = ["pvpython", "--force-offscreen-rendering", str(ROOT / "Utilities" / "study.py"),

@@ -44,11 +44,11 @@ bool gather(vtkDataArray* from, vtkIdTypeArray* ids, vtkDataArray* to)
 }
 }
 
-void MovedSurface::Make(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
+void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, const std::vector<std::int8_t>* orientation)
 {
   vtkNew<vtkPolyData> surface;
-  Surface::Write(grid, mesh, faces, surface);
+  Surface::Write(grid, mesh, faces, surface, orientation);
   this->Polygons = surface->GetPolys();
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));

@@ -23,8 +23,10 @@ namespace morph::filters
 class MovedSurface
 {
 public:
-  /// Makes the polygons. `mesh`, `faces`: of `grid`. Cost: a pass over the faces.
-  void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
+  /// Makes the polygons. `mesh`, `faces`: of `grid`. `orientation`: see Surface::Write(). Cost: a
+  /// pass over the faces.
+  void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces,
+    const std::vector<std::int8_t>* orientation = nullptr);
   /// Adds lines along the edges at which the undeformed faces turn by more than 25 degrees, or not
   /// exactly two faces meet; or takes them away. `mesh`, `faces`: those of Make(). Cost: where they
   /// were not there, a sort of the faces' edges.

@@ -17,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace morph::filters
@@ -80,6 +81,19 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   skipGhosts(mesh, output, skip);
   return withPoints(output, [&](const morph::ConstPoints& written)
     { return morph::measureQualityOf(mesh, written, orientation, cells, skip, monitor); });
+}
+
+std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,
+  std::vector<std::uint8_t> skip, vtkUnstructuredGrid* grid)
+{
+  skip.resize(mesh.types.size(), 0);
+  skipGhosts(mesh, grid, skip);
+  std::vector<morph::Index> count(256, 0);
+  for (std::size_t c = 0; c < mesh.types.size(); ++c)
+  {
+    count[mesh.types[c]] += skip[c] == 0 && std::isnan(quality.scaledJacobian[c]);
+  }
+  return count;
 }
 
 morph::Index MirroredBodies(

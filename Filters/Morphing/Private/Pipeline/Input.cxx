@@ -163,25 +163,12 @@ bool IsReadable(vtkDataObject* data)
   }
 }
 
-int RequireOneRankWithCells(vtkDataSet* grid)
+Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
+  const char* filter, morph::Monitor& monitor)
 {
-  const int ranks = Ranks::Count(grid && grid->GetNumberOfCells() > 0);
-  if (ranks > 1)
-  {
-    throw morph::Error(
-      "The mesh is distributed over " + std::to_string(ranks) +
-      " MPI ranks; a mesh is morphed on one rank only, because the cuts between the ranks' pieces "
-      "would be taken for a fixed boundary. Run on one rank, or bring the mesh to one.");
-  }
-  return ranks;
-}
-
-Mesh TakeMesh(
-  vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use, morph::Monitor& monitor)
-{
-  Mesh mesh = { nullptr, false, false };
+  Mesh mesh = { nullptr, false, false, false };
   const auto unknown =
-    use == Use::ToMorph ? GridMesh::UnknownCells::Refuse : GridMesh::UnknownCells::Keep;
+    use == Use::ToMeasure ? GridMesh::UnknownCells::Keep : GridMesh::UnknownCells::Refuse;
   std::exception_ptr problem;
   try
   {
@@ -193,13 +180,36 @@ Mesh TakeMesh(
   }
   auto* data = vtkDataSet::SafeDownCast(mesh.Data);
   const bool hasCells = data && data->GetNumberOfCells() > 0;
-  const int ranks = use == Use::ToMorph ? RequireOneRankWithCells(data) : Ranks::Count(hasCells);
-  if (problem)
+  const int ranks = Ranks::Count(hasCells);
+  if (ranks > 1 && use == Use::ToMorph)
   {
-    std::rethrow_exception(problem);
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) + " MPI ranks, and " + filter +
+      " needs it on one: the cuts between the ranks' pieces would be taken for a fixed boundary. "
+      "Run on one rank, or bring the mesh to one.");
   }
+  if (ranks > 1 && use == Use::ToMorphOnRanks && !Ranks::TakePieces())
+  {
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) +
+      " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
+      " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
+  }
+  mesh.IsDistributed = ranks > 1;
   mesh.IsElsewhere = ranks > 0 && !hasCells;
   mesh.IsEmpty = ranks == 0;
+  const auto rethrow = [&]
+  {
+    if (problem)
+    {
+      std::rethrow_exception(problem);
+    }
+  };
+  if (mesh.IsDistributed)
+  {
+    Ranks::Together(rethrow);
+  }
+  rethrow();
   return mesh;
 }
 

@@ -3,6 +3,7 @@
 
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/RadialBasis.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
@@ -50,6 +51,8 @@ std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
       return std::make_unique<morph::SimplexLinear>();
     case vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR:
       return std::make_unique<morph::SimplexNaturalNeighbor>();
+    case vtkMorphShapes::METHOD_RADIAL_BASIS:
+      return std::make_unique<morph::RadialBasis>();
     default:
       break;
   }
