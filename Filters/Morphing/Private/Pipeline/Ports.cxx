@@ -208,7 +208,7 @@ int Ports::RequestData(
     const auto check = [&]
     {
       Input::RequireNotSwapped(input, boundary);
-      grid = Input::RequireGrid(input, "The input");
+      grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)
       {
         boundary = this->AsOne(boundary, "The boundary");
