@@ -80,7 +80,8 @@ TEST(MinQualityAscent, AMeshWithManyCellsAtItsMinimumStays)
   const std::vector<std::int8_t> orientation(mesh.numberOfCells(), 1);
   const morph::NodePartition partition = motions::outerPartition(mesh);
   Mesh sheared = mesh;
-  meshes::transform(sheared, motions::affine);
+  meshes::transform(
+    sheared, [](const motions::Row& x) { return motions::Row(x[0] + 0.5 * x[1], x[1], x[2]); });
   const MovableQuality quality(sheared, orientation, partition.free);
   meshes::ThreadedMonitor monitor;
   Points points = sheared.points;
