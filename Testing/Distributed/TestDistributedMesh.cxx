@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace
@@ -130,15 +131,16 @@ TEST(DistributedMesh, MakesIdsByPosition)
   morph::distributed::requireNodeIds(ranks, piece);
   morph::distributed::requireCellIds(ranks, piece);
   // Made and given ids tell the same nodes apart.
-  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+  using Pair = std::array<std::int64_t, 2>;
+  std::vector<Pair> pairs;
   for (std::size_t n = 0; n < ids.size(); ++n)
   {
-    pairs.emplace_back(piece.nodeIds[n], ids[n]);
+    pairs.push_back({ piece.nodeIds[n], ids[n] });
   }
   pairs = ranks.gather(pairs);
-  const std::set<std::pair<std::int64_t, std::int64_t>> distinct(pairs.begin(), pairs.end());
+  const std::set<Pair> distinct(pairs.begin(), pairs.end());
   EXPECT_EQ(static_cast<Index>(distinct.size()), whole.numberOfNodes());
-  EXPECT_EQ(distinct.rbegin()->first, whole.numberOfNodes() - 1);
+  EXPECT_EQ(distinct.rbegin()->front(), whole.numberOfNodes() - 1);
   std::vector<std::int64_t> cells = ranks.gather(piece.cellIds);
   std::sort(cells.begin(), cells.end());
   EXPECT_EQ(static_cast<Index>(cells.size()), whole.numberOfCells());
@@ -150,6 +152,10 @@ TEST(DistributedMesh, RefusesIdsThatDoNotFit)
   const Ranks ranks = pieces::world();
   Monitor monitor;
   const Mesh whole = meshes::hexes(3, 3, 3);
+  if (ranks.count() < 2)
+  {
+    GTEST_SKIP() << "needs several ranks";
+  }
   const std::vector<int> owners = pieces::randomOwners(whole, ranks.count(), 5);
   const auto build = [&](const std::function<void(Piece&)>& spoil)
   {
@@ -196,8 +202,15 @@ TEST(DistributedMesh, RefusesIdsThatDoNotFit)
   EXPECT_NE(build(
               [&](Piece& piece)
               {
+                // Two inner nodes, which all ranks have.
+                for (std::size_t n = 0; n < piece.nodeIds.size(); ++n)
+                {
+                  if (piece.nodeIds[n] == 22)
+                  {
+                    piece.mesh.points.row(static_cast<Index>(n)) = whole.points.row(21);
+                  }
+                }
                 piece.nodeIds.clear();
-                piece.mesh.points.row(0) = piece.mesh.points.row(1);
               })
               .find("positions do not tell"),
     std::string::npos);

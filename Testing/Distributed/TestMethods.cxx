@@ -65,30 +65,12 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
   const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes;
   const Points target = motion(whole.points);
   Points expected = target;
-  std::unique_ptr<Method> method;
   if (!isAffine)
   {
     serial->prepare(whole, morph::partitionNodes(whole, outer), monitor);
     serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
   }
-  const Morpher* options = serial.get();
-  auto copy = std::move(serial);
-  const auto* fem = dynamic_cast<const morph::FemWarp*>(options);
-  const auto* barrier = dynamic_cast<const morph::LogBarrierWarp*>(options);
-  std::unique_ptr<Morpher> settings;
-  if (fem)
-  {
-    auto same = std::make_unique<morph::FemWarp>();
-    same->setTolerance(fem->tolerance());
-    settings = std::move(same);
-  }
-  if (barrier)
-  {
-    auto same = std::make_unique<morph::LogBarrierWarp>();
-    same->setTolerance(barrier->tolerance());
-    settings = std::move(same);
-  }
-  method = morph::distributed::makeMethod(std::move(copy));
+  const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(serial));
   const DistributedMesh mesh(ranks,
     pieces::pieceOf(
       whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank()),
@@ -102,10 +84,6 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
     }
   }
   method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
-  if (settings)
-  {
-    method->takeEvaluateOptions(*settings);
-  }
   Points moved;
   method->evaluate(target(mesh.idsOfNodes(prescribed), morph::allColumns), moved, monitor);
   double largest = 0;
