@@ -309,7 +309,8 @@ int vtkMorphMesh::RequestData(
   {
     if (filters::Ranks::Count(true) > 1)
     {
-      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph Boundary and a method's filter.");
+      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph "
+                         "Boundary and a method's filter.");
     }
     input = own.Blocks.Gather(
       input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);

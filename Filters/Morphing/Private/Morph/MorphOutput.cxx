@@ -64,7 +64,7 @@ void measureSurface(const Session& session, Results& results, vtkUnstructuredGri
 {
   const KeptMesh& kept = session.GetKept();
   const morph::Quality quality =
-    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().InnerCells(), monitor);
+    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().OuterCells(), monitor);
   results.SetInteger(
     "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
   results.SetText("MorphStatus", "Unmeasured");

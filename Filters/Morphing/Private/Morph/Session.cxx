@@ -324,9 +324,11 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   const Options& options, morph::Monitor& monitor)
 {
   this->Results.SetNumber("PrepareSeconds", 0);
+  // SetGrid() drops the method with the mesh that it is prepared for.
+  const bool isOfKept = &from == &this->Kept.Mesh();
   if (this->Method && this->MethodOptions == options.PrepareOptions &&
       this->Method->partition().prescribed == partition.prescribed &&
-      this->Method->restPoints() == from.points)
+      ((isOfKept && this->MethodIsOfKept) || this->Method->restPoints() == from.points))
   {
     return;
   }
@@ -334,12 +336,13 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   this->Method.reset();
   this->Modes.clear();
   std::unique_ptr<morph::Morpher> morpher = makeMethod(options, from);
-  if (from.points != this->Kept.Mesh().points)
+  if (!isOfKept && from.points != this->Kept.Mesh().points)
   {
     morpher->setReference(this->Kept.Mesh().points);
   }
   morpher->prepare(from, partition, monitor);
   this->Method = std::move(morpher);
+  this->MethodIsOfKept = isOfKept;
   this->MethodOptions = options.PrepareOptions;
   this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
   this->Results.SetNumber("PrepareSeconds", secondsSince(start));

@@ -198,8 +198,9 @@ int Ports::RequestData(
     {
       if (!task.WorkOnRanks || !Ranks::TakePieces())
       {
-        throw morph::Error(std::string("The boundary is on MPI ranks that have no part of the mesh; ") +
-                           name + " needs both on one rank.");
+        throw morph::Error(
+          std::string("The boundary is on MPI ranks that have no part of the mesh; ") + name +
+          " needs both on one rank.");
       }
       mesh.IsDistributed = true;
     }
@@ -207,7 +208,7 @@ int Ports::RequestData(
     const auto check = [&]
     {
       Input::RequireNotSwapped(input, boundary);
-      grid = Input::RequireGrid(input, "The input");
+      grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)
       {
         boundary = this->AsOne(boundary, "The boundary");
