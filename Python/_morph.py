@@ -14,6 +14,7 @@ _METHODS = {
     "FEMWARP": _filters.vtkFEMWarpMorph,
     "InversionFree": _filters.vtkInversionFreeMorph,
     "LBWARP": _filters.vtkLBWarpMorph,
+    "RadialBasis": _filters.vtkRadialBasisMorph,
     "SimplexLinear": _filters.vtkSimplexLinearMorph,
     "SimplexNaturalNeighbor": _filters.vtkSimplexNaturalNeighborMorph,
     "Smoothing": _filters.vtkSmoothingMorph,
@@ -129,8 +130,8 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
           a copy of the whole grid or composite data with its points moved;
         - an array of (n, 3) coordinates, in the unit of the grid: of all points of the grid (those
           inside have no effect), of its boundary in the order of their ids, or of `ids`.
-    method: FEMWARP, LBWARP, WeightedResidual, SimplexLinear, SimplexNaturalNeighbor, Smoothing or
-        InversionFree.
+    method: FEMWARP, LBWARP, WeightedResidual, SimplexLinear, SimplexNaturalNeighbor, RadialBasis,
+        Smoothing or InversionFree.
     ids: n point ids of the grid, 0-based, for an array of displaced points. Other boundary nodes
         stay, unless HoldUnnamedBoundary=False.
     allow_inverted: return a mesh that has inverted or collapsed cells, or that came only part of

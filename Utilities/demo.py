@@ -49,6 +49,7 @@ METHODS = (
     Method("Weighted residual", "weighted-residual", "MorphWeightedResidual"),
     Method("Simplex-linear", "simplex-linear", "MorphSimplexLinear"),
     Method("Simplex-natural neighbor", "simplex-natural-neighbor", "MorphSimplexNaturalNeighbor"),
+    Method("Radial basis", "radial-basis", "MorphRadialBasis"),
     Method("Smoothing", "smoothing", "MorphSmoothing", every_step=False),
     Method("Inversion-free", "inversion-free", "MorphInversionFree", every_step=False),
 )

@@ -78,7 +78,7 @@ def parse_arguments():
     parser.add_argument("--surfaces", nargs="+", choices=SURFACES, default=list(SURFACES))
     parser.add_argument("--steppings", nargs="+", choices=STEPPINGS, default=list(STEPPINGS))
     parser.add_argument("--methods", nargs="+", choices=list(METHODS), default=list(METHODS),
-                        metavar="METHOD", help="default: all seven")
+                        metavar="METHOD", help="default: all eight")
     parser.add_argument("--steps", type=int, default=STEPS,
                         help="from S_0 to S_F (default: %(default)s)")
     parser.add_argument("--to-final", action="store_true",

@@ -16,15 +16,16 @@ from study_series import METHODS  # noqa: E402
 
 #: Told apart by colour and by marker.
 STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
-                            ("#009e73", "^"), ("#cc79a7", "x"), ("#d55e00", "*"))))
+                            ("#009e73", "^"), ("#cc79a7", "x"), ("#000000", "P"),
+                            ("#d55e00", "*"))))
 
 #: Whose absolute steps are a fixed matrix times the boundary's motion.
 LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))
 
-LEGEND = ("Quality: minimum scaled Jacobian at S_F (inverted cells of the method's own + those "
-          "that the boundary takes with it, at a folded face or a corner), and t*, the t of the "
-          "last step up to which no cell of the method's own is inverted; >= where the series did "
-          "not end by one.")
+LEGEND = ("Quality: minimum scaled Jacobian at S_F, and t*. In parentheses: inverted cells of the "
+          "method's own + those that the boundary takes with it, at a folded face or a corner. t* "
+          "is the t of the last step up to which no cell of the method's own is inverted; >= where "
+          "the series did not end by one.")
 
 
 def write_report(folder, records, steps):

@@ -21,6 +21,7 @@ METHODS = {
     "LBWARP": "MorphLBWARP",
     "Simplex-linear": "MorphSimplexLinear",
     "Simplex-natural neighbor": "MorphSimplexNaturalNeighbor",
+    "Radial basis": "MorphRadialBasis",
     "Inversion-free": "MorphInversionFree",
 }
 

@@ -13,6 +13,7 @@ set(core_headers
   BoundaryMorphing/BoundaryMotion.h
   LinearMethods/FemWarp.h
   LinearMethods/LogBarrierWarp.h
+  LinearMethods/RadialBasis.h
   LinearMethods/SimplexLinear.h
   LinearMethods/SimplexNaturalNeighbor.h
   LinearMethods/WeightedResidual.h

@@ -20,6 +20,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -205,7 +206,7 @@ int vtkCompareMorphMethods::RequestData(
   if (filters::Ranks::Count(true) > 1)
   {
     reset();
-    vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
+    vtkErrorMacro("vtkCompareMorphMethods needs a single MPI rank. Run on one.");
     return 1;
   }
   const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
@@ -255,6 +256,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
     { this->SimplexLinear, { "Simplex-linear", make<vtkSimplexLinearMorph> } },
     { this->SimplexNaturalNeighbor,
       { "Simplex-natural neighbor", make<vtkSimplexNaturalNeighborMorph> } },
+    { this->RadialBasis, { "Radial basis", make<vtkRadialBasisMorph> } },
     { this->FEMWARP, { "FEMWARP", make<vtkFEMWarpMorph> } },
     { this->LBWARP, { "LBWARP", make<vtkLBWarpMorph> } },
     { this->InversionFree, { "Inversion-free", make<vtkInversionFreeMorph> } } };
@@ -347,6 +349,7 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WeightedResidual: " << this->WeightedResidual << "\n";
   os << indent << "SimplexLinear: " << this->SimplexLinear << "\n";
   os << indent << "SimplexNaturalNeighbor: " << this->SimplexNaturalNeighbor << "\n";
+  os << indent << "RadialBasis: " << this->RadialBasis << "\n";
   os << indent << "FEMWARP: " << this->FEMWARP << "\n";
   os << indent << "LBWARP: " << this->LBWARP << "\n";
   os << indent << "InversionFree: " << this->InversionFree << "\n";

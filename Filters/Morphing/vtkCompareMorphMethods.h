@@ -91,6 +91,9 @@ public:
   vtkSetMacro(SimplexNaturalNeighbor, bool);
   vtkGetMacro(SimplexNaturalNeighbor, bool);
   vtkBooleanMacro(SimplexNaturalNeighbor, bool);
+  vtkSetMacro(RadialBasis, bool);
+  vtkGetMacro(RadialBasis, bool);
+  vtkBooleanMacro(RadialBasis, bool);
   vtkSetMacro(FEMWARP, bool);
   vtkGetMacro(FEMWARP, bool);
   vtkBooleanMacro(FEMWARP, bool);
@@ -206,6 +209,7 @@ private:
   bool WeightedResidual = true;
   bool SimplexLinear = true;
   bool SimplexNaturalNeighbor = true;
+  bool RadialBasis = true;
   bool FEMWARP = true;
   bool LBWARP = true;
   bool InversionFree = true;

@@ -16,6 +16,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -63,6 +64,8 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
       return vtkSmartPointer<vtkSmoothingMorph>::New();
     case vtkMorphMesh::METHOD_INVERSION_FREE:
       return vtkSmartPointer<vtkInversionFreeMorph>::New();
+    case vtkMorphMesh::METHOD_RADIAL_BASIS:
+      return vtkSmartPointer<vtkRadialBasisMorph>::New();
     default:
       return vtkSmartPointer<vtkFEMWarpMorph>::New();
   }
@@ -253,7 +256,7 @@ vtkIdType vtkMorphMesh::GetLayerPoints() const
 
 void vtkMorphMesh::SetMethod(int method)
 {
-  const int known = std::min(std::max(method, int(METHOD_FEMWARP)), int(METHOD_INVERSION_FREE));
+  const int known = std::min(std::max(method, int(METHOD_FEMWARP)), int(METHOD_RADIAL_BASIS));
   if (this->Method != known)
   {
     this->Method = known;
@@ -367,7 +370,8 @@ int vtkMorphMesh::RequestData(
   {
     if (filters::Ranks::Count(true) > 1)
     {
-      throw morph::Error("Morph Mesh runs on a single MPI process only. Run on one.");
+      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph "
+                         "Boundary and a method's filter.");
     }
     input = own.Blocks.Gather(
       input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
@@ -427,6 +431,8 @@ const char* vtkMorphMesh::GetMorphStatus() const
   }
 morphResultMacro(MinScaledJacobian, double, Number);
 morphResultMacro(MeanScaledJacobian, double, Number);
+morphResultMacro(WorstMeanScaledJacobian, double, Number);
+morphResultMacro(BoundaryMinimum, double, Number);
 morphResultMacro(InvertedCells, vtkIdType, Integer);
 morphResultMacro(DegenerateCells, vtkIdType, Integer);
 morphResultMacro(WorstCellId, vtkIdType, Integer);

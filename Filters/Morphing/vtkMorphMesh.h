@@ -457,7 +457,8 @@ public:
     METHOD_SIMPLEX_LINEAR = 3,
     METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4,
     METHOD_SMOOTHING = 5,
-    METHOD_INVERSION_FREE = 6
+    METHOD_INVERSION_FREE = 6,
+    METHOD_RADIAL_BASIS = 7
   };
   ///@{
   /**
@@ -588,6 +589,8 @@ public:
   const char* GetMorphStatus() const;
   double GetMinScaledJacobian() const;
   double GetMeanScaledJacobian() const;
+  double GetWorstMeanScaledJacobian() const;
+  double GetBoundaryMinimum() const;
   vtkIdType GetInvertedCells() const;
   vtkIdType GetDegenerateCells() const;
   vtkIdType GetWorstCellId() const;

@@ -125,20 +125,22 @@ public:
     METHOD_LBWARP = 1,
     METHOD_WEIGHTED_RESIDUAL = 2,
     METHOD_SIMPLEX_LINEAR = 3,
-    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4
+    METHOD_SIMPLEX_NATURAL_NEIGHBOR = 4,
+    METHOD_RADIAL_BASIS = 5
   };
   ///@{
   /**
    * The linear method that moves the interior nodes, with the default options of its own filter.
    * LBWARP relaxes nodes outside the hull of their neighbors. Default METHOD_FEMWARP.
    */
-  vtkSetClampMacro(Method, int, METHOD_FEMWARP, METHOD_SIMPLEX_NATURAL_NEIGHBOR);
+  vtkSetClampMacro(Method, int, METHOD_FEMWARP, METHOD_RADIAL_BASIS);
   vtkGetMacro(Method, int);
   void SetMethodToFEMWARP() { this->SetMethod(METHOD_FEMWARP); }
   void SetMethodToLBWARP() { this->SetMethod(METHOD_LBWARP); }
   void SetMethodToWeightedResidual() { this->SetMethod(METHOD_WEIGHTED_RESIDUAL); }
   void SetMethodToSimplexLinear() { this->SetMethod(METHOD_SIMPLEX_LINEAR); }
   void SetMethodToSimplexNaturalNeighbor() { this->SetMethod(METHOD_SIMPLEX_NATURAL_NEIGHBOR); }
+  void SetMethodToRadialBasis() { this->SetMethod(METHOD_RADIAL_BASIS); }
   ///@}
 
   ///@{
@@ -157,8 +159,9 @@ public:
    * that ScaledJacobian measures: polynomials of degree 3 in a weight, and of degree 6 in the
    * tangent of half the angle for a rotation. The ends are on the safe side by rounding, for
    * quadratic cells by more (morph::validRange()). The field data have ShapeLowestWeight and
-   * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Cost: one pass over
-   * the cells a shape. Default on.
+   * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Of a mesh with
+   * polyhedra they are not known: GetValidRanges() says so, and those arrays are not there. Cost:
+   * one pass over the cells a shape. Default on.
    */
   vtkSetMacro(FindValidRanges, bool);
   vtkGetMacro(FindValidRanges, bool);

@@ -7,6 +7,7 @@
 #include <vtkInversionFreeMorph.h>
 #include <vtkLBWarpMorph.h>
 #include <vtkMorphShapes.h>
+#include <vtkRadialBasisMorph.h>
 #include <vtkSimplexLinearMorph.h>
 #include <vtkSimplexNaturalNeighborMorph.h>
 #include <vtkSmoothingMorph.h>
@@ -80,6 +81,7 @@ const std::vector<Method>& methods()
   using Free = vtkInversionFreeMorph;
   using LBWarp = vtkLBWarpMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
+  using Radial = vtkRadialBasisMorph;
   using Smoothing = vtkSmoothingMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<Method> all = {
@@ -100,6 +102,14 @@ const std::vector<Method>& methods()
         { "OutsideHull", { "Error", "Relax" }, 0, 1,
           setter<LBWarp>(
             [](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) }) },
+    { "RadialBasis", make<Radial>,
+      { { "Kernel", { "Triharmonic", "ThinPlate", "WendlandC2" }, 0, 2,
+          setter<Radial>([](Radial* f, double v) { f->SetKernel(static_cast<int>(v)); }) },
+        { "SupportRadius", {}, 1e-3, 1e3,
+          setter<Radial>([](Radial* f, double v) { f->SetSupportRadius(v); }) },
+        { "NumberOfCenters", {}, 0, 4000,
+          setter<Radial>(
+            [](Radial* f, double v) { f->SetNumberOfCenters(static_cast<int>(v)); }) } } },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, {} },
     { "SimplexNaturalNeighbor", make<Natural>,
       { { "Coordinates", { "Sibson", "Laplace" }, 0, 1,
@@ -220,7 +230,7 @@ void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
   const std::vector<std::pair<std::string, std::string>>& options)
 {
   const std::vector<std::string> linear = { "FEMWARP", "LBWARP", "WeightedResidual",
-    "SimplexLinear", "SimplexNaturalNeighbor" }; // as vtkMorphShapes::MethodType
+    "SimplexLinear", "SimplexNaturalNeighbor", "RadialBasis" }; // as vtkMorphShapes::MethodType
   const auto found = std::find_if(linear.begin(), linear.end(),
     [&](const std::string& method) { return plain(method) == plain(name); });
   if (found == linear.end())

@@ -6,8 +6,9 @@
 int main(int argc, char** argv)
 {
   return benchmark::commandLine(argc, argv, "benchmark-meshless",
-    "Measures weighted residual, simplex-linear and simplex-natural neighbor on twisted bricks of\n"
-    "hexahedra and prints figures beside their targets.\n"
+    "Measures weighted residual, simplex-linear, simplex-natural neighbor and radial basis "
+    "functions\n"
+    "on twisted bricks of hexahedra and prints figures beside their targets.\n"
     "Cold: prepare and evaluate of a fresh morpher. Warm: evaluate alone.\n",
     "", benchmark::measureMeshlessFigures);
 }

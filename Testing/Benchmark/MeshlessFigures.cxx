@@ -4,10 +4,12 @@
 #include "Bandwidth.h"
 #include "CgalBaseline.h"
 #include "FigureRun.h"
+#include "RootRate.h"
 #include "Threads.h"
 
 #include "Geometry/SpatialOrder.h"
 #include "Interpolation/InterpolationSites.h"
+#include "LinearMethods/RadialBasis.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
@@ -32,6 +34,7 @@ public:
   using FigureRun::FigureRun;
 
   void cube(const Problem& problem);
+  void radialBasis(const Problem& problem);
   template <typename Method>
   void series(const std::string& name, const std::vector<Problem>& problems);
 
@@ -72,6 +75,40 @@ void Run::addStreaming(const Problem& problem, const std::string& name, const Me
   this->add(problem, name + ": bytes of weights and coordinates", times.bytesMoved, "B");
   this->add(problem, name + ": warm / one stream of them through memory",
     median(times.warm) * bandwidth / times.bytesMoved, "", Target::atMost(3));
+}
+
+/// Two scales: 2,000 centres, and compact kernels on the other sites.
+void Run::radialBasis(const Problem& problem)
+{
+  const std::string tail = withThreads(this->cores_);
+  MethodTimes times;
+  morph::Points moved;
+  std::unique_ptr<morph::RadialBasis> method;
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    say(problem.name + ", radial basis, repetition " + std::to_string(i + 1));
+    this->settleDown();
+    method = timeConfigured<morph::RadialBasis>(
+      problem, [&](morph::RadialBasis& m) { m.setNumberOfCentres(this->options_.quick ? 200 : 0); },
+      *makeMonitor(this->cores_), times, moved);
+  }
+  const double nodes = static_cast<double>(problem.partition.free.size());
+  const double pairs = nodes * static_cast<double>(method->centres());
+  const double rate = measureRootRate(*makeMonitor(this->cores_));
+  const auto sites = static_cast<double>(problem.partition.prescribed.size());
+  const Target prepare = this->options_.quick ? Target::none() : Target::atMost(3);
+  const Target warm = this->options_.quick ? Target::none() : Target::atMost(0.3);
+  this->add(problem, "radial basis: centres", static_cast<double>(method->centres()), "");
+  this->add(problem, "radial basis: prepare" + tail, median(times.prepare), "s", prepare);
+  this->add(problem, "radial basis: warm" + tail, median(times.warm), "s", warm);
+  this->add(problem, "radial basis: bytes kept, of the two matrices' and the coordinates",
+    static_cast<double>(method->memory()), "B");
+  this->add(problem, "radial basis: bytes of a matrix of sites by nodes", 8 * sites * nodes, "B");
+  this->add(problem, "radial basis: kernels a second in a warm step, 17 operations each" + tail,
+    pairs / median(times.warm), "1/s");
+  this->add(problem, "the limit, square roots a second" + tail, rate, "1/s");
+  this->add(problem, "radial basis: warm / one square root a centre and free node",
+    median(times.warm) * rate / pairs, "", Target::atMost(3));
 }
 
 /// On nodes spread evenly over the free ones.
@@ -184,6 +221,7 @@ Report measureMeshlessFigures(const Options& options, bool& correct)
 
   Run run(options);
   run.cube(twistedBrick(side, side, side, AxisZ));
+  run.radialBasis(twistedBrick(side, side, side, AxisZ));
   std::vector<Problem> bricks;
   for (int length = shortest; length <= longest; length += step)
   {

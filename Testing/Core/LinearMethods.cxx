@@ -3,6 +3,7 @@
 
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/RadialBasis.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
@@ -54,6 +55,28 @@ const std::vector<LinearMethod>& linearMethods()
     { "LogBarrierWarpInverseVolume",
       stiff<LogBarrierWarp>(CellStiffness::Kind::InverseVolume, 1) },
     { "LogBarrierWarpWallDistance", stiff<LogBarrierWarp>(CellStiffness::Kind::WallDistance, 2) },
+    { "RadialBasis", [] { return std::make_unique<RadialBasis>(); } },
+    { "RadialBasisCompact",
+      []
+      {
+        auto method = std::make_unique<RadialBasis>();
+        method->setKernel(RadialKernel::Kind::WendlandC2);
+        return method;
+      } },
+    { "RadialBasisFewCentres",
+      []
+      {
+        auto method = std::make_unique<RadialBasis>();
+        method->setNumberOfCentres(20);
+        return method;
+      } },
+    { "RadialBasisThinPlate",
+      []
+      {
+        auto method = std::make_unique<RadialBasis>();
+        method->setKernel(RadialKernel::Kind::ThinPlate);
+        return method;
+      } },
     { "SimplexLaplace",
       []
       {

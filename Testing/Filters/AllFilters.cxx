@@ -12,6 +12,7 @@
 #include "vtkMorphBoundary.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -92,6 +93,7 @@ const std::vector<AnyFilter>& allFilters()
     { "MorphShapes", makeShapes, true },
     { "ScaledJacobian", make<vtkScaledJacobian>, false },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, true },
+    { "RadialBasis", make<vtkRadialBasisMorph>, true },
     { "SimplexNaturalNeighbor", make<vtkSimplexNaturalNeighborMorph>, true },
     { "Smoothing", make<vtkSmoothingMorph>, true },
     { "WeightedResidual", make<vtkWeightedResidualMorph>, true },

@@ -3,6 +3,7 @@
 
 #include "vtkFEMWarpMorph.h"
 #include "vtkLBWarpMorph.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkWeightedResidualMorph.h"
@@ -33,6 +34,7 @@ const std::vector<MorphFilter>& morphFilters()
   using LogBarrier = vtkLBWarpMorph;
   using Linear = vtkSimplexLinearMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
+  using Radial = vtkRadialBasisMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<MorphFilter> filters = {
     { "FEMWarp",
@@ -61,6 +63,16 @@ const std::vector<MorphFilter>& morphFilters()
           on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetAffineNodes(); }) },
         { "StiffnessNodes",
           on<LogBarrier, vtkIdType>([](LogBarrier* f) { return f->GetStiffnessNodes(); }) } } },
+    { "RadialBasis", make<Radial>,
+      { { "Kernel", on<Radial, void>([](Radial* f) { f->SetKernelToWendlandC2(); }), true },
+        { "SupportRadius", on<Radial, void>([](Radial* f) { f->SetSupportRadius(0.5); }), true },
+        { "NumberOfCenters", on<Radial, void>([](Radial* f) { f->SetNumberOfCenters(9); }),
+          true } },
+      { { "Centers", on<Radial, vtkIdType>([](Radial* f) { return f->GetCenters(); }) },
+        { "CorrectedSites",
+          on<Radial, vtkIdType>([](Radial* f) { return f->GetCorrectedSites(); }) },
+        { "LargestResidualPPM",
+          on<Radial, vtkIdType>([](Radial* f) { return f->GetLargestResidualPPM(); }) } } },
     { "SimplexLinear", make<Linear>, {},
       { { "FoldedTetrahedra",
           on<Linear, vtkIdType>([](Linear* f) { return f->GetFoldedTetrahedra(); }) },

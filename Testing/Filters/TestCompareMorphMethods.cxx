@@ -51,6 +51,7 @@ protected:
     this->Filter->SetSmoothing(others);
     this->Filter->SetSimplexLinear(others);
     this->Filter->SetSimplexNaturalNeighbor(others);
+    this->Filter->SetRadialBasis(others);
     this->Filter->SetLBWARP(others);
     this->Filter->SetInversionFree(others);
   }
@@ -146,16 +147,16 @@ TEST_F(CompareMorphMethods, RankingIsByValidityThenQuality)
 {
   this->Choose(true, true, true);
   this->Filter->Update();
-  ASSERT_EQ(this->Rows(0), 7 * 2 * 5);
-  ASSERT_EQ(this->Rows(2), 7 * 2);
+  ASSERT_EQ(this->Rows(0), 8 * 2 * 5);
+  ASSERT_EQ(this->Rows(2), 8 * 2);
   EXPECT_EQ(this->Text(2, 0, "Method"), this->Filter->GetBestMethod());
   EXPECT_EQ(this->Text(2, 0, "Stepping"), this->Filter->GetBestStepping());
   // What never inverts a cell is first.
   EXPECT_STREQ(this->Filter->GetBestMethod(), "Inversion-free");
   EXPECT_EQ(this->Number(2, 0, "FirstInvertedStep"), -1);
-  EXPECT_GT(this->Number(2, 13, "FirstInvertedStep"), 0);
+  EXPECT_GT(this->Number(2, 15, "FirstInvertedStep"), 0);
   double steps = 6, quality = 0;
-  for (vtkIdType rank = 0; rank < 14; ++rank)
+  for (vtkIdType rank = 0; rank < 16; ++rank)
   {
     SCOPED_TRACE(rank);
     EXPECT_EQ(this->Number(2, rank, "Rank"), rank + 1);

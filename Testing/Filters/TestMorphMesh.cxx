@@ -6,6 +6,7 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphMesh.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -111,10 +112,10 @@ TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
   const Chain chains[] = { byTwoFilters<vtkFEMWarpMorph>, byTwoFilters<vtkLBWarpMorph>,
     byTwoFilters<vtkWeightedResidualMorph>, byTwoFilters<vtkSimplexLinearMorph>,
     byTwoFilters<vtkSimplexNaturalNeighborMorph>, byTwoFilters<vtkSmoothingMorph>,
-    byTwoFilters<vtkInversionFreeMorph> };
+    byTwoFilters<vtkInversionFreeMorph>, byTwoFilters<vtkRadialBasisMorph> };
   auto filter = make(grid);
   grids::Listener listener(filter);
-  for (int method = 0; method < 7; ++method)
+  for (int method = 0; method < 8; ++method)
   {
     SCOPED_TRACE(method);
     filter->SetMethod(method);

@@ -11,6 +11,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphBoundary.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -94,6 +95,7 @@ TEST(MorphProgress, OfEveryMorphRises)
   expectRiseOfMorph<vtkInversionFreeMorph>();
   expectRiseOfMorph<vtkLBWarpMorph>();
   expectRiseOfMorph<vtkSimplexLinearMorph>();
+  expectRiseOfMorph<vtkRadialBasisMorph>();
   expectRiseOfMorph<vtkSimplexNaturalNeighborMorph>();
   expectRiseOfMorph<vtkSmoothingMorph>();
   expectRiseOfMorph<vtkWeightedResidualMorph>();

@@ -11,6 +11,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundary.h"
 #include "vtkMorphMesh.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -88,6 +89,7 @@ TEST(Properties, OfAllMorphFilters)
   test(static_cast<vtkFEMWarpMorph*>(nullptr));
   test(static_cast<vtkInversionFreeMorph*>(nullptr));
   test(static_cast<vtkLBWarpMorph*>(nullptr));
+  test(static_cast<vtkRadialBasisMorph*>(nullptr));
   test(static_cast<vtkSimplexLinearMorph*>(nullptr));
   test(static_cast<vtkSimplexNaturalNeighborMorph*>(nullptr));
   test(static_cast<vtkSmoothingMorph*>(nullptr));
@@ -98,6 +100,7 @@ TEST(Properties, OfSingleMethods)
 {
   EXPECT_REFUSED(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999, 1e-3);
   EXPECT_REFUSED(vtkLBWarpMorph, Tolerance, 1e-15, 0.999, 1e-3);
+  EXPECT_REFUSED(vtkRadialBasisMorph, SupportRadius, 1e-3, 1e3, 0.5);
   EXPECT_REFUSED(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0, 1e12, 9);
   EXPECT_REFUSED(vtkSmoothingMorph, StopMove, 1e-12, 1, 0.5);
 }

@@ -6,6 +6,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphBoundary.h"
 #include "vtkMorphShapes.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -65,6 +66,8 @@ Getters gettersOf(vtkMorphAlgorithm* f)
   return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
     { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
     { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
+    { "WorstMeanScaledJacobian", [f] { return f->GetWorstMeanScaledJacobian(); } },
+    { "BoundaryMinimum", [f] { return f->GetBoundaryMinimum(); } },
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
@@ -149,11 +152,19 @@ Getters countsOf(vtkLBWarpMorph* f)
     { "StiffnessNodes", [f] { return f->GetStiffnessNodes(); } } };
 }
 
+Getters countsOf(vtkRadialBasisMorph* f)
+{
+  return { { "Centers", [f] { return f->GetCenters(); } },
+    { "CorrectedSites", [f] { return f->GetCorrectedSites(); } },
+    { "LargestResidualPPM", [f] { return f->GetLargestResidualPPM(); } } };
+}
+
 Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
     { "BridgingTetrahedra", [f] { return f->GetBridgingTetrahedra(); } },
-    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } } };
+    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
+    { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
 }
 
 Getters countsOf(vtkSimplexNaturalNeighborMorph* f)
@@ -279,8 +290,8 @@ template <typename Filter>
 class MethodCounts : public testing::Test
 {
 };
-using Methods = testing::Types<vtkInversionFreeMorph, vtkLBWarpMorph, vtkSimplexLinearMorph,
-  vtkSimplexNaturalNeighborMorph, vtkSmoothingMorph>;
+using Methods = testing::Types<vtkInversionFreeMorph, vtkLBWarpMorph, vtkRadialBasisMorph,
+  vtkSimplexLinearMorph, vtkSimplexNaturalNeighborMorph, vtkSmoothingMorph>;
 TYPED_TEST_SUITE(MethodCounts, Methods);
 }
 

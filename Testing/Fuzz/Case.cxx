@@ -13,6 +13,7 @@
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphBoundary.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkWeightedResidualMorph.h"
@@ -95,8 +96,8 @@ vtkSmartPointer<vtkMorphAlgorithm> morphOfAdjoint(Choices& choices)
 {
   switch (choices.pick("adjoint.method",
     { "FEMWARP", "LBWARP", "weighted residual", "simplex-linear", "natural neighbor", "none",
-      "inversion-free" },
-    { 3, 3, 3, 3, 3, 0.3, 0.3 }))
+      "inversion-free", "radial basis" },
+    { 3, 3, 3, 3, 3, 0.3, 0.3, 3 }))
   {
     case 0:
       return vtkSmartPointer<vtkFEMWarpMorph>::New();
@@ -110,6 +111,8 @@ vtkSmartPointer<vtkMorphAlgorithm> morphOfAdjoint(Choices& choices)
       return vtkSmartPointer<vtkSimplexNaturalNeighborMorph>::New();
     case 6:
       return vtkSmartPointer<vtkInversionFreeMorph>::New();
+    case 7:
+      return vtkSmartPointer<vtkRadialBasisMorph>::New();
     default:
       return nullptr;
   }

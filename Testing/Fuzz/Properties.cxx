@@ -10,6 +10,7 @@
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphBoundary.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -156,8 +157,8 @@ Table ofCompare()
     flag<F>("WeightedResidual", &F::SetWeightedResidual, false),
     flag<F>("SimplexLinear", &F::SetSimplexLinear, false),
     flag<F>("SimplexNaturalNeighbor", &F::SetSimplexNaturalNeighbor, false),
-    flag<F>("FEMWARP", &F::SetFEMWARP, true), flag<F>("LBWARP", &F::SetLBWARP, false),
-    flag<F>("InversionFree", &F::SetInversionFree, false),
+    flag<F>("RadialBasis", &F::SetRadialBasis, false), flag<F>("FEMWARP", &F::SetFEMWARP, true),
+    flag<F>("LBWARP", &F::SetLBWARP, false), flag<F>("InversionFree", &F::SetInversionFree, false),
     flag<F>("Absolute", &F::SetAbsolute, true), flag<F>("Relative", &F::SetRelative, false),
     whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 1, 1, 3),
     real<F>("Percentile", &F::SetPercentile, 1, 0, 100),
@@ -212,6 +213,13 @@ const std::vector<Filter>& filters()
                             &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100),
                           flag<vtkWeightedResidualMorph>("AdaptiveNeighbors",
                             &vtkWeightedResidualMorph::SetAdaptiveNeighbors, false) }) },
+    { "RadialBasisMorph", 3, true, true, maker<vtkRadialBasisMorph>(),
+      joined(
+        ofMorph(), { whole<vtkRadialBasisMorph>("Kernel", &vtkRadialBasisMorph::SetKernel, 0, 0, 2),
+                     real<vtkRadialBasisMorph>(
+                       "SupportRadius", &vtkRadialBasisMorph::SetSupportRadius, 1, 0.1, 3),
+                     whole<vtkRadialBasisMorph>(
+                       "NumberOfCenters", &vtkRadialBasisMorph::SetNumberOfCenters, 0, 0, 100) }) },
     { "SimplexLinearMorph", 3, true, true, maker<vtkSimplexLinearMorph>(), ofMorph() },
     { "SimplexNaturalNeighborMorph", 3, true, true, maker<vtkSimplexNaturalNeighborMorph>(),
       joined(ofMorph(), { whole<vtkSimplexNaturalNeighborMorph>("Coordinates",

@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
 METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph,
            meshmorphing.vtkSimplexLinearMorph, meshmorphing.vtkSimplexNaturalNeighborMorph,
-           meshmorphing.vtkWeightedResidualMorph]
+           meshmorphing.vtkRadialBasisMorph, meshmorphing.vtkWeightedResidualMorph]
 
 
 def read():

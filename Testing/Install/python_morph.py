@@ -17,7 +17,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
 METHODS = ("FEMWARP", "LBWARP", "weighted residual", "Simplex-linear", "simplex_natural_neighbor",
-           "Smoothing", "InversionFree")
+           "radial basis", "Smoothing", "InversionFree")
 SHEAR = numpy.array([[1, 0.2, 0], [0, 1.1, 0], [0.1, 0, 1]])
 
 

@@ -100,7 +100,7 @@ class Routes(unittest.TestCase):
         low, high = self.rest.min(axis=0), self.rest.max(axis=0)
         outer = ((self.rest == low) | (self.rest == high)).any(axis=1)
         for method in (MorphFEMWARP, MorphLBWARP, MorphSimplexLinear, MorphSimplexNaturalNeighbor,
-                       MorphWeightedResidual):
+                       MorphRadialBasis, MorphWeightedResidual):
             with self.subTest(method=method.__name__):
                 morph = method(Input=self.grid, Boundary=moved)
                 self.assertMoved(morph, expected)

@@ -16,8 +16,8 @@ from pathlib import Path
 PROGRAM = os.environ["MORPH_MESH"]
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 BORE = str(MODELS / "bore_hex_small.vtu")
-METHODS = ("FEMWARP", "InversionFree", "LBWARP", "SimplexLinear", "SimplexNaturalNeighbor",
-           "Smoothing", "WeightedResidual")
+METHODS = ("FEMWARP", "InversionFree", "LBWARP", "RadialBasis", "SimplexLinear",
+           "SimplexNaturalNeighbor", "Smoothing", "WeightedResidual")
 
 
 def run(*arguments):

@@ -4,6 +4,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
+#include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
@@ -72,6 +73,7 @@ const std::vector<Method>& methods()
     method<vtkFEMWarpMorph>("FEMWarp"),
     method<vtkInversionFreeMorph>("InversionFree"),
     method<vtkLBWarpMorph>("LBWarp"),
+    method<vtkRadialBasisMorph>("RadialBasis"),
     method<vtkSimplexLinearMorph>("SimplexLinear"),
     method<vtkSimplexNaturalNeighborMorph>("SimplexNaturalNeighbor"),
     method<vtkSmoothingMorph>("Smoothing"),

@@ -463,6 +463,18 @@ Index NearestNodes::size() const
   return this->implementation_->cloud.points.rows();
 }
 
+void NearestNodes::within(
+  const Eigen::RowVector3d& x, double radius, std::vector<std::int32_t>& found) const
+{
+  found.clear();
+  WithinRadius all(widened(radius * radius), found);
+  this->implementation_->tree.findNeighbors(all, x.data(), {});
+  const Points& points = this->implementation_->cloud.points;
+  const auto outside = [&](std::int32_t node) { return (points.row(node) - x).norm() > radius; };
+  found.erase(std::remove_if(found.begin(), found.end(), outside), found.end());
+  std::sort(found.begin(), found.end());
+}
+
 void NearestNodes::search(const Points& x, const std::vector<Index>& order, Index first, Index last,
   Index k, const Visit& visit) const
 {

@@ -41,6 +41,10 @@ public:
   void search(const Points& x, const std::vector<Index>& order, Index first, Index last, Index k,
     const Visit& visit) const;
 
+  /// Sets `found` to the nodes at most `radius` from `x`, ascending. Several threads may search at
+  /// once. Cost: O(log n) and the nodes found.
+  void within(const Eigen::RowVector3d& x, double radius, std::vector<std::int32_t>& found) const;
+
   Index size() const;
 
 private:

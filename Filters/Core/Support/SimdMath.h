@@ -61,4 +61,43 @@ MORPH_SIMD_INLINE SimdDouble4 inverseCubeRoot(const SimdDouble4& x)
   }
   return y;
 }
+
+MORPH_SIMD_INLINE double positivePart(double x)
+{
+  return x > 0 ? x : 0;
+}
+
+MORPH_SIMD_INLINE SimdDouble4 positivePart(const SimdDouble4& x)
+{
+  return x > 0. ? x : SimdDouble4{ 0, 0, 0, 0 };
+}
+
+MORPH_SIMD_INLINE double logarithm(double x)
+{
+  return std::log(x);
+}
+
+/// Computes the natural logarithm of normal positive numbers, to a few units in the last place of
+/// the larger of |log x| and 1. With x = 2^e m, m in [1/sqrt(2), sqrt(2)), s = (m - 1) / (m + 1),
+/// it is e log 2 + 2 (s + s^3 / 3 + s^5 / 5 + ...), where |s| < 0.172.
+MORPH_SIMD_INLINE SimdDouble4 logarithm(const SimdDouble4& x)
+{
+  using Integers = long long __attribute__((vector_size(32)));
+  constexpr long long RootOfHalf = 0x3fe6a09e667f3bcdll; // the bits of sqrt(1/2)
+  constexpr long long Bias = 1023;                       // keeps the exponent positive
+  constexpr long long Magic = 0x4330000000000000ll;      // the bits of 2^52
+  const Integers bits = reinterpret_cast<Integers>(x);
+  const Integers exponent = (bits - RootOfHalf + (Bias << 52)) >> 52;
+  const SimdDouble4 m = reinterpret_cast<SimdDouble4>(bits - ((exponent - Bias) << 52));
+  const Integers mantissa = exponent | Magic;
+  const SimdDouble4 e =
+    reinterpret_cast<SimdDouble4>(mantissa) - (0x1p52 + static_cast<double>(Bias));
+  const SimdDouble4 s = (m - 1.) / (m + 1.), z = s * s;
+  SimdDouble4 series = { 1. / 21, 1. / 21, 1. / 21, 1. / 21 };
+  for (int k = 19; k >= 1; k -= 2)
+  {
+    series = series * z + 1. / k;
+  }
+  return e * 0.693147180559945309417232121458 + 2. * s * series;
+}
 }

@@ -5,6 +5,7 @@
 #include "vtkBoundaryDisplacement.h"
 
 #include "Private/Blocks/Blocks.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/BoundaryModel.h"
@@ -65,6 +66,7 @@ struct vtkBoundaryDisplacement::vtkInternals
 
   morph::filters::Blocks Blocks;
   const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
+  morph::filters::Unchanged Checked; ///< the input, where it is a grid
   morph::filters::BlockSelection Selected, ZoneSelected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet

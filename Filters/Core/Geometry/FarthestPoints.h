@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <vector>
+
+namespace morph
+{
+/// Points in farthest-point order: each is the one farthest from all before it.
+struct FarthestPoints
+{
+  std::vector<Index> order; ///< all points
+  /// Of each point in `order`, its distance from the nearest of those before it. It never increases
+  /// after the fourth.
+  std::vector<double> distances;
+};
+
+/// Sorts `points`, #points x 3, in farthest-point order: the first n cover the points evenly, for
+/// every n. The first four span the largest simplex found greedily: they are the farthest from the
+/// mean, from the first, from the line and from the plane of those before. Of points equally far
+/// the first in `points` goes first. Cost: O(n log n) for points spread over a surface or a volume.
+///
+/// Source: T. F. Gonzalez, "Clustering to minimize the maximum intercluster distance", Theoretical
+/// Computer Science 38 (1985) 293-306.
+FarthestPoints farthestPoints(const Points& points, Monitor& monitor);
+}
