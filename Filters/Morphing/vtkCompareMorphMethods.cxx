@@ -52,11 +52,11 @@ vtkStandardNewMacro(vtkCompareMorphMethods);
 
 morphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
   morphSetNumberMacro(vtkCompareMorphMethods, StiffnessExponent, 0.0, 4.0)
-  morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
-    morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
-      morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
+    morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
+      morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
+        morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
 
-        struct vtkCompareMorphMethods::vtkInternals
+          struct vtkCompareMorphMethods::vtkInternals
 {
   filters::Ports Ports;
   filters::Steps Steps;

@@ -366,7 +366,8 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
   }
-  kept.Session.Transpose(rest, boundary, gradient, kept.Options(rest, boundary), boundaryGradient, monitor);
+  kept.Session.Transpose(
+    rest, boundary, gradient, kept.Options(rest, boundary), boundaryGradient, monitor);
 }
 
 double vtkMorphAlgorithm::GetNumber(const char* name) const

@@ -100,8 +100,7 @@ const std::vector<Method>& methods()
     { "LBWARP", make<LBWarp>,
       with(stiffOptions<LBWarp>(),
         { "OutsideHull", { "Error", "Relax" }, 0, 1,
-          setter<LBWarp>(
-            [](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) }) },
+          setter<LBWarp>([](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) }) },
     { "RadialBasis", make<Radial>,
       { { "Kernel", { "Triharmonic", "ThinPlate", "WendlandC2" }, 0, 2,
           setter<Radial>([](Radial* f, double v) { f->SetKernel(static_cast<int>(v)); }) },

@@ -52,8 +52,7 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
-    { "LogBarrierWarpInverseVolume",
-      stiff<LogBarrierWarp>(CellStiffness::Kind::InverseVolume, 1) },
+    { "LogBarrierWarpInverseVolume", stiff<LogBarrierWarp>(CellStiffness::Kind::InverseVolume, 1) },
     { "LogBarrierWarpWallDistance", stiff<LogBarrierWarp>(CellStiffness::Kind::WallDistance, 2) },
     { "RadialBasis", [] { return std::make_unique<RadialBasis>(); } },
     { "RadialBasisCompact",

@@ -4,8 +4,8 @@
 #include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "Motions.h"
 #include "Morpher/PolyhedralMorpher.h"
+#include "Motions.h"
 #include "PolyhedralMeshes.h"
 #include "Quality/MovableQuality.h"
 #include "Support/Error.h"
@@ -42,7 +42,7 @@ Mesh wideRing()
 
 struct Layer
 {
-  double lean = 0;   ///< degrees between a wall-normal line of the first cells and the wall's normal
+  double lean = 0; ///< degrees between a wall-normal line of the first cells and the wall's normal
   double height = 0; ///< of the first cell along the normal, in units of the undeformed one
   Index inverted = 0;
 };
@@ -90,8 +90,8 @@ Layer turned(Kind kind, double exponent = 1)
     const Row line = moved.row(n + 1) - moved.row(n); // nodes are numbered outwards
     const double along = line.dot(normal);
     result.lean = std::max(result.lean, std::acos(along / line.norm()) * 180 / M_PI);
-    result.height = std::min(
-      result.height, along / (mesh.points.row(n + 1) - mesh.points.row(n)).norm());
+    result.height =
+      std::min(result.height, along / (mesh.points.row(n + 1) - mesh.points.row(n)).norm());
   }
   return result;
 }
@@ -157,8 +157,7 @@ TEST(CellStiffness, OfEqualValuesIsUniform)
     FemWarp uniform, equal;
     uniform.setTolerance(1e-13);
     equal.setTolerance(1e-13);
-    equal.setStiffness(
-      { Kind::Uniform, 1, {}, std::vector<double>(mesh.numberOfCells(), 7.) });
+    equal.setStiffness({ Kind::Uniform, 1, {}, std::vector<double>(mesh.numberOfCells(), 7.) });
     Points one, other;
     uniform.prepare(mesh, partition, monitor);
     uniform.evaluate(target, one, monitor);

@@ -86,8 +86,8 @@ Mesh oGrid(int around, int span, double first)
     // and a rounded trailing edge. Lines leave it along its normals, and turn into rays.
     const double t = 2 * M_PI * open.points(i, 1) / around;
     const double x = 0.5 * std::cos(t), y = 0.06 * std::sin(t) * (1 - 0.6 * std::cos(t));
-    const double dx = -0.5 * std::sin(t),
-                 dy = 0.06 * (std::cos(t) * (1 - 0.6 * std::cos(t)) + 0.6 * std::sin(t) * std::sin(t));
+    const double dx = -0.5 * std::sin(t), dy = 0.06 * (std::cos(t) * (1 - 0.6 * std::cos(t)) +
+                                                        0.6 * std::sin(t) * std::sin(t));
     const double size = std::hypot(dx, dy);
     const double h = heights[std::lround(open.points(i, 0))];
     nodeOf[i] = static_cast<Index>(points.size());
@@ -146,8 +146,7 @@ Figures kept(const Mesh& mesh, const std::function<bool(const Row&)>& isWall,
   {
     const WallLayers some = findWallLayers(mesh, faces, wall, count, {});
     moveLayers(mesh.points, faces, wall, some, target);
-    prescribed.insert(
-      prescribed.end(), some.columns.values.begin(), some.columns.values.end());
+    prescribed.insert(prescribed.end(), some.columns.values.begin(), some.columns.values.end());
   }
   const NodePartition partition = partitionNodes(mesh, prescribed);
   method.prepare(mesh, partition, monitor);
@@ -230,12 +229,11 @@ TEST(WallLayers, AreFoundAsStacks)
       {
         const Index column = static_cast<Index>(i);
         // The last layer has the opposite boundary.
-        ASSERT_EQ(layers.columns.end(column) - layers.columns.begin(column),
-          std::min<Index>(most, 4));
+        ASSERT_EQ(
+          layers.columns.end(column) - layers.columns.begin(column), std::min<Index>(most, 4));
         for (const Index* n = layers.columns.begin(column); n != layers.columns.end(column); ++n)
         {
-          const Row above =
-            Row(0, 0, static_cast<double>(n - layers.columns.begin(column) + 1));
+          const Row above = Row(0, 0, static_cast<double>(n - layers.columns.begin(column) + 1));
           EXPECT_EQ(mesh.points.row(*n), mesh.points.row(layers.walls[i]) + above);
         }
       }
@@ -250,8 +248,7 @@ TEST(WallLayers, AreFoundAsStacks)
   EXPECT_LT(longest(layers), 6);
   const Mesh tets = meshes::tets(3, 3, 3);
   const BoundaryFaces ofTets = boundaryFaces(tets, monitor);
-  EXPECT_EQ(
-    longest(findWallLayers(tets, ofTets, facesWhere(tets, ofTets, isBottom), 100, {})), 0);
+  EXPECT_EQ(longest(findWallLayers(tets, ofTets, facesWhere(tets, ofTets, isBottom), 100, {})), 0);
 }
 
 TEST(WallLayers, EndWhereAnArrayOrAnotherWallSaysSo)
@@ -267,8 +264,8 @@ TEST(WallLayers, EndWhereAnArrayOrAnotherWallSaysSo)
   const auto wall = facesWhere(mesh, faces, isBottom);
   EXPECT_EQ(longest(findWallLayers(mesh, faces, wall, 100, isLayer)), 2);
   // Layers from both sides: no node is in two columns.
-  const auto both =
-    facesWhere(mesh, faces, [](const Row& x) { return isBottom(x) || isBottom(Row(0, 0, x[2] - 6)); });
+  const auto both = facesWhere(
+    mesh, faces, [](const Row& x) { return isBottom(x) || isBottom(Row(0, 0, x[2] - 6)); });
   const WallLayers layers = findWallLayers(mesh, faces, both, 100, {});
   std::vector<Index> nodes = layers.columns.values;
   std::sort(nodes.begin(), nodes.end());

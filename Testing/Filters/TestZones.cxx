@@ -80,8 +80,8 @@ vtkSmartPointer<vtkBoundaryDisplacement> twisted(vtkDataObject* grid)
   return filter;
 }
 
-Points morphed(vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid,
-  vtkBoundaryDisplacement* displacement)
+Points morphed(
+  vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid, vtkBoundaryDisplacement* displacement)
 {
   grids::Listener listener(method);
   method->SetInputData(grid);
@@ -158,8 +158,8 @@ TEST(Zones, AnInnerOneFollowsFemWarpsMeanMotion)
                [&](Index n) { return ((rest.row(n).array() - N / 2.).abs() < 0.5).all(); }),
     edge.end());
   ASSERT_EQ(edge.size(), 26u);
-  const morph::RigidMotion expected = morph::fitRigidMotion(
-    rest(edge, morph::allColumns), without(edge, morph::allColumns));
+  const morph::RigidMotion expected =
+    morph::fitRigidMotion(rest(edge, morph::allColumns), without(edge, morph::allColumns));
   for (const Index n : edge)
   {
     EXPECT_LT((expected(rest.row(n)) - with.row(n)).norm(), 1e-8);
@@ -225,8 +225,8 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   // Two blocks: the middle's cells, and the others.
   vtkDataArray* cells = grid->GetCellData()->GetArray("Cells");
   ASSERT_EQ(cells->GetNumberOfTuples(), N * N * N);
-  const blocks::Pieces pieces =
-    blocks::cut(grid, 2, [](const Row& x) { return isMiddle(x) ? 1 : 0; }, true);
+  const blocks::Pieces pieces = blocks::cut(
+    grid, 2, [](const Row& x) { return isMiddle(x) ? 1 : 0; }, true);
   auto tree = blocks::collection({ pieces[0], pieces[0], pieces[1] });
   (void)tree;
   auto multi = blocks::multiBlock(pieces);

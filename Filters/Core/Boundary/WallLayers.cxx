@@ -73,8 +73,7 @@ public:
     for (int f = 0; f < shape.numberOfFaces; ++f)
     {
       const FaceShape& face = shape.faces[f];
-      const auto isOne = [&](int k)
-      {
+      const auto isOne = [&](int k) {
         return std::find(nodes, nodes + size, ids[shape.cornerNode[face.corner[k]]]) !=
                nodes + size;
       };
@@ -103,9 +102,7 @@ public:
     {
       const bool hasAll = std::all_of(front.opposite, front.opposite + front.size,
         [&](Index node)
-        {
-          return std::binary_search(this->around_.begin(node), this->around_.end(node), *cell);
-        });
+        { return std::binary_search(this->around_.begin(node), this->around_.end(node), *cell); });
       if (*cell != front.cell && hasAll)
       {
         return *cell;
@@ -151,8 +148,7 @@ WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
     }
   }
   std::sort(result.walls.begin(), result.walls.end());
-  result.walls.erase(
-    std::unique(result.walls.begin(), result.walls.end()), result.walls.end());
+  result.walls.erase(std::unique(result.walls.begin(), result.walls.end()), result.walls.end());
 
   // Where the column of each node at the front begins, and which nodes some column has.
   std::unordered_map<Index, Index> columnOf;
@@ -171,9 +167,8 @@ WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
     {
       Front front{};
       Index next = -1;
-      const bool grows =
-        search.makeFront(face.cell, face.nodes, face.size, front) &&
-        (next = search.beyond(front)) >= 0;
+      const bool grows = search.makeFront(face.cell, face.nodes, face.size, front) &&
+                         (next = search.beyond(front)) >= 0;
       for (int k = 0; k < std::min(face.size, 4); ++k)
       {
         const Index node = grows ? front.nodes[k] : face.nodes[k];

@@ -78,9 +78,8 @@ void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
         Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
         for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
         {
-          sum -= entry.value() *
-                 (prescribed.row(entry.col()) -
-                   fit.displacement(points.row(partition.prescribed[entry.col()])));
+          sum -= entry.value() * (prescribed.row(entry.col()) -
+                                   fit.displacement(points.row(partition.prescribed[entry.col()])));
         }
         rhs.row(i) = sum;
       }

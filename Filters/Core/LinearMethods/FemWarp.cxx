@@ -32,8 +32,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const std::vector<double> factors =
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
-  FemWarpSystem system =
-    femWarpSystem(rest, this->rows_, partition.prescribed, factors, monitor);
+  FemWarpSystem system = femWarpSystem(rest, this->rows_, partition.prescribed, factors, monitor);
   if (system.hasBadCells)
   {
     const std::string warning =

@@ -43,8 +43,8 @@ bool isCollapsed(const Mesh& mesh, Index cell)
   return false;
 }
 
-CellMatrices cellMatrices(const Mesh& mesh, const std::vector<double>& factors,
-  FemWarpSystem& system, Monitor& monitor)
+CellMatrices cellMatrices(
+  const Mesh& mesh, const std::vector<double>& factors, FemWarpSystem& system, Monitor& monitor)
 {
   const Index cells = mesh.numberOfCells();
   CellMatrices result;

@@ -80,7 +80,8 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   std::vector<SplitRows> chunks = splitRows(n, monitor,
     [&]
     {
-      return [&, weights = NodeWeights(mesh, around, columns, factors)](Index i, SplitRows& chunk) mutable
+      return [&, weights = NodeWeights(mesh, around, columns, factors)](
+               Index i, SplitRows& chunk) mutable
       {
         const NodeWeights::Kind kind = weights.compute(rows[i], relax);
         tallies[i / SplitRows::ChunkRows].count(rows[i], kind, weights.iterations());

@@ -19,8 +19,8 @@ namespace morph
 /// hull of its neighbors, whatever its cells are like. For a node on a face of the hull they exist
 /// as a limit (see LogBarrierWeights.h).
 ///
-/// With a stiffness other than Uniform, each weight is multiplied by the mean stiffness of the cells
-/// that both nodes share, and a node's weights are divided by their sum. Affine motions are then no
+/// With a stiffness other than Uniform, each weight is multiplied by the mean stiffness of the
+/// cells that both nodes share, and a node's weights are divided by their sum. Affine motions are then no
 /// solution, so that their least-squares fit is taken off first; the hull no longer bounds nodes.
 ///
 /// prepare(): one pass over the nodes; keeps about 0.8 kB a node of a hexahedral mesh. evaluate():

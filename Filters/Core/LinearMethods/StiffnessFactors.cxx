@@ -110,8 +110,8 @@ void requireExponent(double exponent)
 {
   if (!(exponent >= 0 && exponent <= 4))
   {
-    throw Error("The exponent of the stiffness must lie in [0, 4]; it is " +
-                std::to_string(exponent) + ".");
+    throw Error(
+      "The exponent of the stiffness must lie in [0, 4]; it is " + std::to_string(exponent) + ".");
   }
 }
 

@@ -47,7 +47,7 @@ public:
 private:
   Mesh pieces_;
   std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells
-  Index nodes_ = 0; ///< without centres
+  Index nodes_ = 0;                ///< without centres
   Index faceCenters_ = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor, Index> means_; ///< #centres x #nodes
 };

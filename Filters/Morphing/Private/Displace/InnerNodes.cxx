@@ -113,8 +113,8 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   }
 }
 
-void InnerNodes::Constrain(const BoundaryModel& model, const Options& options,
-  Choice::Result& choice, Points& targets) const
+void InnerNodes::Constrain(
+  const BoundaryModel& model, const Options& options, Choice::Result& choice, Points& targets) const
 {
   std::map<Index, Eigen::RowVector3d> moving;
   for (std::size_t i = 0; i < choice.Moving.size(); ++i)
@@ -180,7 +180,8 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     {
       if (options.RigidTransform)
       {
-        set(node, transformed(options.RigidTransform, options.ScaleFactor, model.Points().row(node)));
+        set(
+          node, transformed(options.RigidTransform, options.ScaleFactor, model.Points().row(node)));
       }
     }
   }
@@ -216,8 +217,7 @@ void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& mode
                     : " where the cell array '" + options.LayersArray + "' is not zero.") +
                 " Set KeepLayers to 0, or let whole faces of the wall move.");
   }
-  morph::moveLayers(
-    model.Points(), model.Faces(), choice.IsMovingFace, this->Layers, result.Moved);
+  morph::moveLayers(model.Points(), model.Faces(), choice.IsMovingFace, this->Layers, result.Moved);
   for (const Index node : this->Layers.columns.values)
   {
     result.Roles[node] = Surroundings::IsLayer;
@@ -241,10 +241,10 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
     morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
   const std::vector<Index>& by = isTold ? outer : zone.Edge.empty() ? zone.Nodes : zone.Edge;
   const Points moved = isTold ? result.Moved : this->Guess(model, result, monitor);
-  const morph::RigidMotion motion = morph::fitRigidMotion(
-    model.Points()(by, morph::allColumns), moved(by, morph::allColumns));
-  const bool stays = (moved(by, morph::allColumns) - model.Points()(by, morph::allColumns))
-                       .isZero(0);
+  const morph::RigidMotion motion =
+    morph::fitRigidMotion(model.Points()(by, morph::allColumns), moved(by, morph::allColumns));
+  const bool stays =
+    (moved(by, morph::allColumns) - model.Points()(by, morph::allColumns)).isZero(0);
   for (const Index node : zone.Nodes)
   {
     const Eigen::RowVector3d x = model.Points().row(node);

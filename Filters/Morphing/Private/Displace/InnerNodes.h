@@ -32,7 +32,7 @@ public:
     bool Any() const { return this->Zones.Any() || this->KeepLayers > 0; }
   };
 
-  /// Finds the zones. `grid`: that `model` was made from. Throws morph::Error as Zones::Find() does.
+  /// Finds the zones. `grid`: that `model` was made from. Throws as Zones::Find() does.
   void Find(vtkUnstructuredGrid* grid, const BoundaryModel& model, const MergedBlocks* blocks,
     const Options& options);
   /// Takes the boundary nodes of zones with a known motion out of `choice`, or puts them in:

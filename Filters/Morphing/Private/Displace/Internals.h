@@ -66,7 +66,7 @@ struct vtkBoundaryDisplacement::vtkInternals
 
   morph::filters::Blocks Blocks;
   const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
-  morph::filters::Unchanged Checked; ///< the input, where it is a grid
+  morph::filters::Unchanged Checked;                         ///< the input, where it is a grid
   morph::filters::BlockSelection Selected, ZoneSelected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
@@ -92,8 +92,7 @@ struct vtkBoundaryDisplacement::vtkInternals
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
   /// `target`: of MOTION_TARGET, or null; `zone`: the selection of a zone, or null.
   void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, vtkSelection* zone, vtkPolyData* output,
-    morph::filters::Monitor& monitor);
+    vtkPolyData* target, vtkSelection* zone, vtkPolyData* output, morph::filters::Monitor& monitor);
 
 private:
   morph::filters::InnerNodes::Options InnerOptions(

@@ -141,7 +141,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
       throw Error("The zone '" + name + "' has no node of the mesh.");
     }
   };
-  const NameSet::Names& names = kind == Frozen ? options.Frozen
+  const NameSet::Names& names = kind == Frozen  ? options.Frozen
                                 : kind == Rigid ? options.Rigid
                                                 : options.Soft;
   for (const std::string& name : names)
@@ -157,8 +157,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
     take("ZoneSelection",
       [&](Part& part)
       {
-        Selection::Inside inside =
-          Selection::Evaluate(grid, options.Selection, options.Extractor);
+        Selection::Inside inside = Selection::Evaluate(grid, options.Selection, options.Extractor);
         inside.ByPoints ? takeNodes(mesh, std::move(inside.Flags), part)
                         : takeCells(mesh, std::move(inside.Flags), part);
       });

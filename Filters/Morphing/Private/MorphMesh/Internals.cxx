@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/MorphMesh/Internals.h"
 
-#include "Private/Data/Version.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Version.h"
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/SurfaceGrid.h"
 #include "Private/Displace/Zones.h"
@@ -175,8 +175,7 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
   options.Selection = this->Zone;
   options.Extractor = this->Extractor;
   options.SelectionKind = from->ZoneSelectionType;
-  if (options.Soft.empty() && options.RegionKind != ZONE_SOFT &&
-      options.SelectionKind != ZONE_SOFT)
+  if (options.Soft.empty() && options.RegionKind != ZONE_SOFT && options.SelectionKind != ZONE_SOFT)
   {
     return nullptr;
   }

@@ -82,7 +82,7 @@ private:
   morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
     PassedFreeSurfaces, PassedFrozenZones, PassedRigidZones;
   morph::filters::BlockSelection ZoneSelected;
-  vtkSmartPointer<vtkSelection> Zone; ///< of ZoneSelectionType, or null
+  vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);
