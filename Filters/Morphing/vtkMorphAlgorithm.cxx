@@ -311,7 +311,8 @@ void vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* grid,
   {
     this->Distributed = std::make_unique<filters::OnRanks::Morphing>(this->Results);
   }
-  filters::Session::Options options = this->Options(grid);
+  filters::Session::Options options;
+  filters::Ranks::Together([&] { options = this->Options(grid, boundary); });
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   this->Distributed->Run({ grid, boundary, fraction, this->Filter->OutputPointsPrecision,
                            { options.MeasureAll, this->Filter->Certify },

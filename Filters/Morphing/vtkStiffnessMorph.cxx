@@ -106,7 +106,14 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
   next.kind = static_cast<morph::CellStiffness::Kind>(this->Stiffness);
   next.exponent = this->StiffnessExponent;
   const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
-  if (const std::string name = filters::Input::ArrayName(this->StiffnessArray); !name.empty())
+  const std::string name = filters::Input::ArrayName(this->StiffnessArray);
+  if (cells == 0 && !name.empty())
+  {
+    next.values = {
+      1
+    }; // a rank without cells has no arrays, and refuses a stiffness as the others
+  }
+  else if (!name.empty())
   {
     multiply(require(rest->GetCellData(), name, cells, "StiffnessArray"), cells, next.values);
   }
@@ -116,14 +123,14 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
   }
   if (this->Stiffness == STIFFNESS_WALL_DISTANCE)
   {
-    const std::string name = filters::Input::ArrayName(this->WallArray);
-    if (name.empty())
+    const std::string walls = filters::Input::ArrayName(this->WallArray);
+    if (walls.empty() || cells == 0)
     {
       next.walls = movingNodes(boundary, nodes);
     }
     else
     {
-      vtkDataArray* marks = require(rest->GetPointData(), name, nodes, "WallArray");
+      vtkDataArray* marks = require(rest->GetPointData(), walls, nodes, "WallArray");
       for (vtkIdType i = 0; i < nodes; ++i)
       {
         if (marks->GetComponent(i, 0) < 0 || marks->GetComponent(i, 0) > 0)
@@ -133,7 +140,7 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
       }
       if (next.walls.empty())
       {
-        throw morph::Error("WallArray names '" + name + "', which is zero at all nodes.");
+        throw morph::Error("WallArray names '" + walls + "', which is zero at all nodes.");
       }
     }
   }
