@@ -2,7 +2,7 @@
 # Meshes distributed over MPI ranks: Filters/Distributed, where VTK has MPI and hypre is there.
 # Include after find_package(ParaView) or find_package(VTK). Sets morph_has_mpi.
 set(MESHMORPHING_USE_MPI AUTO CACHE STRING
-  "Morph meshes that are distributed over MPI ranks: AUTO (where VTK has MPI and hypre is found), ON or OFF")
+  "Morph meshes on several MPI ranks: AUTO (where VTK has MPI and hypre is found), ON or OFF")
 set_property(CACHE MESHMORPHING_USE_MPI PROPERTY STRINGS AUTO ON OFF)
 
 set(morph_has_mpi OFF)

@@ -18,8 +18,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
 }
 }
 
-Directory::Directory(
-  const Ranks& ranks, const std::vector<NodeRecord>& nodes, double tolerance)
+Directory::Directory(const Ranks& ranks, const std::vector<NodeRecord>& nodes, double tolerance)
   : ranks_(ranks)
 {
   std::vector<std::vector<NodeRecord>> to(ranks.count());
@@ -67,13 +66,13 @@ Directory::Directory(
       if (!twice.empty())
       {
         throw Error("Two nodes of one MPI rank have the same global point id: ids " +
-                    listIds(twice) + ". Make the ids anew (Generate Global Ids).");
+                    listIds(twice) + ". Make the ids again (Generate Global Ids).");
       }
       if (!apart.empty())
       {
         throw Error("Nodes of two MPI ranks have the same global point id and different "
                     "positions: ids " +
-                    listIds(apart) + ". Make the ids anew (Generate Global Ids).");
+                    listIds(apart) + ". Make the ids again (Generate Global Ids).");
       }
     });
 }

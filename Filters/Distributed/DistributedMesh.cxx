@@ -75,10 +75,10 @@ struct DistributedMesh::Builder
   };
 
   DistributedMesh& mesh;
-  std::set<std::pair<Index, int>> sent;                  ///< cells, by rank
-  std::vector<std::vector<Node>> nodes;                  ///< for each rank
-  std::vector<std::set<Index>> nodesSent;                ///< by rank
-  std::vector<std::vector<std::int64_t>> cells;          ///< for each rank
+  std::set<std::pair<Index, int>> sent;         ///< cells, by rank
+  std::vector<std::vector<Node>> nodes;         ///< for each rank
+  std::vector<std::set<Index>> nodesSent;       ///< by rank
+  std::vector<std::vector<std::int64_t>> cells; ///< for each rank
 
   explicit Builder(DistributedMesh& owner)
     : mesh(owner)
@@ -112,8 +112,7 @@ struct DistributedMesh::Builder
       if (this->nodesSent[rank].insert(node).second)
       {
         this->nodes[rank].push_back({ this->mesh.nodeIds_[node],
-          { m.points(node, 0), m.points(node, 1), m.points(node, 2) },
-          this->mesh.owner_[node] });
+          { m.points(node, 0), m.points(node, 1), m.points(node, 2) }, this->mesh.owner_[node] });
       }
     }
     const std::size_t length = stream.size();
@@ -225,8 +224,8 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
     {
       if (!wrong.empty())
       {
-        throw Error("Global point ids have to lie between 0 and 2^52: there are " +
-                    listIds(wrong) + ". Make the ids anew (Generate Global Ids).");
+        throw Error("Global point ids have to lie between 0 and 2^52: there are " + listIds(wrong) +
+                    ". Make the ids again (Generate Global Ids).");
       }
     });
   this->measure();
@@ -237,8 +236,8 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
     this->owner_[pair.first] = -1;
   }
   this->addGhosts(layers, monitor);
-  this->halo_ = Halo(
-    ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
+  this->halo_ =
+    Halo(ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
   this->findBodies();
   this->findOuter(monitor);
 }
@@ -261,9 +260,9 @@ std::vector<NodeRecord> DistributedMesh::numberNodes()
       this->doubles_.emplace_back(n, this->byId_.back().second);
       continue;
     }
-    records.push_back({ id,
-      { this->mesh_.points(n, 0), this->mesh_.points(n, 1), this->mesh_.points(n, 2) },
-      this->isUsed_[n] });
+    records.push_back(
+      { id, { this->mesh_.points(n, 0), this->mesh_.points(n, 1), this->mesh_.points(n, 2) },
+        this->isUsed_[n] });
     this->byId_.emplace_back(id, n);
   }
   return records;

@@ -36,8 +36,8 @@ public:
   Index pieceNodes() const { return this->pieceNodes_; }
   Index pieceCells() const { return this->pieceCells_; }
 
-  /// Gives the piece's further copies of a node, as ghost cells may have them, the row of that node;
-  /// #nodes x 3. They take part in nothing else.
+  /// Gives further copies of a node, as the piece's ghost cells may have them, the row of that
+  /// node; #nodes x 3. They take part in nothing else.
   void copyToDoubles(Points& values) const;
   bool owns(Index node) const { return this->owner_[node] == this->ranks_->rank(); }
   /// #cells: nonzero for ghosts.

@@ -144,9 +144,8 @@ struct HypreSolver::Handles
 
   void setUp(HYPRE_ParVector b, HYPRE_ParVector x)
   {
-    this->kind == Kind::Symmetric
-      ? HYPRE_ParCSRPCGSetup(this->krylov, this->matrix, b, x)
-      : HYPRE_ParCSRBiCGSTABSetup(this->krylov, this->matrix, b, x);
+    this->kind == Kind::Symmetric ? HYPRE_ParCSRPCGSetup(this->krylov, this->matrix, b, x)
+                                  : HYPRE_ParCSRBiCGSTABSetup(this->krylov, this->matrix, b, x);
     this->isSetUp = true;
   }
 
@@ -270,8 +269,8 @@ SolveReport HypreSolver::solve(
     // b - A x, in place of b: what the iteration reports may have drifted.
     HYPRE_ParCSRMatrixMatvec(-1, handles.matrix, pu, 1, pb);
     b.get(column);
-    const double residual = std::sqrt(
-      ranks.sum(Eigen::Map<const Eigen::VectorXd>(column.data(), rows).squaredNorm()));
+    const double residual =
+      std::sqrt(ranks.sum(Eigen::Map<const Eigen::VectorXd>(column.data(), rows).squaredNorm()));
     report.relativeResidual = std::max(report.relativeResidual, residual / norm);
     if (!(residual <= 1e3 * tolerance * norm) && !(residual <= 1e-9 * norm))
     {

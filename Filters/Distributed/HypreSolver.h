@@ -35,10 +35,10 @@ public:
     const std::vector<std::int64_t>& ghostNumbers);
 
   /// Solves for three right-hand sides, #rows x 3, from the guess `x`, until each residual is below
-  /// `tolerance` times |b| (Euclidean norms). Throws Error on all ranks where `maxIterations` do not
-  /// suffice. A right-hand side of zeros gives zeros. Collective.
-  SolveReport solve(const Ranks& ranks, const Points& rhs, Points& x, double tolerance,
-    int maxIterations) const;
+  /// `tolerance` times |b| (Euclidean norms). Throws Error on all ranks where `maxIterations` are
+  /// too few. A right-hand side of zeros gives zeros. Collective.
+  SolveReport solve(
+    const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const;
 
   /// The number of unknowns of all ranks.
   std::int64_t unknowns() const { return this->unknowns_; }

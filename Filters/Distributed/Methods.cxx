@@ -17,12 +17,16 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
 {
   if (dynamic_cast<const morph::FemWarp*>(serial.get()))
   {
-    return std::make_unique<FemWarp>();
+    auto method = std::make_unique<FemWarp>();
+    method->takeEvaluateOptions(*serial);
+    return method;
   }
   if (const auto* warp = dynamic_cast<const morph::LogBarrierWarp*>(serial.get()))
   {
-    return std::make_unique<LogBarrierWarp>(
+    auto method = std::make_unique<LogBarrierWarp>(
       warp->outsideHull() == morph::LogBarrierWarp::OutsideHull::Relax);
+    method->takeEvaluateOptions(*serial);
+    return method;
   }
   if (dynamic_cast<const WeightedResidual*>(serial.get()) ||
       dynamic_cast<const SimplexLinear*>(serial.get()) ||

@@ -117,8 +117,8 @@ void requireNodeIds(const Ranks& ranks, Piece& piece)
     bool isTwice = false, isShared = false;
     for (last = first; last < met.size() && met[last].x == met[first].x; ++last)
     {
-      isTwice = isTwice || (last > first && !met[last].isGhost &&
-                             met[last].rank == met[last - 1].rank);
+      isTwice =
+        isTwice || (last > first && !met[last].isGhost && met[last].rank == met[last - 1].rank);
       isShared = isShared || met[last].isGhost || met[last].rank != met[first].rank;
     }
     if (isTwice && isShared && problem.empty())

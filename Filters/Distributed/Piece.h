@@ -14,9 +14,9 @@ namespace morph::distributed
 struct Piece
 {
   Mesh mesh;
-  std::vector<std::uint8_t> isGhost;  ///< #cells, or empty for none
-  std::vector<std::int64_t> nodeIds;  ///< #nodes, global, not negative; or empty
-  std::vector<std::int64_t> cellIds;  ///< #cells, global; or empty
+  std::vector<std::uint8_t> isGhost; ///< #cells, or empty for none
+  std::vector<std::int64_t> nodeIds; ///< #nodes, global, not negative; or empty
+  std::vector<std::int64_t> cellIds; ///< #cells, global; or empty
 };
 
 /// #nodes: nonzero for those of cells that are not ghosts.

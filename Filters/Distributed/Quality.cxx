@@ -29,8 +29,7 @@ Quality reduce(const Ranks& ranks, const Quality& mine, const std::vector<std::i
   }
   worst = ranks.minimum(worst);
   whole.worstCell = worst == NoCell ? -1 : worst;
-  const double sum =
-    ranks.sum(any ? mine.mean * static_cast<double>(mine.measured) : 0.);
+  const double sum = ranks.sum(any ? mine.mean * static_cast<double>(mine.measured) : 0.);
   whole.mean = sum / static_cast<double>(whole.measured);
   if (whole.measured == 0)
   {

@@ -149,8 +149,7 @@ void Ranks::exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,
   {
     if (received[r] > 0)
     {
-      MPI_Irecv(
-        into[r], received[r], item, r, Tag, this->communicator_, &requests.emplace_back());
+      MPI_Irecv(into[r], received[r], item, r, Tag, this->communicator_, &requests.emplace_back());
     }
   }
   for (int r = 0; r < this->count_; ++r)

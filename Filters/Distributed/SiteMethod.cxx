@@ -89,8 +89,7 @@ void SiteMethod::doPrepare(Monitor& monitor)
   ranks.together([&] { this->serial_->prepare(points, partition, silent); });
 }
 
-EvaluateReport SiteMethod::displace(
-  const Points& prescribed, Points& free, Monitor& monitor) const
+EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const Ranks& ranks = this->mesh().ranks();
   const Points sites = this->gather(prescribed);

@@ -27,16 +27,15 @@ public:
 
 protected:
   void doPrepare(Monitor& monitor) override;
-  EvaluateReport displace(
-    const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
   /// Gathers a row of each prescribed node that its owner has, in the order of the global ids.
   Points gather(const Points& rows) const;
 
   std::unique_ptr<Morpher> serial_;
-  std::vector<Index> owned_;  ///< numbers in partition().prescribed of the nodes this rank owns
-  std::vector<Index> place_;  ///< of each gathered node in the order of ids
+  std::vector<Index> owned_; ///< numbers in partition().prescribed of the nodes this rank owns
+  std::vector<Index> place_; ///< of each gathered node in the order of ids
   std::size_t gatheredBytes_ = 0;
 };
 }

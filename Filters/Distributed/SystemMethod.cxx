@@ -147,8 +147,8 @@ std::vector<AffineFit> SystemMethod::fits(const Points& prescribed) const
   reduce(&Moments::first);
   const auto mean = [](const Moments& sum, int at)
   {
-    return Eigen::RowVector3d(Eigen::Map<const Eigen::RowVector3d>(sum.first.data() + at) /
-                              std::max(sum.first[0], 1.));
+    return Eigen::RowVector3d(
+      Eigen::Map<const Eigen::RowVector3d>(sum.first.data() + at) / std::max(sum.first[0], 1.));
   };
   forEach(
     [&](Moments& sum, const Eigen::RowVector3d& x, const Eigen::RowVector3d& d)
@@ -181,8 +181,7 @@ EvaluateReport SystemMethod::displace(
     free.row(i) = fits[mesh.bodies().ofNode[node]].displacement(mesh.mesh().points.row(node));
   }
   ranks.together([&] { monitor.check(); });
-  const SolveReport solved =
-    this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
+  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
   EvaluateReport report;
   report.iterations = solved.iterations;
   report.relativeResidual = solved.relativeResidual;
@@ -246,12 +245,8 @@ SystemMethod::Rows LogBarrierWarp::assemble(const std::vector<Index>& columns, M
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
-  ranks.together(
-    [&]
-    {
-      system =
-        logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
-    });
+  ranks.together([&]
+    { system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor); });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
   if (!empty.empty())

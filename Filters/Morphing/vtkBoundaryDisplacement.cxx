@@ -247,9 +247,8 @@ int vtkBoundaryDisplacement::RequestData(
   filters::Monitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(
-      data, this->Internals->Blocks, this->CoincidentPoints, filters::Input::Use::ToMorph,
-      this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     vtkPointSet* input =
       filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
     if (!mesh.IsElsewhere)

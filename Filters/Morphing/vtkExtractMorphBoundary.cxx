@@ -52,8 +52,7 @@ int vtkExtractMorphBoundary::RequestData(
   const auto extract = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks,
-      this->GetClassName(), monitor);
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     if (mesh.IsDistributed)
     {
       vtkUnstructuredGrid* piece = nullptr;

@@ -64,8 +64,8 @@ std::string typeName(std::uint8_t type)
 }
 
 /// Warns of cells of the highest dimension without a value. `unmeasured`: by cell type.
-void reportUnmeasured(vtkScaledJacobian* filter, const std::vector<morph::Index>& unmeasured,
-  filters::Results& results)
+void reportUnmeasured(
+  vtkScaledJacobian* filter, const std::vector<morph::Index>& unmeasured, filters::Results& results)
 {
   std::string list;
   for (std::size_t type = 0; type < unmeasured.size(); ++type)
@@ -150,13 +150,11 @@ int vtkScaledJacobian::RequestData(
     this, "measure this mesh",
     [&]
     {
-      const filters::Input::Mesh mesh = filters::Input::TakeMesh(
-        input, blocks, this->CoincidentPoints, filters::Input::Use::ToMeasure,
-        this->GetClassName(), monitor);
+      const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, blocks,
+        this->CoincidentPoints, filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
       vtkUnstructuredGrid* grid = nullptr;
-      const auto require = [&]
-      { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
+      const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
       if (mesh.IsDistributed && filters::Ranks::TakePieces())
       {
         filters::Ranks::Together(require);

@@ -38,8 +38,8 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& path);
 void writeBoundary(vtkPointSet* boundary, const std::string& path);
 
 /// Writes a morphed grid: in VTK's format by the extension .vtu or .vtk, or else as a copy of the
-/// solver's file, or the list of pieces, `original`, which the grid was read from, with other coordinates. Returns the
-/// largest rounding of a coordinate.
+/// solver's file, or the list of pieces, `original`, which the grid was read from, with other
+/// coordinates. Returns the largest rounding of a coordinate.
 double writeMorphed(
   vtkUnstructuredGrid* grid, const std::string& original, const std::string& path);
 }

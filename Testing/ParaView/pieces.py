@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""morph-mesh on .pvtu and .vtm: the pieces are written again with moved points, and with their cells
-and arrays as they were. The morph is that of the mesh in one piece.
+"""morph-mesh on .pvtu and .vtm: the pieces are written again with moved points, and with their
+cells and arrays as they were. The morph is that of the mesh in one piece.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython pieces.py
 """
@@ -151,7 +151,8 @@ class Pieces(unittest.TestCase):
         writer.SetFileName(str(path))
         writer.SetInputData(blocks)
         writer.Write()
-        return path, sorted(str(p.relative_to(path.parent)) for p in (path.parent / "part").iterdir())
+        sources = (path.parent / "part").iterdir()
+        return path, sorted(str(p.relative_to(path.parent)) for p in sources)
 
     def files(self, folder):
         return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*")

@@ -71,13 +71,13 @@ class Compare(unittest.TestCase):
                                       Smoothing=0)
         compare.UpdatePipeline()
         tables = [compare.GetClientSideObject().GetOutputDataObject(port) for port in range(3)]
-        self.assertEqual([table.GetNumberOfRows() for table in tables], [6 * 2 * 4, 4, 6 * 2])
+        self.assertEqual([table.GetNumberOfRows() for table in tables], [7 * 2 * 4, 4, 7 * 2])
         with tempfile.TemporaryDirectory() as folder:
             file = str(Path(folder) / "ranking.csv")
             simple.SaveData(file, proxy=simple.OutputPort(compare, 2))
             with open(file, newline="", encoding="utf-8") as text:
                 rows = list(csv.DictReader(text))
-        self.assertEqual([int(row["Rank"]) for row in rows], list(range(1, 13)))
+        self.assertEqual([int(row["Rank"]) for row in rows], list(range(1, 15)))
         self.assertEqual(rows[0]["Method"], tables[2].GetValueByName(0, "Method").ToString())
 
 

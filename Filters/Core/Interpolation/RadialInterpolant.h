@@ -21,8 +21,8 @@ namespace morph
 /// conditionally positive definite of order 2, Wendland's kernel is positive definite.
 ///
 /// Source: H. Wendland, "Scattered Data Approximation", Cambridge University Press 2005, chapters 8
-/// and 9; projection: D. Sieger, S. Menzel, M. Botsch, "High quality mesh morphing using triharmonic
-/// radial basis functions", IMR 2012, solve the indefinite system instead.
+/// and 9. D. Sieger, S. Menzel, M. Botsch, "High quality mesh morphing using triharmonic radial
+/// basis functions", IMR 2012, solve the indefinite system instead.
 class RadialInterpolant
 {
 public:

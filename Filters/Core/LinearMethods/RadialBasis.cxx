@@ -62,7 +62,7 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   this->requireSpace();
   const Points& sites = this->sites_.coordinates();
-  // Differences first: the mean of sites far from the origin is inexact, and any place near will do.
+  // Differences first: the mean of sites far from the origin would be inexact.
   this->origin_ = sites.row(0);
   this->origin_ += (sites.rowwise() - this->origin_).colwise().mean();
   this->extent_ = 2 * (sites.rowwise() - this->origin_).rowwise().norm().maxCoeff();

@@ -16,10 +16,9 @@ namespace morph
 ///
 /// Up to 4,000 distinct sites (see InterpolationSites), each is the centre of a kernel: a dense,
 /// positive definite system (RadialInterpolant). The default kernel r^3 makes the field triharmonic
-/// and the method invariant to rigid motion and scale. Source: D. Sieger, S. Menzel, M. Botsch, "On
-/// shape deformation techniques for simulation-based design optimization" and "High quality mesh
-/// morphing using triharmonic radial basis functions", IMR 2012; Engineering with Computers 30
-/// (2014) 161-174.
+/// and the method invariant to rigid motion and scale. Source: D. Sieger, S. Menzel, M. Botsch,
+/// "RBF morphing techniques for simulation-based design optimization", Engineering with Computers
+/// 30 (2014) 161-174.
 ///
 /// Of more sites, 2,000 in farthest-point order are centres. The others correct the residual that
 /// these leave by compact kernels (CompactCorrection), so the result is exact at all sites. Memory

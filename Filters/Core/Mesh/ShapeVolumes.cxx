@@ -24,8 +24,8 @@ std::size_t slot(const ConnectedComponents& bodies, Index cell, Shape shape)
 
 const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 
-ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
-  const std::vector<std::uint8_t>& skip)
+ShapeVolumes shapeVolumes(
+  const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<std::uint8_t>& skip)
 {
   ShapeVolumes sums;
   sums.volume.assign(bodies.count * ShapeVolumes::Shapes, 0);

@@ -78,7 +78,7 @@ MORPH_SIMD_INLINE double logarithm(double x)
 }
 
 /// Computes the natural logarithm of normal positive numbers, to a few units in the last place of
-/// the larger of |log x| and 1. With x = 2^e m, m in [1/sqrt(2), sqrt(2)) and s = (m - 1) / (m + 1),
+/// the larger of |log x| and 1. With x = 2^e m, m in [1/sqrt(2), sqrt(2)), s = (m - 1) / (m + 1),
 /// it is e log 2 + 2 (s + s^3 / 3 + s^5 / 5 + ...), where |s| < 0.172.
 MORPH_SIMD_INLINE SimdDouble4 logarithm(const SimdDouble4& x)
 {

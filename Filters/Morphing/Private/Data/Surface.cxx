@@ -165,10 +165,9 @@ std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& me
   const std::vector<std::int8_t>* orientation)
 {
   writePoints(grid, faces.nodes, output);
-  return orientation
-           ? writePolygons(grid, mesh, faces, *orientation, output)
-           : writePolygons(grid, mesh, faces,
-               morph::cellSigns(mesh, morph::connectedComponents(mesh)), output);
+  return orientation ? writePolygons(grid, mesh, faces, *orientation, output)
+                     : writePolygons(grid, mesh, faces,
+                         morph::cellSigns(mesh, morph::connectedComponents(mesh)), output);
 }
 
 void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor)

@@ -69,7 +69,7 @@ struct Measured
   morph::Index MirroredBodies = 0;
 };
 /// Measures the mesh and, if `certified`, examines it; `output` becomes the grid with the arrays.
-Measured Measure(vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output,
-  morph::Monitor& monitor);
+Measured Measure(
+  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 }
 }

@@ -37,7 +37,7 @@ enum class Way
 /// A point of the boundary as it travels.
 struct Traveller
 {
-  std::int64_t id; ///< of its node, or -1
+  std::int64_t id;          ///< of its node, or -1
   std::int64_t rank, point; ///< where it comes from
   std::int64_t isFree;
   std::array<double, 3> position, rest, displacement;
@@ -83,8 +83,7 @@ Way agree(const Ranks& ranks, Way mine)
 {
   const auto value = static_cast<Index>(mine);
   const Index most = ranks.maximum(value);
-  const Index least =
-    ranks.minimum(mine == Way::None ? std::numeric_limits<Index>::max() : value);
+  const Index least = ranks.minimum(mine == Way::None ? std::numeric_limits<Index>::max() : value);
   if (most == static_cast<Index>(Way::None))
   {
     throw Error("The boundary has no points, so nothing says where the mesh goes.");
@@ -99,9 +98,8 @@ Way agree(const Ranks& ranks, Way mine)
 
 std::array<double, 3> rowOf(const morph::Points& points, Index row)
 {
-  return points.rows() > 0
-           ? std::array<double, 3>{ points(row, 0), points(row, 1), points(row, 2) }
-           : std::array<double, 3>{};
+  return points.rows() > 0 ? std::array<double, 3>{ points(row, 0), points(row, 1), points(row, 2) }
+                           : std::array<double, 3>{};
 }
 
 /// This rank's points; `node`: of each, or -1.
@@ -112,8 +110,7 @@ std::vector<Traveller> travellers(const BoundaryMatch::NamedPoints& named,
   for (const auto& [point, id] : pairs)
   {
     result.push_back({ id, rank, point, named.IsFree.empty() ? 0 : named.IsFree[point],
-      rowOf(named.Positions, point), rowOf(named.Rest, point),
-      rowOf(named.Displacements, point) });
+      rowOf(named.Positions, point), rowOf(named.Rest, point), rowOf(named.Displacements, point) });
   }
   return result;
 }
@@ -142,8 +139,8 @@ std::vector<Traveller> toBoxes(
       bool inside = true;
       for (int j = 0; j < 3; ++j)
       {
-        inside = inside && point.position[j] >= box[6 * r + j] &&
-                 point.position[j] <= box[6 * r + 3 + j];
+        inside =
+          inside && point.position[j] >= box[6 * r + j] && point.position[j] <= box[6 * r + 3 + j];
       }
       if (inside)
       {
@@ -211,8 +208,7 @@ BoundaryMatch::Result Match(
 {
   const Ranks& ranks = mesh.ranks();
   const double tolerance = options.MatchTolerance * mesh.size();
-  const bool areCopies =
-    ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
+  const bool areCopies = ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
   Way way = Way::None;
   BoundaryMatch::NamedPoints named;
   std::vector<std::pair<Index, std::int64_t>> pairs;
@@ -273,7 +269,8 @@ BoundaryMatch::Result Match(
                     ". Make the boundary from this grid, with Extract Morph Boundary.");
       }
     });
-  std::sort(points.begin(), points.end(), [](const Traveller& a, const Traveller& b)
+  std::sort(points.begin(), points.end(),
+    [](const Traveller& a, const Traveller& b)
     { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
 
   const Index count = static_cast<Index>(points.size());

@@ -18,6 +18,6 @@ namespace morph::filters::RankMatch
 /// BoundaryMatch::Match()'s ways to find nodes it has BoundaryIdArray, MorphPointId, a moved copy
 /// of each process's piece, and positions. Returns the prescribed nodes of the local mesh, as their
 /// owners have them; Sources is empty. Collective.
-BoundaryMatch::Result Match(vtkPointSet* boundary,
-  const morph::distributed::DistributedMesh& mesh, const BoundaryMatch::Options& options);
+BoundaryMatch::Result Match(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
+  const BoundaryMatch::Options& options);
 }

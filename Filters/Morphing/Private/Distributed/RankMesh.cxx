@@ -91,8 +91,8 @@ RankMesh::RankMesh()
 {
 }
 
-bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown,
-  morph::Monitor& monitor)
+bool RankMesh::Take(
+  vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor)
 {
   const morph::distributed::Ranks& ranks = this->Processes;
   std::vector<std::int64_t> nodeIds = globalIds(grid->GetPointData());
@@ -110,12 +110,13 @@ bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCell
   morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
   morph::distributed::requireNodeIds(ranks, piece);
   morph::distributed::requireCellIds(ranks, piece);
-  auto whole = std::make_unique<morph::distributed::DistributedMesh>(
-    ranks, std::move(piece), layers, monitor);
+  auto whole =
+    std::make_unique<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
   const morph::Index cells = whole->pieceCells();
   this->Signs.assign(whole->orientation().begin(), whole->orientation().begin() + cells);
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
-  const auto dimension = [this](morph::Index c) { return GridMesh::Dimension(this->Copy.types[c]); };
+  const auto dimension = [this](morph::Index c)
+  { return GridMesh::Dimension(this->Copy.types[c]); };
   morph::Index highest = 0;
   for (morph::Index c = 0; c < cells; ++c)
   {
@@ -127,8 +128,7 @@ bool RankMesh::Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCell
     this->Skip[c] |= dimension(c) < this->Dimension;
   }
   this->Polygons = {};
-  ranks.together(
-    [&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &this->Signs); });
+  ranks.together([&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &this->Signs); });
   this->NodeIds = std::move(nodeIds);
   this->CellIds = std::move(cellIds);
   this->Ghosts = std::move(ghosts);

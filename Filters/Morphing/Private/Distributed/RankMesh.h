@@ -29,8 +29,8 @@ public:
   /// Takes the pieces, unless they are the ones that are kept; returns whether it did. Points and
   /// cells are known by their global ids where there are some. Throws morph::Error on all
   /// processes for a mesh that cannot be read. `layers`: of ghost cells.
-  bool Take(vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown,
-    morph::Monitor& monitor);
+  bool Take(
+    vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
   /// Throws morph::Error on all processes unless the mesh can be morphed.
   void RequireVolumeCells() const;
 

@@ -73,8 +73,7 @@ morph::CertificateReport certify(const RankMesh& mesh, vtkUnstructuredGrid* outp
 {
   morph::CertificateReport report;
   mesh.Ranks().together(
-    [&]
-    { report = Quality::Certify(mesh.Piece(), output, mesh.Orientation(), skip, monitor); });
+    [&] { report = Quality::Certify(mesh.Piece(), output, mesh.Orientation(), skip, monitor); });
   morph::Index counts[3] = { report.certified, report.inverted, report.undecided };
   mesh.Ranks().sum(counts, 3);
   report.certified = counts[0];
@@ -98,8 +97,8 @@ public:
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
   std::string PreparedOptions;
 
-  void Prepare(
-    const morph::NodePartition& partition, const Session::Options& options, morph::Monitor& monitor);
+  void Prepare(const morph::NodePartition& partition, const Session::Options& options,
+    morph::Monitor& monitor);
   morph::Index RequireFeasible(const BoundaryMatch::Result& match,
     const morph::NodePartition& partition, const Session::Options& options);
   void Write(const Task& task, const Session::Options& options, const morph::Points& moved,
@@ -148,8 +147,8 @@ morph::Index Morphing::Internals::RequireFeasible(const BoundaryMatch::Result& m
   whole.ranks().together(
     [&]
     {
-      for (morph::Index cell : morph::boundaryDeterminedInversions(
-             whole.mesh(), partition, whole.orientation(), points))
+      for (morph::Index cell :
+        morph::boundaryDeterminedInversions(whole.mesh(), partition, whole.orientation(), points))
       {
         if (whole.isGhost()[cell] == 0)
         {
@@ -238,8 +237,7 @@ void Morphing::Internals::Write(const Task& task, const Session::Options& option
   }
   morph::Quality mine;
   ranks.together(
-    [&]
-    { mine = Quality::Measure(piece, task.Output, this->Mesh.Orientation(), skip, monitor); });
+    [&] { mine = Quality::Measure(piece, task.Output, this->Mesh.Orientation(), skip, monitor); });
   const morph::Quality whole =
     morph::distributed::reduce(ranks, mine, this->Mesh.Whole().cellIds());
   const morph::Index bad = whole.inverted + whole.degenerate;
@@ -286,8 +284,7 @@ void Morphing::Internals::Write(const Task& task, const Session::Options& option
       {
         BadCells::Extract(mine, task.Output, task.BadCells);
       }
-      surfaceInverted =
-        this->Mesh.Surface().Write(task.Output->GetPoints(), mine, task.Surface);
+      surfaceInverted = this->Mesh.Surface().Write(task.Output->GetPoints(), mine, task.Surface);
     });
   this->Results.SetInteger("SurfaceInvertedCells", ranks.sum(surfaceInverted));
   this->Mesh.WriteGlobalIds(task.BadCells);
@@ -386,13 +383,12 @@ void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Moni
   {
     Surface::WarnOfNone(faces, monitor);
   }
-  ranks.together(
-    [&] { Surface::Write(grid, mesh.Piece(), faces, output, &mesh.Orientation()); });
+  ranks.together([&] { Surface::Write(grid, mesh.Piece(), faces, output, &mesh.Orientation()); });
   mesh.WriteGlobalIds(output);
 }
 
-Measured Measure(vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output,
-  morph::Monitor& monitor)
+Measured Measure(
+  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
   RankMesh mesh;
   mesh.Take(grid, 1, GridMesh::UnknownCells::Keep, monitor);
@@ -413,8 +409,7 @@ Measured Measure(vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid*
   if (certified)
   {
     result.Certificates = certify(mesh, output,
-      mesh.HighestDimension() == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1),
-      monitor);
+      mesh.HighestDimension() == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
     Quality::Write(result.Certificates, output);
   }
   result.MirroredBodies = mesh.Whole().mirroredBodies();

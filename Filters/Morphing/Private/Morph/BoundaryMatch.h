@@ -39,11 +39,11 @@ struct NamedPoints
 {
   /// Point and node, in the order of the points; a node may come up again.
   std::vector<std::pair<morph::Index, morph::Index>> Pairs;
-  morph::Points Positions;           ///< #points x 3
-  morph::Points Rest;                ///< #points x 3, or no rows: unknown
-  morph::Points Displacements;       ///< #points x 3, or no rows: Positions are the targets
-  std::vector<std::uint8_t> IsFree;  ///< #points, or empty: none is
-  morph::Index Unmatched = 0;        ///< points that stand for no node
+  morph::Points Positions;          ///< #points x 3
+  morph::Points Rest;               ///< #points x 3, or no rows: unknown
+  morph::Points Displacements;      ///< #points x 3, or no rows: Positions are the targets
+  std::vector<std::uint8_t> IsFree; ///< #points, or empty: none is
+  morph::Index Unmatched = 0;       ///< points that stand for no node
 };
 
 /// Matches the points of `boundary`. `outer`, `size`: of the undeformed mesh; see GridMesh::Size.
@@ -61,8 +61,8 @@ struct NamedPoints
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options);
 
-/// The part of Match() that follows once nodes are found: it verifies RestPosition, and computes the
-/// targets. `globalIds`: of the nodes, for a part of a mesh that is distributed over MPI ranks.
+/// The part of Match() that follows once nodes are found: it verifies RestPosition, and computes
+/// the targets. `globalIds`: of the nodes, for a part of a mesh that is distributed over MPI ranks.
 /// Messages name these then, and no point need be there.
 Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options, const std::vector<std::int64_t>* globalIds = nullptr);

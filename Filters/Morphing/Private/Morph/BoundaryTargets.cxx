@@ -237,7 +237,8 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
   if (result.Unmatched > 0)
   {
     result.Warnings.push_back(
-      std::to_string(result.Unmatched) + " of the boundary's " + std::to_string(named.Positions.rows()) +
+      std::to_string(result.Unmatched) + " of the boundary's " +
+      std::to_string(named.Positions.rows()) +
       " points are not within MatchTolerance of a node of the grid and were left out.");
   }
   return result;

@@ -7,6 +7,7 @@
 #include "Private/Data/Results.h"
 #include "Private/Morph/Session.h"
 #include "Private/Pipeline/Input.h"
+#include "Quality/WorstMean.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>
@@ -44,6 +45,8 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   }
   Quality::Write(quality, output);
   results.Set(quality);
+  results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
+  results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
   if (certify)
   {
     const morph::CertificateReport report =

@@ -198,14 +198,20 @@ int Ports::RequestData(
     {
       if (!task.WorkOnRanks || !Ranks::TakePieces())
       {
-        throw morph::Error(std::string("The boundary is on MPI ranks that have no part of the mesh; ") +
-                           name + " needs both on one rank.");
+        throw morph::Error(
+          std::string("The boundary is on MPI ranks that have no part of the mesh; ") + name +
+          " needs both on one rank.");
       }
       mesh.IsDistributed = true;
     }
     vtkUnstructuredGrid* grid = nullptr;
     const auto check = [&]
     {
+      if (mesh.IsDistributed && this->Mesh.Merged())
+      {
+        throw morph::Error(std::string("Composite data on several MPI ranks: ") + name +
+                           " needs them on one. Apply Merge Blocks first, or run on one rank.");
+      }
       Input::RequireNotSwapped(input, boundary);
       grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)

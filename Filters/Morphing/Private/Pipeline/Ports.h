@@ -67,8 +67,8 @@ public:
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
     /// Work() for a mesh with pieces on several MPI processes, called on all of them: it
     /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.
-    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> WorkOnRanks =
-      {};
+    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)>
+      WorkOnRanks = {};
   };
   /// The grid that the work of a task fills for output 0, which may be composite.
   vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)
@@ -79,10 +79,10 @@ public:
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
   const Blocks& GetBlocks() const { return this->Mesh; }
 
-  /// Calls `task.Work`, on the one MPI process with cells if there are several processes, or
-  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary. After an exception
-  /// the outputs are empty; errors and warnings are the filter's. Returns the result of
-  /// RequestData.
+  /// Calls `task.Work`, on the one MPI process with cells if there are several processes. Calls
+  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary.
+  /// After an exception the outputs are empty; errors and warnings are the filter's. Returns the
+  /// result of RequestData.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 

@@ -81,8 +81,8 @@ void Together(const std::function<void()>& work)
   }
   catch (const std::bad_alloc&)
   {
-    message = "There is not enough memory on MPI rank " +
-              std::to_string(c->GetLocalProcessId()) + ".";
+    message =
+      "There is not enough memory on MPI rank " + std::to_string(c->GetLocalProcessId()) + ".";
   }
   catch (const std::exception& error)
   {
