@@ -255,8 +255,8 @@ double secondsOf(const Call& call)
   return median(seconds);
 }
 
-/// What a drag costs once the fields of its motion are there: of an affine motion that fades, and of
-/// three saved shapes.
+/// A drag once the fields of its motion are there: an affine motion that fades, and three saved
+/// shapes.
 void Run::modes(const Problem& problem)
 {
   say("modes, " + problem.name);
