@@ -7,8 +7,6 @@ The same file is the job that the ranks run: mpiexec -n N pvbatch distributed.py
 """
 import json
 import os
-import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -23,6 +21,8 @@ from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader,
                                  vtkXMLUnstructuredGridWriter)
+
+import ranks as ranks_of_mpi
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -151,17 +151,6 @@ def job(folder):
         simple.SaveData(os.path.join(folder, case["name"] + "_quality.pvtu"), proxy=quality,
                         DataMode="Binary")
     print("DONE", flush=True)
-
-
-def run(ranks, folder):
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    result = subprocess.run(
-        [shutil.which("mpiexec"), "--oversubscribe", "-n", str(ranks), shutil.which("pvbatch"),
-         os.path.abspath(__file__), folder],
-        env=environment, capture_output=True, text=True, timeout=300)
-    return result.stdout + result.stderr
 
 
 def pieces(folder, name, ranks, kind="vtu"):
@@ -296,7 +285,7 @@ class Distributed(unittest.TestCase):
                                             ranks, not case.get("made_ids"))
             with open(os.path.join(folder, "cases.json"), "w", encoding="utf-8") as file:
                 json.dump(cases, file)
-            output = run(ranks, folder)
+            output = ranks_of_mpi.run(ranks, __file__, folder)
             self.assertNotIn("ERR|", output)
             self.assertIn("DONE", output)
             for case in cases:
