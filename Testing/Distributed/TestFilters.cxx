@@ -52,17 +52,15 @@ TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
   filter->Update();
   EXPECT_EQ(filter->GetPrepareCount(), 1);
   EXPECT_TRUE(listener.Errors.empty());
-  for (const double value :
-    { filter->GetMinScaledJacobian(), filter->GetMeanScaledJacobian(),
-      static_cast<double>(filter->GetWorstCellId()),
-      static_cast<double>(filter->GetPrescribedPoints()),
-      static_cast<double>(filter->GetSolverIterations()) })
+  for (const double value : { filter->GetMinScaledJacobian(), filter->GetMeanScaledJacobian(),
+         static_cast<double>(filter->GetWorstCellId()),
+         static_cast<double>(filter->GetPrescribedPoints()),
+         static_cast<double>(filter->GetSolverIterations()) })
   {
     EXPECT_EQ(ranks.minimum(value), ranks.maximum(value));
   }
   EXPECT_EQ(filter->GetPrescribedPoints(), 7 * 6 * 5 - 5 * 4 * 3);
-  EXPECT_LT((grids::points(filter->GetOutput()) -
-              grids::mapped(grids::points(grid), grids::affine))
+  EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
               .cwiseAbs()
               .maxCoeff(),
     1e-9);

@@ -13,8 +13,8 @@ import unittest
 
 import numpy
 from paraview import servermanager, simple
-from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, RedistributeDataSet,
-                             Transform, XMLPartitionedUnstructuredGridReader,
+from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, PassArrays,
+                             RedistributeDataSet, Transform, XMLPartitionedUnstructuredGridReader,
                              XMLUnstructuredGridReader)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
@@ -115,6 +115,10 @@ def boundary_of(grid, case):
         moved.Transform.Rotate = [10, 20, 30]
         moved.Transform.Translate = [0.1, -0.2, 0.3]
         return moved
+    if case.get("by_position"):
+        moves = Calculator(Input=extracted, ResultArrayName="Move",
+                           Function="(" + case["motion"] + ") - coords")
+        return PassArrays(Input=moves, PointDataArrays=["Move"])
     return Calculator(Input=extracted, CoordinateResults=1, Function=case["motion"])
 
 
@@ -185,7 +189,6 @@ class Distributed(unittest.TestCase):
         positions = vtk_to_numpy(expected.GetPoints().GetData())
         size = numpy.linalg.norm(points.max(0) - points.min(0))
         tolerance = size * case.get("tolerance", 1e-8)
-        by_place = {tuple(p): i for i, p in enumerate(points)}
         seen = numpy.zeros(len(points), bool)
         measured = 0
         for piece in pieces(folder, case["name"], ranks):
@@ -196,8 +199,7 @@ class Distributed(unittest.TestCase):
             if piece.GetPointData().GetGlobalIds() and not case.get("made_ids"):
                 ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
             else:
-                ids = numpy.array([by_place[min(by_place, key=lambda q, p=p: sum(
-                    (a - b)**2 for a, b in zip(p, q)))] for p in rest])
+                ids = ((rest[:, None] - points[None])**2).sum(2).argmin(1)
             self.assertLess(numpy.abs(rest - points[ids]).max(), 1e-12, case["name"])
             self.assertLess(numpy.abs(moved - positions[ids]).max(), tolerance, case["name"])
             seen[ids] = True
@@ -261,6 +263,10 @@ class Distributed(unittest.TestCase):
              "ghosts": 2, "shape": VTK_TETRA},
             {"name": "elsewhere", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
              "boundary_elsewhere": True},
+            {"name": "by_position", "method": "MorphFEMWARP", "motion": BEND, "by_position": True,
+             "options": {"Tolerance": 1e-12, "DisplacementArray": "Move"}},
+            {"name": "mesh_on_one", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
+             "boundary_elsewhere": True, "owner": 0},
             {"name": "folds", "method": "MorphFEMWARP", "options": solver, "motion": FOLD,
              "warns": True},
             {"name": "empty_rank", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
@@ -279,6 +285,8 @@ class Distributed(unittest.TestCase):
                 shape = case.get("shape", VTK_HEXAHEDRON)
                 points, cells = hexes if shape == VTK_HEXAHEDRON else tets
                 owner = rng.integers(0, ranks - 1 if case.get("empty") else ranks, len(cells))
+                if "owner" in case:
+                    owner[:] = case["owner"]
                 if case.get("empty") and ranks > 2:
                     owner[owner == 1] = ranks - 1
                 case["file"] = write_pieces(folder, case["name"], points, cells, shape, owner,
