@@ -23,9 +23,10 @@ PAGES = ROOT / "Documentation/HowTo"
 MODELS = ROOT / "Data/Models/small"
 EXAMPLES = ROOT / "Examples"
 BLOCK = re.compile(r"^```(python|bash)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-#: Programs that a page runs, and that may be missing.
+#: Programs that a page runs, and libraries of the plugin, that may be missing.
 NEEDS = {"CalculixAndScipy": ("ccx",),
          "MorphAFoamCase": ("blockMesh", "icoFoam", "checkMesh"),
+         "MorphOnMpiRanks": ("mpiexec", "libHYPRE"),
          "WriteYourOwnMethod": ("own-method",)}  # built by the test install.Examples
 
 
@@ -49,16 +50,22 @@ def search_path(plugin):
 
 
 def missing(page, plugin):
-    """The programs that a page needs and that are not there."""
+    """What a page needs that is not there."""
+    linked = Path(plugin).read_bytes() if page in NEEDS else b""
     return [name for name in NEEDS.get(page, ())
-            if not shutil.which(name, path=search_path(plugin))]
+            if not (name.encode() in linked if name.startswith("lib")
+                    else shutil.which(name, path=search_path(plugin)))]
 
 
 def run(page, plugin, images):
     """Runs a page, and copies its picture to the folder `images`; returns its path."""
     text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
     picture = re.search(r"images/howto-([\w-]+\.png)", text).group(1)
-    environment = {**os.environ, "PATH": search_path(plugin)}
+    # This may be a process of MPI itself, run by root, on a machine of few processors.
+    environment = {name: value for name, value in os.environ.items()
+                   if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
+    environment.update(PATH=search_path(plugin), OMPI_ALLOW_RUN_AS_ROOT="1",
+                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1")
     commands = {"python": ["pvpython", "--force-offscreen-rendering", "page.py"],
                 "bash": ["bash", "-e", "-o", "pipefail", "page.sh"]}
     with tempfile.TemporaryDirectory() as name:

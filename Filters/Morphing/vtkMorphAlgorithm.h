@@ -45,8 +45,8 @@
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
- * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
- * BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
+ * MinScaledJacobian, MeanScaledJacobian, WorstMeanScaledJacobian, BoundaryMinimum,
+ * InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
  * MorphStatus and LargestValidStep. The same numbers have getters after an execution. Mid-side,
  * face and body nodes of quadratic cells that are not prescribed keep their place in the cell.
  * Cells of lower dimension pass through.
@@ -400,15 +400,24 @@ public:
 
   ///@{
   /**
-   * Quality of the output of the last execution; see vtkScaledJacobian. Without a result the mean
-   * is NaN and the others are -1, so that no test for 0 passes after an error.
+   * Quality of the output of the last execution; see vtkScaledJacobian. The worst mean is that of
+   * the worst 1 % of the cells. Without a result the means are NaN and the others are -1, so that
+   * no test for 0 passes after an error.
    */
   double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
+  double GetWorstMeanScaledJacobian() const { return this->GetNumber("WorstMeanScaledJacobian"); }
   vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
   vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
   vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
   ///@}
+
+  /**
+   * The minimum scaled Jacobian of the last execution's output at corners whose nodes are all
+   * prescribed. The boundary alone sets it. NaN where there is no such corner or no result. Field
+   * data BoundaryMinimum.
+   */
+  double GetBoundaryMinimum() const { return this->GetNumber("BoundaryMinimum"); }
 
   /**
    * Cells of the last execution's output that no method can keep valid. At one of their corners all
@@ -507,6 +516,15 @@ public:
 protected:
   vtkMorphAlgorithm();
   ~vtkMorphAlgorithm() override;
+
+  /**
+   * Reads what a method takes from its inputs beside points and cells, before PrepareOptions() and
+   * CreateMorpher() are called for them. Throws morph::Error.
+   */
+  virtual void TakeInputs(
+    vtkUnstructuredGrid* vtkNotUsed(rest), vtkDataObject* vtkNotUsed(boundary))
+  {
+  }
 
   /**
    * A new core object for the method, with the options that its prepare() reads.

@@ -269,6 +269,10 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
             ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
             ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
+            # Shells alone may be a target, so that they are read, and refused as a mesh.
+            ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
+            ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
+             "m.inp: None of .* is a volume cell"),
             ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
             ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
             ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),

@@ -6,6 +6,7 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
+#include "Mesh/ShapeWindings.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -365,6 +366,8 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
 
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies)
 {
-  return cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}));
+  std::vector<std::int8_t> result = cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}));
+  alignShapeSigns(mesh, bodies, result);
+  return result;
 }
 }

@@ -2,6 +2,7 @@
 #include "Private/Data/Quality.h"
 
 #include "Private/Data/GridMesh.h"
+#include "Quality/PartialQuality.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
@@ -23,6 +24,7 @@ namespace morph::filters
 {
 namespace
 {
+/// Marks the ghost cells in `skip`, which stays empty where there are none.
 void skipGhosts(
   const morph::Mesh& mesh, vtkUnstructuredGrid* output, std::vector<std::uint8_t>& skip)
 {
@@ -59,7 +61,7 @@ namespace Quality
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, morph::Monitor& monitor)
 {
-  return Measure(mesh, output, orientation, {}, monitor);
+  return Measure(mesh, output, orientation, std::vector<std::uint8_t>(), monitor);
 }
 
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
@@ -69,6 +71,16 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   skipGhosts(mesh, output, skip);
   return withPoints(output, [&](const morph::ConstPoints& written)
     { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
+}
+
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
+  morph::Monitor& monitor)
+{
+  std::vector<std::uint8_t> skip;
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::measureQualityOf(mesh, written, orientation, cells, skip, monitor); });
 }
 
 std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,

@@ -25,6 +25,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace morph::filters::OnRanks
 {
@@ -227,11 +228,12 @@ void Morphing::Internals::Write(const Task& task, const Session::Options& option
   std::vector<std::uint8_t> skip = this->Mesh.Unmeasured();
   if (!task.Measures.All)
   {
-    const std::vector<std::uint8_t>& inner = this->Mesh.Surface().InnerCells();
-    for (std::size_t c = 0; c < skip.size(); ++c)
+    std::vector<std::uint8_t> inner(skip.size(), 1);
+    for (const morph::Index cell : this->Mesh.Surface().OuterCells())
     {
-      skip[c] |= inner[c];
+      inner[cell] = skip[cell];
     }
+    skip = std::move(inner);
   }
   morph::Quality mine;
   ranks.together(

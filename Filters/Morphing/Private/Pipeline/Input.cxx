@@ -5,6 +5,7 @@
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Data/Version.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -70,6 +71,19 @@ vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port)
   refuse(input, port, "an unstructured grid (Append Datasets makes one of any data set)");
 }
 
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port, Unchanged& checked)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && checked.Is(grid))
+  {
+    DataCheck::RequireLengths(grid, port);
+    return grid;
+  }
+  grid = RequireGrid(input, port);
+  checked.See(grid);
+  return grid;
+}
+
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
 {
   if (auto* points = vtkPointSet::SafeDownCast(input))
@@ -128,6 +142,12 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
   refuse(input, port,
     "an unstructured grid (Append Datasets makes one of any data set), or its boundary from "
     "Extract Morph Boundary,");
+}
+
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Unchanged& checked)
+{
+  return vtkUnstructuredGrid::SafeDownCast(input) ? RequireGrid(input, port, checked)
+                                                  : RequireGridOrPolyData(input, port);
 }
 
 bool IsReadable(vtkDataObject* data)

@@ -19,6 +19,7 @@ class Monitor;
 namespace morph::filters
 {
 class Blocks;
+class Unchanged;
 }
 
 /// The checks of the inputs of every filter of this module. Filters accept vtkDataObject on their
@@ -35,6 +36,10 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
 /// Returns an unstructured grid or polygonal data.
 vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
+/// As above, for a filter that is executed again and again. `checked`: the grid that it checked
+/// last, of which the arrays' lengths alone are checked again.
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port, Unchanged& checked);
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Unchanged& checked);
 /// As RequirePointSet(), for the boundary of a mesh to be morphed; null has a message of its own.
 vtkPointSet* RequireBoundary(vtkDataObject* input);
 

@@ -213,7 +213,7 @@ int Ports::RequestData(
                            " needs them on one. Apply Merge Blocks first, or run on one rank.");
       }
       Input::RequireNotSwapped(input, boundary);
-      grid = Input::RequireGrid(input, "The input");
+      grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)
       {
         boundary = this->AsOne(boundary, "The boundary");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Private/Blocks/Blocks.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Pipeline/Time.h"
 
 #include <vtkSmartPointer.h>
@@ -103,6 +104,7 @@ private:
   vtkAlgorithm* Filter;
   filters::Time Time;
   Blocks Mesh;
+  Unchanged Checked; ///< the mesh, as one grid
   mutable std::vector<vtkSmartPointer<vtkDataObject>> Made; ///< by AsOne()
 };
 }
