@@ -93,7 +93,7 @@ def quoted(filters, file, name):
     none."""
     library = file.split(os.sep)[0]
     for candidate in (os.path.join(os.path.dirname(file), name) if "/" not in name else "",
-                      os.path.join(library, name), os.path.join("Core", name)):
+                      os.path.join(library, name), os.path.join("Core", name), name):
         if candidate and os.path.isfile(os.path.join(filters, candidate)):
             return candidate
     return None

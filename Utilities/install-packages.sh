@@ -21,11 +21,11 @@ END
 packages=(
   cmake g++ ninja-build ccache git dpkg-dev file python3-numpy
   paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
-  libutfcpp-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libtheora-dev libogg-dev
-  libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev libgl2ps-dev libglew-dev
-  libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev zlib1g-dev libpython3-dev
-  libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev libavformat-dev
-  libavutil-dev libswscale-dev libboost-dev python3-mpi4py
+  libutfcpp-dev libopenmpi-dev openmpi-bin libhypre-dev libhdf5-openmpi-dev libhdf5-dev
+  libtheora-dev libogg-dev libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev
+  libgl2ps-dev libglew-dev libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev
+  zlib1g-dev libpython3-dev libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev
+  libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py
   libcgns-dev cgns-convert netcdf-bin
   libgtest-dev gmsh python3-gmsh python3-meshio python3-matplotlib python3-scipy
   xvfb xauth imagemagick libxtst6)

@@ -22,10 +22,10 @@ STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o")
 #: Whose absolute steps are a fixed matrix times the boundary's motion.
 LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))
 
-LEGEND = ("Quality: minimum scaled Jacobian at S_F (inverted cells of the method's own + those "
-          "that the boundary takes with it, at a folded face or a corner), and t*, the t of the "
-          "last step up to which no cell of the method's own is inverted; >= where the series did "
-          "not end by one.")
+LEGEND = ("Quality: minimum scaled Jacobian at S_F, and t*. In parentheses: inverted cells of the "
+          "method's own + those that the boundary takes with it, at a folded face or a corner. t* "
+          "is the t of the last step up to which no cell of the method's own is inverted; >= where "
+          "the series did not end by one.")
 
 
 def write_report(folder, records, steps):

@@ -7,6 +7,8 @@ cd "$(dirname "$0")/.."
 debian_budget=35
 sanitizer_budget=12
 debian13_budget=18
+mpi_budget=4
+solvers_budget=4
 site_budget=2
 
 usage() {
@@ -145,9 +147,13 @@ for preset in "${presets[@]}"; do
     sanitized
   else
     stage debian "build $preset" build "$preset"
-    chosen=()
-    if [ "$preset" = paraview ]; then chosen=(${labels[@]+"${labels[@]}"}); fi
-    stage debian "tests $preset" tests "$preset" ${chosen[@]+"${chosen[@]}"} || status=1
+    if [ "$preset" = paraview ] && [ ${#labels[@]} -gt 0 ]; then
+      stage debian "tests $preset" tests "$preset" "${labels[@]}" || status=1
+    else
+      stage debian "tests $preset" tests "$preset" -LE 'slow|benchmark|mpi|solvers' || status=1
+      stage mpi "tests $preset (mpi)" tests "$preset" -L mpi || status=1
+      stage solvers "tests $preset (solvers)" tests "$preset" -L solvers || status=1
+    fi
   fi
 done
 package_summary="left out"
@@ -194,7 +200,7 @@ for one in "${stages[@]}"; do
   printf '%-26s%6s\n' "$name" "$(minutes "$seconds")"
 done
 for group in "debian $debian_budget" "sanitizers $sanitizer_budget" "debian13 $debian13_budget" \
-  "site $site_budget"; do
+  "mpi $mpi_budget" "solvers $solvers_budget" "site $site_budget"; do
   read -r group budget <<< "$group"
   taken=$(seconds_of "$group")
   if [ "$taken" -eq 0 ]; then continue; fi

@@ -223,7 +223,9 @@ int vtkBoundaryDisplacement::RequestInformation(
     if (input && input->GetNumberOfCells() > 0)
     {
       this->Internals->Classify(
-        this, filters::Input::RequireGridOrPolyData(input, "The input"), monitor);
+        this,
+        filters::Input::RequireGridOrPolyData(input, "The input", this->Internals->Checked),
+        monitor);
     }
   }
   catch (const std::exception&)
@@ -245,9 +247,10 @@ int vtkBoundaryDisplacement::RequestData(
   filters::Monitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(
-      data, this->Internals->Blocks, this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
-    vtkPointSet* input = filters::Input::RequireGridOrPolyData(mesh.Data, "The input");
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
+    vtkPointSet* input =
+      filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
     if (!mesh.IsElsewhere)
     {
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;

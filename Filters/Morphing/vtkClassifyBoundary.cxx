@@ -83,7 +83,7 @@ int vtkClassifyBoundary::RequestData(
   const auto classify = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
+      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
     if (!mesh.IsElsewhere)
     {

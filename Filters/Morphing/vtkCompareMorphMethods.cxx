@@ -205,7 +205,7 @@ int vtkCompareMorphMethods::RequestData(
   if (filters::Ranks::Count(true) > 1)
   {
     reset();
-    vtkErrorMacro("Methods are compared on a single MPI process only. Run on one.");
+    vtkErrorMacro("vtkCompareMorphMethods needs a single MPI rank. Run on one.");
     return 1;
   }
   const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,

@@ -5,9 +5,11 @@
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/OnRanks.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Pipeline/Ranks.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -50,7 +52,15 @@ int vtkExtractMorphBoundary::RequestData(
   const auto extract = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, monitor);
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    if (mesh.IsDistributed)
+    {
+      vtkUnstructuredGrid* piece = nullptr;
+      filters::Ranks::Together(
+        [&] { piece = filters::Input::RequireGrid(mesh.Data, "The input"); });
+      filters::OnRanks::ExtractBoundary(piece, output, monitor);
+      return;
+    }
     vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
     if (!mesh.IsElsewhere)
     {

@@ -28,9 +28,9 @@
  * A mesh without any outer face, for instance with every cell twice, gives a warning. Errors, with
  * an empty output: overlapping AMR, no points, no volume cells, cells that
  * a morph does not support, arrays shorter than there are points or cells, coordinates that are not
- * finite or above 1e50, an extent below 1e-50, cells on more than one MPI rank. An execution that
- * is aborted gives an empty output and no message. With several MPI processes an execution is
- * collective. Cost: about 0.4 microseconds a cell.
+ * finite or above 1e50, an extent below 1e-50. An execution that is aborted gives an empty output
+ * and no message. On several MPI ranks it is collective: cuts between pieces are no boundary, ids
+ * are global, and each rank has its cells' faces. Cost: about 0.4 microseconds a cell.
  *
  * @sa vtkMorphAlgorithm vtkDataSetSurfaceFilter
  */

@@ -5,6 +5,7 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
+#include "Private/Distributed/OnRanks.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Morph/Session.h"
 #include "Private/Morph/Validity.h"
@@ -42,6 +43,8 @@ class vtkMorphAlgorithm::vtkInternals
 public:
   filters::Results Results{ filters::ResultTables::vtkMorphAlgorithm() };
   filters::Session Session{ Results };
+  /// null until the mesh is on several MPI processes
+  std::unique_ptr<filters::OnRanks::Morphing> Distributed;
   filters::Ports Ports;
   filters::Steps Steps;
   int Step = -1;                     ///< asked for, of Steps
@@ -63,6 +66,9 @@ public:
   filters::Session::Options Options(vtkUnstructuredGrid* grid) const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
+    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+  /// Morph() where the mesh has pieces on several MPI processes.
+  void MorphOnRanks(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   /// Makes `output` the undeformed mesh, where that can be read, without a result.
   void WriteUndeformed(
@@ -183,22 +189,32 @@ int vtkMorphAlgorithm::RequestData(
     kept.Ports.WriteOutput(outputVector);
     return 1;
   }
+  const auto noteInfeasible = [&](const auto& morph)
+  {
+    try
+    {
+      morph();
+    }
+    catch (const filters::Validity::Infeasible& infeasible)
+    {
+      kept.BoundaryInverted = infeasible.Cells;
+      throw;
+    }
+  };
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
     this->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
-      try
-      {
-        partial = kept.Morph(grid, boundary, output, badCells, surface, monitor);
-      }
-      catch (const filters::Validity::Infeasible& infeasible)
-      {
-        kept.BoundaryInverted = infeasible.Cells;
-        throw;
-      }
+      noteInfeasible(
+        [&] { partial = kept.Morph(grid, boundary, output, badCells, surface, monitor); });
     },
     [&](vtkDataObject* input, const char* status)
-    { kept.WriteUndeformed(input, status, output, surface); } };
+    { kept.WriteUndeformed(input, status, output, surface); },
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
+    {
+      noteInfeasible(
+        [&] { kept.MorphOnRanks(grid, boundary, output, badCells, surface, monitor); });
+    } };
   kept.BoundaryInverted = 0;
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   if (kept.Steps.Any() && !kept.Steps.FromBoundary())
@@ -277,6 +293,28 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     { options.MeasureAll, this->Filter->Certify }, grid, this->Results, output, badCells, surface,
     writing);
   return result->Valid.Error;
+}
+
+void vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* grid,
+  vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
+  vtkPolyData* surface, morph::Monitor& monitor)
+{
+  if (this->IsSeries())
+  {
+    throw morph::Error(std::string("Stepping Relative of ") + this->Filter->GetClassName() +
+                       " needs one MPI rank, and the mesh is distributed over several. Run on one, "
+                       "or set Stepping to Absolute.");
+  }
+  if (!this->Distributed)
+  {
+    this->Distributed = std::make_unique<filters::OnRanks::Morphing>(this->Results);
+  }
+  filters::Session::Options options = this->Options(grid);
+  const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
+  this->Distributed->Run({ grid, boundary, fraction, this->Filter->OutputPointsPrecision,
+                           { options.MeasureAll, this->Filter->Certify },
+                           this->Filter->FeatureLines, output, badCells, surface },
+    options, monitor);
 }
 
 std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(

@@ -45,8 +45,8 @@
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
- * MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId,
- * BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
+ * MinScaledJacobian, MeanScaledJacobian, WorstMeanScaledJacobian, BoundaryMinimum,
+ * InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
  * MorphStatus and LargestValidStep. The same numbers have getters after an execution. Mid-side,
  * face and body nodes of quadratic cells that are not prescribed keep their place in the cell.
  * Cells of lower dimension pass through.
@@ -75,8 +75,8 @@
  * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
  * the errors: overlapping AMR, no points, no volume cells, cells of other
  * types (tetrahedra, hexahedra, wedges, pyramids, quadratic ones and polyhedra are read), no way to
- * match the boundary, a node with two targets, ids that RestPosition contradicts, cells on more
- * than one MPI rank, relative steps after a boundary that varies in time on several processes. Data
+ * match the boundary, a node with two targets, ids that RestPosition contradicts, on several MPI
+ * ranks nonlinear methods, relative steps, Validity SubStep or Repair, and composite data. Data
  * sets on any port are refused if an array has fewer values than there are points or cells, if
  * cells name points that do not exist, or if coordinates are not finite or above 1e50. An extent
  * below 1e-50 other than 0 is refused too. So are motions beyond 1e50, and in single precision
@@ -92,7 +92,7 @@
  * RequestData. CONTINUE_EXECUTING is not used: VTK's executive repeats without end if the input
  * fails in a repeated execution.
  *
- * With several MPI processes an execution is collective: it has to take place on all of them.
+ * With several MPI ranks an execution is collective, and results are those of the whole mesh.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -188,8 +188,8 @@ public:
    * step before, in double precision, for which the method is prepared again; the first step starts
    * from the undeformed mesh. The undeformed mesh remains the reference of the measures and of
    * vtkInversionFreeMorph's targets. A relative step does not depend on the steps that were asked
-   * for: missing ones are computed, the boundary being asked for their times (on one MPI process
-   * only, if it varies in time). PrepareSeconds and EvaluateSeconds are those of the last step
+   * for: missing ones are computed, the boundary being asked for their times (on one MPI rank
+   * only). PrepareSeconds and EvaluateSeconds are those of the last step
    * alone, 0 where it was kept. Has no effect without steps. Default Absolute.
    */
   vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);
@@ -400,15 +400,24 @@ public:
 
   ///@{
   /**
-   * Quality of the output of the last execution; see vtkScaledJacobian. Without a result the mean
-   * is NaN and the others are -1, so that no test for 0 passes after an error.
+   * Quality of the output of the last execution; see vtkScaledJacobian. The worst mean is that of
+   * the worst 1 % of the cells. Without a result the means are NaN and the others are -1, so that
+   * no test for 0 passes after an error.
    */
   double GetMinScaledJacobian() const { return this->GetNumber("MinScaledJacobian"); }
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
+  double GetWorstMeanScaledJacobian() const { return this->GetNumber("WorstMeanScaledJacobian"); }
   vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
   vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
   vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
   ///@}
+
+  /**
+   * The minimum scaled Jacobian of the last execution's output at corners whose nodes are all
+   * prescribed. The boundary alone sets it. NaN where there is no such corner or no result. Field
+   * data BoundaryMinimum.
+   */
+  double GetBoundaryMinimum() const { return this->GetNumber("BoundaryMinimum"); }
 
   /**
    * Cells of the last execution's output that no method can keep valid. At one of their corners all

@@ -309,7 +309,8 @@ int vtkMorphMesh::RequestData(
   {
     if (filters::Ranks::Count(true) > 1)
     {
-      throw morph::Error("Morph Mesh runs on a single MPI process only. Run on one.");
+      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph "
+                         "Boundary and a method's filter.");
     }
     input = own.Blocks.Gather(
       input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
@@ -368,6 +369,8 @@ const char* vtkMorphMesh::GetMorphStatus() const
   }
 morphResultMacro(MinScaledJacobian, double, Number);
 morphResultMacro(MeanScaledJacobian, double, Number);
+morphResultMacro(WorstMeanScaledJacobian, double, Number);
+morphResultMacro(BoundaryMinimum, double, Number);
 morphResultMacro(InvertedCells, vtkIdType, Integer);
 morphResultMacro(DegenerateCells, vtkIdType, Integer);
 morphResultMacro(WorstCellId, vtkIdType, Integer);

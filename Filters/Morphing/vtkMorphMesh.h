@@ -500,6 +500,8 @@ public:
   const char* GetMorphStatus() const;
   double GetMinScaledJacobian() const;
   double GetMeanScaledJacobian() const;
+  double GetWorstMeanScaledJacobian() const;
+  double GetBoundaryMinimum() const;
   vtkIdType GetInvertedCells() const;
   vtkIdType GetDegenerateCells() const;
   vtkIdType GetWorstCellId() const;

@@ -8,24 +8,22 @@
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
+#include "Private/Distributed/OnRanks.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Ranks.h"
 
-#include <vtkCellData.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -63,6 +61,45 @@ std::string typeName(std::uint8_t type)
 {
   const morph::CellShape* shape = morph::cellShape(type);
   return shape ? shape->name : filters::Version::CellClass(type);
+}
+
+/// Warns of cells of the highest dimension without a value. `unmeasured`: by cell type.
+void reportUnmeasured(
+  vtkScaledJacobian* filter, const std::vector<morph::Index>& unmeasured, filters::Results& results)
+{
+  std::string list;
+  for (std::size_t type = 0; type < unmeasured.size(); ++type)
+  {
+    if (unmeasured[type] > 0)
+    {
+      list += (list.empty() ? "" : ", ") + std::to_string(unmeasured[type]) + " " +
+              typeName(static_cast<std::uint8_t>(type));
+    }
+  }
+  if (!list.empty())
+  {
+    vtkWarningWithObjectMacro(
+      filter, "Cells that have no scaled Jacobian here, marked NaN: " << list << ".");
+  }
+  results.SetInteger(
+    "UnmeasuredCells", std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)));
+}
+
+/// Measures a mesh with pieces on several MPI processes.
+void measureOnRanks(vtkScaledJacobian* filter, vtkUnstructuredGrid* input,
+  vtkUnstructuredGrid* output, filters::Results& results, morph::Monitor& monitor)
+{
+  const filters::OnRanks::Measured found =
+    filters::OnRanks::Measure(input, filter->GetCertify(), output, monitor);
+  results.Set(found.Whole);
+  results.SetInteger("MeasuredCells", found.Whole.measured);
+  if (filter->GetCertify())
+  {
+    results.Set(found.Certificates);
+  }
+  results.SetInteger("MirroredBodies", found.MirroredBodies);
+  results.Write(output);
+  reportUnmeasured(filter, found.Unmeasured, results);
 }
 }
 
@@ -113,10 +150,19 @@ int vtkScaledJacobian::RequestData(
     this, "measure this mesh",
     [&]
     {
-      const filters::Input::Mesh mesh = filters::Input::TakeMesh(
-        input, blocks, this->CoincidentPoints, filters::Input::Use::ToMeasure, monitor);
+      const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, blocks,
+        this->CoincidentPoints, filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
-      this->Measure(filters::Input::RequireGrid(mesh.Data, "The input"), output, monitor);
+      vtkUnstructuredGrid* grid = nullptr;
+      const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
+      if (mesh.IsDistributed && filters::Ranks::TakePieces())
+      {
+        filters::Ranks::Together(require);
+        measureOnRanks(this, grid, output, this->Internals->Results, monitor);
+        return;
+      }
+      require();
+      this->Measure(grid, output, monitor);
     },
     clear);
   for (const std::string& warning : monitor.TakeWarnings())
@@ -168,31 +214,7 @@ void vtkScaledJacobian::Measure(
   results.SetInteger("MirroredBodies", filters::Quality::MirroredBodies(bodies, orientation));
   results.Write(output);
 
-  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
-  std::array<vtkIdType, 256> unmeasured{};
-  for (std::size_t c = 0; c < mesh.types.size(); ++c)
-  {
-    const bool isGhost = ghosts && (ghosts->GetValue(c) & (vtkDataSetAttributes::DUPLICATECELL |
-                                                            vtkDataSetAttributes::HIDDENCELL));
-    if (!skip[c] && !isGhost && std::isnan(quality.scaledJacobian[c]))
-    {
-      ++unmeasured[mesh.types[c]];
-    }
-  }
-  std::string list;
-  for (int type = 0; type < 256; ++type)
-  {
-    if (unmeasured[type] > 0)
-    {
-      list += (list.empty() ? "" : ", ") + std::to_string(unmeasured[type]) + " " + typeName(type);
-    }
-  }
-  if (!list.empty())
-  {
-    vtkWarningMacro("Cells that have no scaled Jacobian here, marked NaN: " << list << ".");
-  }
-  results.SetInteger(
-    "UnmeasuredCells", std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)));
+  reportUnmeasured(this, filters::Quality::Unmeasured(mesh, quality, skip, input), results);
 }
 
 double vtkScaledJacobian::GetNumber(const char* name) const

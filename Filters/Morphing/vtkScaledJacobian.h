@@ -43,9 +43,9 @@
  *
  * The output is the input with the cell array `ScaledJacobian` (double, active cell scalars) and
  * the field data MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId
- * and MirroredBodies. With several MPI ranks the cell array is right on all ranks, but the numbers
- * are those of each rank's own piece. An execution is then collective: it has to take place on all
- * ranks.
+ * and MirroredBodies. With several MPI ranks the numbers are those of the whole mesh, or of each
+ * rank's own piece in a build without MESHMORPHING_USE_MPI. An execution is then collective: it has
+ * to take place on all ranks.
  *
  * The input may be composite data, see vtkMorphAlgorithm: its blocks are measured as one mesh, and
  * come out with their own types.

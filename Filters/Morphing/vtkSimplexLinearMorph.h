@@ -43,11 +43,14 @@ public:
   /**
    * As of the last execution: tetrahedra with nodes in them that have no positive volume after the
    * motion; those with an edge that leaves the mesh; and nodes outside the prescribed nodes' convex
-   * hull by more than rounding, which are extrapolated. In the output's field data too.
+   * hull by more than rounding, which are extrapolated. The last are those of them that follow the
+   * affine fit to the nearest prescribed nodes, since a tetrahedron would give them a weight above
+   * 10. In the output's field data too.
    */
   vtkIdType GetFoldedTetrahedra() { return this->GetCount("FoldedTetrahedra"); }
   vtkIdType GetBridgingTetrahedra() { return this->GetCount("BridgingTetrahedra"); }
   vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }
+  vtkIdType GetAffineNodes() { return this->GetCount("AffineNodes"); }
   ///@}
 
 protected:

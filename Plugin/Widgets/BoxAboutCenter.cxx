@@ -50,6 +50,7 @@ BoxAboutCenter::BoxAboutCenter(
   , Moving(filter->GetProperty("Moving"))
 {
   hint->GetScalarAttribute("moving", &this->MovingList);
+  hint->GetScalarAttribute("region", &this->MovingRegion);
   for (vtkSMProperty* property : { this->List, this->Moving })
   {
     if (property)
@@ -173,6 +174,18 @@ void BoxAboutCenter::place()
   else
   {
     QMetaObject::invokeMethod(this->Box, "placeWidget"); // around the input
+    if (this->Moving &&
+        vtkSMUncheckedPropertyHelper(this->Moving).GetAsInt() == this->MovingRegion)
+    {
+      // The box of the region is around the input, too.
+      double six[6];
+      vtkSMPropertyHelper(shown, "PlaceWidget").Get(six, 6);
+      vtkBoundingBox larger(six);
+      larger.Inflate(0.05 * larger.GetDiagonalLength());
+      larger.GetBounds(six);
+      vtkSMPropertyHelper(shown, "PlaceWidget").Set(six, 6);
+      shown->UpdateVTKObjects();
+    }
   }
   double six[6];
   vtkSMPropertyHelper(shown, "PlaceWidget").Get(six, 6);

@@ -16,7 +16,8 @@ class vtkSMProxy;
 /// does so about the origin, and places its box around the whole input.
 ///
 /// The box is placed around the surfaces that are ticked, so that it turns about their centre when
-/// it is dragged. When a rotation or a scale is typed, the translation is changed with it, so that
+/// it is dragged. Where a region moves, whose own box may be around the whole input as well, it is
+/// a bit larger than the input. When a rotation or a scale is typed, the translation is changed with it, so that
 /// the centre stays where it is. The filter's property Center is the centre where AutoCenter is
 /// off.
 class BoxAboutCenter : public QObject
@@ -25,7 +26,7 @@ class BoxAboutCenter : public QObject
 public:
   /// `hint`: its attributes name properties of the filter: list, with the ticks, and sizes and
   /// bounds, with the names in the list and their boxes; moving: the value of the property Moving
-  /// with which the list is used.
+  /// with which the list is used; region: the one with which a region is.
   BoxAboutCenter(pqInteractivePropertyWidget* box, vtkSMProxy* filter, vtkPVXMLElement* hint);
   ~BoxAboutCenter() override;
 
@@ -44,7 +45,8 @@ private:
   pqInteractivePropertyWidget* Box;
   vtkSMProxy* Filter;
   vtkSMProperty *List, *Sizes, *Bounds, *Moving;
-  int MovingList = 0; ///< of Moving
+  int MovingList = 0;    ///< of Moving
+  int MovingRegion = -1; ///< of Moving
   Triple Middle{};    ///< of the box before it is moved
   Numbers Before{};
 

@@ -2,6 +2,7 @@
 #include "Files.h"
 
 #include "Messages.h"
+#include "Pieces.h"
 #include "ReadApart.h"
 #include "ReadingGuard.h"
 
@@ -27,6 +28,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtksys/SystemTools.hxx>
 
@@ -48,11 +50,6 @@ namespace
 {
 namespace io = morph::io;
 
-std::string extension(const std::string& path)
-{
-  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
-}
-
 bool isOneOf(const std::string& text, std::initializer_list<const char*> list)
 {
   return std::find(list.begin(), list.end(), text) != list.end();
@@ -61,7 +58,7 @@ bool isOneOf(const std::string& text, std::initializer_list<const char*> list)
 /// Whether a library of others reads this solver's file, which a build may lack.
 bool isReadByLibrary(const std::string& path)
 {
-  return isOneOf(extension(path), { ".cgns", ".e", ".ex2", ".exo", ".exii", ".g", ".gen" });
+  return isOneOf(extensionOf(path), { ".cgns", ".e", ".ex2", ".exo", ".exii", ".g", ".gen" });
 }
 
 template <typename Reader>
@@ -74,8 +71,8 @@ vtkSmartPointer<vtkAlgorithm> readerFor(const std::string& path)
 
 vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
 {
-  const std::string kind = extension(path);
-  if (isOneOf(kind, { ".vtu", ".pvtu", ".vtp", ".pvtp" }))
+  const std::string kind = extensionOf(path);
+  if (isOneOf(kind, { ".vtu", ".vtp", ".pvtp", ".vts", ".vti", ".vtr" }))
   {
     return readerFor<vtkXMLGenericDataObjectReader>(path);
   }
@@ -129,7 +126,7 @@ std::uintmax_t bytesToRead(const std::string& path)
   namespace fs = std::filesystem;
   std::error_code error;
   std::uintmax_t result = fs::file_size(path, error);
-  if (isOneOf(extension(path), { ".pvtu", ".pvtp" }))
+  if (extensionOf(path) == ".pvtp")
   {
     std::ifstream file(path);
     const std::string text(
@@ -217,40 +214,9 @@ vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path, bool guar
   return reader->GetOutput();
 }
 
-vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
-{
-  // VTK has no reader of CGNS here: the error names the library that is missing.
-  if (vtkSolverFileReader::CanReadFile(path.c_str()) || extension(path) == ".cgns")
-  {
-    return readSolverFile(path, isReadByLibrary(path));
-  }
-  // Some readers say nothing of a file that is not there.
-  if (!vtksys::SystemTools::FileExists(path, true))
-  {
-    throw Failure("Cannot read " + path + ": there is no such file.");
-  }
-  std::vector<std::string> warnings;
-  // What these readers do to memory, a crash need not show. VTK hands no more than 2 GB over.
-  constexpr std::uintmax_t most = std::uintmax_t(1) << 29;
-  const bool apart = isOneOf(extension(path), { ".ply", ".stl", ".obj" });
-  if (apart && std::filesystem::file_size(path) <= most)
-  {
-    return readApart(path,
-      [&]() -> vtkSmartPointer<vtkPolyData>
-      {
-        const vtkSmartPointer<vtkDataObject> surface = readGuarded(path, warnings);
-        printWarnings(path, warnings);
-        return vtkPolyData::SafeDownCast(surface);
-      });
-  }
-  vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
-  printWarnings(path, warnings);
-  return data;
-}
-
 bool isVtkGrid(const std::string& path)
 {
-  return isOneOf(extension(path), { ".vtu", ".vtk" });
+  return isOneOf(extensionOf(path), { ".vtu", ".vtk" });
 }
 
 /// The writer writes into memory, which takes up to 3 times the size of the file. On a full disk
@@ -272,13 +238,7 @@ void runWriter(Writer* writer, vtkDataObject* data, const std::string& path)
 template <typename Writer>
 void writeXml(vtkDataObject* data, const std::string& path)
 {
-  auto writer = vtkSmartPointer<Writer>::New();
-  // Raw appended data, VTK's default, is no XML: Debian's ParaView cannot read it.
-  writer->SetDataModeToBinary();
-  runWriter(writer.Get(), data, path);
-  const std::string content = writer->GetOutputString();
-  writer = nullptr; // and its copy
-  io::replaceFile(path, content, io::Signals::RemoveTemporaries);
+  io::replaceFile(path, xmlOf<Writer>(data, path), io::Signals::RemoveTemporaries);
 }
 
 void writeLegacy(vtkDataObject* data, const std::string& path)
@@ -290,6 +250,60 @@ void writeLegacy(vtkDataObject* data, const std::string& path)
   io::replaceFile(path, { writer->GetOutputString(), length }, io::Signals::RemoveTemporaries);
 }
 }
+
+std::string extensionOf(const std::string& path)
+{
+  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
+}
+
+vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
+{
+  if (isListOfPieces(path))
+  {
+    return mergedPieces(path);
+  }
+  // VTK has no reader of CGNS here: the error names the library that is missing.
+  if (vtkSolverFileReader::CanReadFile(path.c_str()) || extensionOf(path) == ".cgns")
+  {
+    return readSolverFile(path, isReadByLibrary(path));
+  }
+  // Some readers say nothing of a file that is not there.
+  if (!vtksys::SystemTools::FileExists(path, true))
+  {
+    throw Failure("Cannot read " + path + ": there is no such file.");
+  }
+  std::vector<std::string> warnings;
+  // What these readers do to memory, a crash need not show. VTK hands no more than 2 GB over.
+  constexpr std::uintmax_t most = std::uintmax_t(1) << 29;
+  const bool apart = isOneOf(extensionOf(path), { ".ply", ".stl", ".obj" });
+  if (apart && std::filesystem::file_size(path) <= most)
+  {
+    return readApart(path,
+      [&]() -> vtkSmartPointer<vtkPolyData>
+      {
+        const vtkSmartPointer<vtkDataObject> surface = readGuarded(path, warnings);
+        printWarnings(path, warnings);
+        return vtkPolyData::SafeDownCast(surface);
+      });
+  }
+  vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
+  printWarnings(path, warnings);
+  return data;
+}
+
+template <typename Writer>
+std::string xmlOf(vtkDataObject* data, const std::string& path)
+{
+  auto writer = vtkSmartPointer<Writer>::New();
+  // Raw appended data, VTK's default, is no XML: Debian's ParaView cannot read it.
+  writer->SetDataModeToBinary();
+  runWriter(writer.Get(), data, path);
+  return writer->GetOutputString();
+}
+
+template std::string xmlOf<vtkXMLPolyDataWriter>(vtkDataObject*, const std::string&);
+template std::string xmlOf<vtkXMLStructuredGridWriter>(vtkDataObject*, const std::string&);
+template std::string xmlOf<vtkXMLUnstructuredGridWriter>(vtkDataObject*, const std::string&);
 
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path)
 {
@@ -327,6 +341,11 @@ void requireGridFormat(const std::string& path)
 
 void requireMorphedFormat(const std::string& original, const std::string& path)
 {
+  if (isListOfPieces(original) && !isVtkGrid(path))
+  {
+    requireWritablePieces(original, path);
+    return;
+  }
   const bool isSolverFile =
     vtkSolverFileReader::CanReadFile(original.c_str()) || isReadByLibrary(original);
   if (isVtkGrid(path) || !isSolverFile)
@@ -343,7 +362,7 @@ void requireMorphedFormat(const std::string& original, const std::string& path)
 
 void requireBoundaryFormat(const std::string& path)
 {
-  if (!isOneOf(extension(path), { ".vtp", ".vtk" }))
+  if (!isOneOf(extensionOf(path), { ".vtp", ".vtk" }))
   {
     throw Failure(
       "Cannot write " + path + ": a boundary, with its arrays, is written as .vtp or .vtk.");
@@ -354,8 +373,8 @@ void requireBoundaryFormat(const std::string& path)
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)
 {
   requireGridFormat(path);
-  extension(path) == ".vtk" ? writeLegacy(grid, path)
-                            : writeXml<vtkXMLUnstructuredGridWriter>(grid, path);
+  extensionOf(path) == ".vtk" ? writeLegacy(grid, path)
+                              : writeXml<vtkXMLUnstructuredGridWriter>(grid, path);
 }
 
 double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
@@ -364,6 +383,10 @@ double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, cons
   {
     writeGrid(grid, path);
     return 0;
+  }
+  if (isListOfPieces(original))
+  {
+    return writePieces(grid, original, path);
   }
   vtkNew<vtkSolverFileWriter> writer;
   writer->SetInputData(grid);
@@ -382,7 +405,7 @@ double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, cons
 void writeBoundary(vtkPointSet* boundary, const std::string& path)
 {
   requireBoundaryFormat(path);
-  extension(path) == ".vtk" ? writeLegacy(boundary, path)
-                            : writeXml<vtkXMLPolyDataWriter>(boundary, path);
+  extensionOf(path) == ".vtk" ? writeLegacy(boundary, path)
+                              : writeXml<vtkXMLPolyDataWriter>(boundary, path);
 }
 }

@@ -5,6 +5,7 @@
 
 #include <string>
 
+class vtkDataObject;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
@@ -12,6 +13,15 @@ class vtkUnstructuredGrid;
 /// formats. Each function throws Failure.
 namespace morph_mesh
 {
+/// ".vtu", in lower case.
+std::string extensionOf(const std::string& path);
+
+vtkSmartPointer<vtkDataObject> readFile(const std::string& path);
+
+/// The file as an XML writer of VTK writes it, in binary mode.
+template <typename Writer>
+std::string xmlOf(vtkDataObject* data, const std::string& path);
+
 /// Composite files become one grid, coincident points merged: those of Exodus II, where this was
 /// built without netCDF.
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
@@ -28,8 +38,8 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& path);
 void writeBoundary(vtkPointSet* boundary, const std::string& path);
 
 /// Writes a morphed grid: in VTK's format by the extension .vtu or .vtk, or else as a copy of the
-/// solver's file `original`, which the grid was read from, with other coordinates. Returns the
-/// largest rounding of a coordinate.
+/// solver's file, or the list of pieces, `original`, which the grid was read from, with other
+/// coordinates. Returns the largest rounding of a coordinate.
 double writeMorphed(
   vtkUnstructuredGrid* grid, const std::string& original, const std::string& path);
 }

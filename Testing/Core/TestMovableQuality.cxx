@@ -2,6 +2,7 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Quality/MovableQuality.h"
+#include "Quality/WorstMean.h"
 
 #include <gtest/gtest.h>
 
@@ -108,4 +109,32 @@ TEST(MovableQuality, WithoutAFreeNodeNothingIsMovable)
   EXPECT_EQ(quality.bounds(mesh.points).movable, std::numeric_limits<double>::infinity());
   EXPECT_EQ(quality.measure(mesh.points, monitor).inverted, 0);
   EXPECT_TRUE(std::isnan(quality.measure(mesh.points, monitor).scaledJacobian[0]));
+}
+
+TEST(WorstMean, IsTheMeanOfTheWorstShareOfTheMeasuredCells)
+{
+  morph::Quality quality;
+  for (int i = 0; i < 1000; ++i)
+  {
+    quality.scaledJacobian.push_back((i * 7 % 1000) * 1e-3 - 0.1);
+  }
+  quality.scaledJacobian.insert(
+    quality.scaledJacobian.begin() + 5, std::numeric_limits<double>::quiet_NaN());
+  quality.measured = 1000;
+  // Of 0, 1, ... 999 thousandths, less a tenth.
+  EXPECT_NEAR(morph::worstMean(quality), -0.1 + 4.5e-3, 1e-15);
+  EXPECT_NEAR(morph::worstMean(quality, 0.0105), -0.1 + 5e-3, 1e-15);
+  EXPECT_NEAR(morph::worstMean(quality, 1), -0.1 + 0.4995, 1e-13);
+  const double expected = morph::worstMean(quality, 0.3);
+  std::reverse(quality.scaledJacobian.begin(), quality.scaledJacobian.end());
+  EXPECT_EQ(morph::worstMean(quality, 0.3), expected);
+}
+
+TEST(WorstMean, FewCellsGiveTheMinimumAndNoneNaN)
+{
+  morph::Quality quality;
+  EXPECT_TRUE(std::isnan(morph::worstMean(quality)));
+  quality.scaledJacobian = { 0.5, std::numeric_limits<double>::quiet_NaN(), -0.25 };
+  quality.measured = 2;
+  EXPECT_EQ(morph::worstMean(quality), -0.25);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
+#include "Quality/PartialQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 
@@ -520,6 +521,51 @@ TEST(MeasureQuality, TheCutIntoThreadsDoesNotShow)
   EXPECT_EQ(one.minimum, many.minimum);
   EXPECT_EQ(one.worstCell, many.worstCell);
   EXPECT_EQ(one.inverted, many.inverted);
+}
+
+TEST(MeasureQualityOf, MeasuresTheChosenCellsAlone)
+{
+  std::mt19937 random(meshes::seed());
+  std::vector<std::pair<std::uint8_t, Corners>> cells;
+  for (int trial = 0; trial < 6000; ++trial)
+  {
+    // The surface cells in between are of a lower dimension.
+    const Ideal& ideal = Ideals[trial % 6];
+    cells.emplace_back(ideal.type, jittered(*ideal.corners, .4, random));
+  }
+  const Mesh mesh = separateCells(cells);
+  std::vector<Index> chosen;
+  std::vector<std::uint8_t> ghosts(cells.size(), 0), others(cells.size(), 1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    ghosts[c] = c % 11 == 0;
+    if (random() % 3 == 0)
+    {
+      chosen.push_back(c);
+      others[c] = ghosts[c];
+    }
+  }
+  Monitor monitor;
+  UnevenThreads threads;
+  const Quality expected = measureQuality(mesh, mesh.points, {}, others, monitor);
+  EXPECT_GT(expected.inverted, 0);
+  for (Monitor* each : { &monitor, static_cast<Monitor*>(&threads) })
+  {
+    const Quality found = measureQualityOf(mesh, mesh.points, {}, chosen, ghosts, *each);
+    ASSERT_EQ(found.scaledJacobian.size(), cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      const double a = found.scaledJacobian[c], b = expected.scaledJacobian[c];
+      EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << c;
+    }
+    EXPECT_EQ(found.measured, expected.measured);
+    EXPECT_EQ(found.minimum, expected.minimum);
+    EXPECT_EQ(found.mean, expected.mean);
+    EXPECT_EQ(found.inverted, expected.inverted);
+    EXPECT_EQ(found.degenerate, expected.degenerate);
+    EXPECT_EQ(found.worstCell, expected.worstCell);
+  }
+  EXPECT_EQ(measureQualityOf(mesh, mesh.points, {}, {}, {}, monitor).measured, 0);
 }
 
 TEST(MeasureQuality, CancelThrows)

@@ -288,10 +288,11 @@ TEST(SimplexLinear, NodesBeyondTheHullAreExtrapolatedAndCounted)
     1e-10 * meshes::size(mesh.points));
 }
 
-TEST(SimplexLinear, LargeWeightsOutsideTheHullAreWarnedOf)
+TEST(SimplexLinear, WeightsFarOutsideTheHullAreBoundedAndCounted)
 {
   // The bottom is prescribed up to `high`; the node farthest away is 20 / high of that off.
-  const Mesh mesh = meshes::hexes(3, 3, 20);
+  Mesh mesh = meshes::hexes(3, 3, 20);
+  mesh.points.rowwise() += Row(1e4, 0, 0);
   for (const double high : { 1., 12. })
   {
     std::vector<Index> ids;
@@ -302,15 +303,38 @@ TEST(SimplexLinear, LargeWeightsOutsideTheHullAreWarnedOf)
         ids.push_back(id);
       }
     }
+    const NodePartition partition = partitionNodes(mesh, ids);
     SimplexLinear method;
     meshes::ThreadedMonitor monitor;
-    method.prepare(mesh, partitionNodes(mesh, ids), monitor);
+    method.prepare(mesh, partition, monitor);
+    Points moved;
+    const EvaluateReport report =
+      method.evaluate(motions::targets(mesh, partition, affine), moved, monitor);
+    EXPECT_LT(difference(moved, motions::mapped(mesh.points, affine)),
+      1e-10 * mesh.points.cwiseAbs().maxCoeff());
+    Index affineRows = 0;
+    for (Index row = 0; row < method.weights().rows(); ++row)
+    {
+      const Index n = method.weights().entries(row);
+      const double* weight = method.weights().weight(row);
+      EXPECT_TRUE(std::all_of(weight, weight + n, [](double w) { return std::abs(w) <= 10; }));
+      affineRows += n > 4 ? 1 : 0;
+    }
+    EXPECT_EQ(count(report, "AffineNodes"), affineRows);
+    EXPECT_EQ(affineRows > 0, high == 1);
     ASSERT_EQ(monitor.warnings.size(), high == 1 ? 1u : 0u);
     if (high == 1)
     {
       EXPECT_NE(monitor.warnings[0].find("far outside the convex hull"), std::string::npos);
-      EXPECT_NE(monitor.warnings[0].find("times the motion"), std::string::npos);
+      EXPECT_NE(monitor.warnings[0].find("affine fit"), std::string::npos);
     }
+    // The adjoint is that of the same weights.
+    const Points u = Points::Random(static_cast<Index>(ids.size()), 3);
+    const Points g = Points::Random(mesh.numberOfNodes(), 3);
+    Points y, sum;
+    method.evaluate(meshes::rows(mesh.points, partition.prescribed) + u, y, monitor);
+    method.applyTranspose(g, sum, monitor);
+    EXPECT_NEAR((y - mesh.points).cwiseProduct(g).sum(), sum.cwiseProduct(u).sum(), 1e-7);
   }
 }
 

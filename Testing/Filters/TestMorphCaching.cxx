@@ -7,6 +7,8 @@
 #include "vtkFEMWarpMorph.h"
 
 #include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -152,6 +154,43 @@ TEST_F(MorphCaching, PointsChangedInPlace)
   this->Grid->GetPoints()->Modified();
   EXPECT_EQ(this->PreparesAfterUpdate(), 2);
   EXPECT_EQ(this->PreparesAfterUpdate(), 2);
+}
+
+TEST_F(MorphCaching, CellsChangedInPlace)
+{
+  // As OneCellInAnotherOrder, and none but the array of the cells knows.
+  vtkDataArray* ids = this->Grid->GetCells()->GetConnectivityArray();
+  double nodes[8];
+  for (int k = 0; k < 8; ++k)
+  {
+    nodes[k] = ids->GetComponent(5 * 8 + k, 0);
+  }
+  std::rotate(nodes, nodes + 1, nodes + 4);
+  std::rotate(nodes + 4, nodes + 5, nodes + 8);
+  for (int k = 0; k < 8; ++k)
+  {
+    ids->SetComponent(5 * 8 + k, 0, nodes[k]);
+  }
+  ids->Modified();
+  this->Filter->Modified();
+  EXPECT_EQ(this->PreparesAfterUpdate(), 2);
+  EXPECT_EQ(this->PreparesAfterUpdate(), 2);
+}
+
+TEST_F(MorphCaching, ArraysThatBecomeShorterInPlace)
+{
+  vtkNew<vtkDoubleArray> heat;
+  heat->SetName("Heat");
+  heat->SetNumberOfTuples(this->Grid->GetNumberOfPoints());
+  heat->Fill(1);
+  this->Grid->GetPointData()->AddArray(heat);
+  EXPECT_EQ(this->PreparesAfterUpdate(), 1);
+  heat->SetNumberOfTuples(3); // VTK takes no note of that
+  this->Filter->SetScaleFactor(0.5);
+  grids::Listener listener(this->Filter);
+  this->Filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("'Heat' has 3 tuples"), std::string::npos);
 }
 
 TEST_F(MorphCaching, OneCellOfAnotherType)

@@ -11,7 +11,9 @@
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
+#include "vtkMorphShapes.h"
 #include "vtkScaledJacobian.h"
+#include "vtkSimplexLinearMorph.h"
 #include "vtkSmoothingMorph.h"
 
 #include <vtkCellArray.h>
@@ -19,6 +21,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataObjectTree.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -169,7 +172,7 @@ TEST(PolyhedraInFilters, TheBoundaryIsThatOfTheCells)
   }
 }
 
-TEST(PolyhedraInFilters, EveryFilterTakesThemOrSaysThatItDoesNot)
+TEST(PolyhedraInFilters, EveryFilterTakesThem)
 {
   for (const auto& [name, mesh] : meshes::polyhedral())
   {
@@ -182,14 +185,55 @@ TEST(PolyhedraInFilters, EveryFilterTakesThemOrSaysThatItDoesNot)
       auto filter = any.connected(grid, boundary);
       grids::Listener listener(filter);
       filter->Update();
-      if (any.name == "MorphShapes")
-      {
-        ASSERT_EQ(listener.Errors.size(), 1u);
-        EXPECT_NE(listener.Errors[0].find("Morph Shapes does not"), std::string::npos)
-          << listener.Errors[0];
-        continue;
-      }
       EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    }
+  }
+}
+
+TEST(PolyhedraInFilters, ShapesBlendAsMorphsDo)
+{
+  const auto shifted = [](const Row& x) -> Row { return x + Row(0, 0.1 * x[2], 0); };
+  for (const auto& [name, mesh] : meshes::polyhedral())
+  {
+    auto grid = grids::make(mesh);
+    for (const int method :
+      { int(vtkMorphShapes::METHOD_FEMWARP), int(vtkMorphShapes::METHOD_SIMPLEX_LINEAR) })
+    {
+      SCOPED_TRACE(name + ", method " + std::to_string(method));
+      vtkNew<vtkMorphShapes> shapes;
+      shapes->SetInputData(grid);
+      shapes->AddShapeData(grids::boundary(grid, bent));
+      shapes->AddShapeData(grids::boundary(grid, shifted));
+      shapes->SetMethod(method);
+      shapes->SetWeight(0, 0.25);
+      shapes->SetWeight(1, -0.5);
+      expectQuiet(shapes);
+      const auto both = [&](const Row& x) -> Row
+      { return x + 0.25 * (bent(x) - x) - 0.5 * (shifted(x) - x); };
+      vtkNew<vtkFEMWarpMorph> femwarp;
+      vtkNew<vtkSimplexLinearMorph> simplex;
+      vtkMorphAlgorithm* morph = femwarp;
+      if (method == vtkMorphShapes::METHOD_SIMPLEX_LINEAR)
+      {
+        morph = simplex;
+      }
+      morph->SetInputData(grid);
+      morph->SetBoundaryData(grids::boundary(grid, both));
+      expectQuiet(morph);
+      EXPECT_LT((grids::points(shapes->GetOutput()) - grids::points(morph->GetOutput()))
+                  .cwiseAbs()
+                  .maxCoeff(),
+        1e-7);
+      EXPECT_NEAR(shapes->GetMinScaledJacobian(), morph->GetMinScaledJacobian(), 1e-6);
+      EXPECT_STREQ(shapes->GetMorphStatus(), "Valid");
+      EXPECT_STREQ(shapes->GetValidRanges(), "not known for polyhedra");
+      EXPECT_TRUE(std::isnan(shapes->GetLargestFactor()));
+      EXPECT_TRUE(std::isnan(shapes->GetHighestWeight(0)));
+      EXPECT_FALSE(shapes->GetOutput()->GetFieldData()->HasArray("ShapeHighestWeight"));
+      EXPECT_TRUE(shapes->GetOutput()->GetFieldData()->HasArray("ShapeWeights"));
+      shapes->SetWeight(0, 0.5);
+      shapes->Update();
+      EXPECT_EQ(shapes->GetSolveCount(), 2);
     }
   }
 }

@@ -66,6 +66,8 @@ Getters gettersOf(vtkMorphAlgorithm* f)
   return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
     { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
     { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
+    { "WorstMeanScaledJacobian", [f] { return f->GetWorstMeanScaledJacobian(); } },
+    { "BoundaryMinimum", [f] { return f->GetBoundaryMinimum(); } },
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
@@ -161,7 +163,8 @@ Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
     { "BridgingTetrahedra", [f] { return f->GetBridgingTetrahedra(); } },
-    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } } };
+    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
+    { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
 }
 
 Getters countsOf(vtkSimplexNaturalNeighborMorph* f)

@@ -113,18 +113,53 @@ class Pages(unittest.TestCase):
         self.assertGreater(names["fit"].MaxTargetDistanceBefore, 0.1)
 
 
+class Gallery(unittest.TestCase):
+    def test_each_picture_has_its_script(self):
+        """The script is there, and knows the options and the page that the command gives."""
+        text = (ROOT / "Documentation/Gallery.md").read_text(encoding="utf-8")
+        sections = re.split(r"^## ", text, flags=re.MULTILINE)[1:]
+        self.assertGreaterEqual(len(sections), 8)
+        for section in sections:
+            with self.subTest(section=section.splitlines()[0]):
+                for link in re.findall(r"\]\(([^)#:]+)\)", section):
+                    self.assertTrue((ROOT / "Documentation" / link).exists(), link)
+                self.assertEqual(len(re.findall(r"!\[.+\]\(", section)), 1)
+                scripts = re.findall(r"Utilities/[\w.]+", section)
+                self.assertEqual(len(scripts), 1)
+                source = (ROOT / scripts[0]).read_text(encoding="utf-8")
+                # demo.sh passes its options on.
+                source += (ROOT / "Utilities/demo.py").read_text(encoding="utf-8")
+                for option in re.findall(r"^    .* (--[a-z-]+)", section.partition(scripts[0])[2],
+                                         re.MULTILINE):
+                    self.assertIn(option, source)
+                for page in re.findall(r"--page (\w+)", section):
+                    self.assertIn(page, howto_pictures.pages())
+
+
 class HowTos(unittest.TestCase):
     """The pages of HowTo, each run as it stands: it raises where a mesh is not valid."""
 
     def test_pages(self):
         for page in howto_pictures.pages():
             with self.subTest(page=page), tempfile.TemporaryDirectory() as folder:
+                absent = howto_pictures.missing(page, PLUGIN)
+                if absent:
+                    self.skipTest(f"{page}.md: there is no {', '.join(absent)}")
                 path = howto_pictures.run(page, PLUGIN, folder)
                 made = image(path)
                 kept = image(ROOT / "Documentation/images" / Path(path).name)
                 self.assertEqual(made.shape, kept.shape)
                 # As the page shows it, but for fonts and the colours of this ParaView.
                 self.assertLess(abs(made - kept).mean(), 20)
+
+    def test_cxx_is_that_of_the_example(self):
+        """Each C++ block is a part of OwnMethod.cxx, which another test compiles and runs."""
+        source = (ROOT / "Examples/OwnMethod.cxx").read_text(encoding="utf-8")
+        page = (ROOT / "Documentation/HowTo/WriteYourOwnMethod.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```c\+\+\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 2)
+        for block in blocks:
+            self.assertIn(block, source)
 
 
 def image(path):

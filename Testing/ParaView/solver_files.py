@@ -58,6 +58,51 @@ class SolverFiles(unittest.TestCase):
         path.write_bytes(models.text_of(pieces))
         return model, pieces, path, wall
 
+    def exodus(self):
+        if not shutil.which("ncgen"):
+            return None
+        model, _ = models.random_model("paraview open")
+        cdl, path = self.folder / "model.cdl", self.folder / "model.exo"
+        cdl.write_text(exodus_models.exodus(model))
+        subprocess.run(["ncgen", "-o", path, cdl], check=True, timeout=60)
+        return path
+
+    def cgns(self):
+        bore = Path(__file__).resolve().parents[2] / "Data/Models/small/bore_hex_small.vtu"
+        path = self.folder / "part.cgns"
+        simple.SaveData(str(path), proxy=simple.OpenDataFile(str(bore)))
+        return path
+
+    def foam(self, name="case"):
+        model, rng = models.random_model("paraview foam", kind="hexahedra")
+        case = self.folder / name
+        models.OpenFoam(model, rng).write(case)
+        (case / "system").mkdir()
+        (case / "system/controlDict").write_text(
+            models.foam_header("dictionary", "controlDict") + "startTime 0; endTime 1; deltaT 1;\n")
+        marker = case / (name + ".foam")
+        marker.write_text("")
+        return marker
+
+    def test_a_case_of_openfoam_is_saved_by_its_marker(self):
+        original = self.foam()
+        copy = self.folder / "copy"
+        shutil.copytree(original.parent, copy)
+        (copy / "case.foam").unlink()
+        reader = SolverFileReader(FileName=str(original))
+        morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=["wall"],
+                          Displacement="Vector", Vector=list(SHIFT), Validity="Report")
+        moved = vtk_to_numpy(fetched(morph).GetPoints().GetData())
+        before = {p: p.read_bytes() for p in original.parent.rglob("*") if p.is_file()}
+        simple.SaveData(str(copy / "copy.foam"), proxy=morph)
+        read = fetched(SolverFileReader(FileName=str(copy)))
+        np.testing.assert_array_equal(vtk_to_numpy(read.GetPoints().GetData()), moved)
+        for path, content in before.items():
+            self.assertEqual(path.read_bytes(), content)
+            twin = copy / path.relative_to(original.parent)
+            if path.name not in ("points", "case.foam"):
+                self.assertEqual(twin.read_bytes(), content)
+
     def test_file_open_offers_the_reader(self):
         for extension in WRITERS:
             with self.subTest(extension=extension):
@@ -67,6 +112,15 @@ class SolverFiles(unittest.TestCase):
                 # ParaView has other readers of these extensions: it asks.
                 if extension in (".inp", ".dat"):
                     self.assertGreater(len(readers), 1)
+        for case in (self.exodus(), self.cgns(), self.foam()):
+            if case:
+                with self.subTest(path=case.name):
+                    readers = possible_readers(case)
+                    self.assertIn("SolverFileReader", readers)
+                    self.assertGreater(len(readers), 1)
+                    # Scripts that ask for none get ParaView's own, as without the plugin.
+                    self.assertNotEqual(simple.OpenDataFile(str(case)).GetXMLName(),
+                                        "SolverFileReader")
         avs = self.folder / "avs.inp"
         avs.write_text("# AVS\n1 0 0 0 0\n1 0 0 0\n")
         self.assertNotIn("SolverFileReader", possible_readers(avs))
@@ -124,10 +178,8 @@ class SolverFiles(unittest.TestCase):
     @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
     def test_exodus_at_its_own_coordinates(self):
         """The file has displacements, which ParaView's own reader adds."""
-        model, _ = models.random_model("paraview exodus")
-        cdl, path = self.folder / "model.cdl", self.folder / "model.exo"
-        cdl.write_text(exodus_models.exodus(model))
-        subprocess.run(["ncgen", "-o", path, cdl], check=True, timeout=60)
+        path = self.exodus()
+        model, _ = models.random_model("paraview open")
         reader = SolverFileReader(FileName=str(path))
         points = vtk_to_numpy(fetched(reader).GetPoints().GetData())
         np.testing.assert_array_equal(points, [model.points[n] for n in model.order])

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""pvbatch on two MPI ranks: a mesh on both is refused with one error and without a deadlock; a mesh
-on one of them is morphed.
+"""Errors of pvbatch on two MPI ranks: one each, on both ranks, without a deadlock; and a mesh that
+is on one of them. distributed.py compares meshes on both with one rank.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython two_ranks.py
 The same file is the job that the ranks run:
-mpiexec -n 2 pvbatch two_ranks.py (distributed | one_rank | later_error) FILE
+mpiexec -n 2 pvbatch two_ranks.py CASE FILE
 """
 import os
 import shutil
@@ -14,8 +14,10 @@ import tempfile
 import unittest
 
 from paraview import simple
-from paraview.simple import (AppendDatasets, LoadPlugin, PointDatatoCellData, Transform, Wavelet,
-                             XMLUnstructuredGridReader)
+from paraview.simple import (AppendDatasets, LoadPlugin, PointDatatoCellData, ProgrammableFilter,
+                             Transform, Wavelet, XMLUnstructuredGridReader)
+
+HAS_MPI = os.environ.get("MESHMORPHING_HAS_MPI") == "1"
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -33,16 +35,22 @@ def one_rank(path):
 
 
 def job(case, path):
-    grid = distributed(path) if case == "distributed" else one_rank(path)
+    grid = one_rank(path) if case in ("one_rank", "later_error") else distributed(path)
+    if case == "invalid_rank":
+        grid = ProgrammableFilter(Input=grid, CopyArrays=1, Script=INVALID_ON_RANK_1)
     moved = Transform(Input=ExtractMorphBoundary(Input=grid))
     moved.Transform.Scale = [2, 1, 1]
-    if case == "distributed":
-        # The morph itself has to refuse as well: its boundary is the mesh, moved.
+    if case == "copy":
+        # Its boundary is the mesh, moved.
         moved = Transform(Input=grid)
+        moved.Transform.Scale = [2, 1, 1]
         extracted = ExtractMorphBoundary(Input=grid)
         extracted.UpdatePipeline()
         print("BOUNDARY", extracted.GetDataInformation().GetNumberOfPoints(), flush=True)
-    morph = MorphFEMWARP(Input=grid, Boundary=moved)
+    method = MorphInversionFree if case == "unavailable" else MorphFEMWARP
+    morph = method(Input=grid, Boundary=moved)
+    if case == "repair":
+        morph.Validity = "Repair"
     if case == "later_error":
         morph.BoundaryIdArray = "Nowhere"
     # A filter that follows must neither hang nor get half a result.
@@ -52,6 +60,15 @@ def job(case, path):
     info = morph.GetDataInformation()
     bounds = [round(b, 6) for b in info.GetBounds()] if info.GetNumberOfPoints() else None
     print("RESULT", info.GetNumberOfPoints(), bounds, flush=True)
+
+
+INVALID_ON_RANK_1 = """
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+copy = self.GetUnstructuredGridOutput()
+copy.DeepCopy(self.GetUnstructuredGridInput())
+if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 1:
+    copy.GetPoints().SetPoint(7, float('nan'), 0, 0)
+"""
 
 
 class TwoRanks(unittest.TestCase):
@@ -71,11 +88,36 @@ class TwoRanks(unittest.TestCase):
                 env=environment, capture_output=True, text=True, timeout=120)
         return result.stdout + result.stderr
 
-    def test_cells_on_both_ranks_are_one_error_each_filter_and_the_undeformed_mesh(self):
-        output = self.run_ranks("distributed")
+    @unittest.skipIf(HAS_MPI, "this build morphs meshes on several ranks")
+    def test_without_mpi_cells_on_both_ranks_are_one_error_each_filter(self):
+        output = self.run_ranks("copy")
         self.assertEqual(output.count("distributed over 2 MPI ranks"), 2, output)
         self.assertIn("BOUNDARY 0", output)
         self.assertRegex(output, r"RESULT \d+ \[0.0, 8.0, 0.0, 8.0, 0.0, 8.0\]")
+
+    @unittest.skipUnless(HAS_MPI, "this build has no MPI")
+    def test_a_moved_copy_of_both_pieces_is_a_boundary(self):
+        output = self.run_ranks("copy")
+        self.assertNotIn("ERR|", output)
+        # 386 nodes are on the surface; each of the two pieces has those on the cut.
+        self.assertIn("BOUNDARY 418", output)
+        self.assertRegex(output, r"RESULT \d+ \[0.0, 16.0, 0.0, 8.0, 0.0, 8.0\]")
+
+    @unittest.skipUnless(HAS_MPI, "this build has no MPI")
+    def test_what_needs_one_rank_is_named_once(self):
+        output = self.run_ranks("unavailable")
+        self.assertEqual(output.count("vtkInversionFreeMorph needs one MPI rank"), 1, output)
+        self.assertRegex(output, r"RESULT \d+ \[0.0, 8.0, 0.0, 8.0, 0.0, 8.0\]")
+        output = self.run_ranks("repair")
+        self.assertEqual(
+            output.count("Validity Repair of vtkFEMWarpMorph needs one MPI rank"), 1, output)
+
+    @unittest.skipUnless(HAS_MPI, "this build has no MPI")
+    def test_an_invalid_mesh_on_one_rank_ends_both(self):
+        output = self.run_ranks("invalid_rank")
+        # Of Extract Morph Boundary and of the morph.
+        self.assertEqual(output.count("not finite"), 2, output)
+        self.assertIn("RESULT", output)
 
     def test_cells_on_one_rank_are_morphed(self):
         output = self.run_ranks("one_rank")

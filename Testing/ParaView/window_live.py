@@ -21,12 +21,12 @@ os.environ["MORPH_SOURCE"] = str(SCRIPT.parents[2])
 MESH, SURFACE = "0", "2"
 
 
-def played(scene, events):
+def played(scene, events, **environment):
     """What the window has shown, picture by picture."""
     with tempfile.TemporaryDirectory() as name:
         frames = Path(name) / "frames.jsonl"
         code, messages = events.play(Path(name), script=SCRIPT, environment={
-            "MORPH_SCENE": scene, "MORPH_FRAMES": str(frames)})
+            "MORPH_SCENE": scene, "MORPH_FRAMES": str(frames), **environment})
         if code != 0 or not frames.exists():
             raise AssertionError(messages)
         lines = [json.loads(line) for line in frames.read_text(encoding="utf-8").splitlines()]
@@ -85,6 +85,17 @@ class LiveDrags(unittest.TestCase):
         self.assertEqual(undone[-1]["shown"][MESH], start["shown"][MESH])
         self.assertEqual(after[-1]["Position"], moved[0]["Position"])
         self.assertEqual(after[-1]["shown"], moved[0]["shown"])
+
+    def test_the_boxes_of_a_region_and_its_motion_are_told_apart(self):
+        """Both are around the whole mesh at first: each has a colour, and the larger one moves."""
+        events = Events()
+        for step in range(9):
+            events.do(VIEW, "mouseMove", f"(0.{step},0.95,0,0,0)")
+        frames, messages = played("region", events, MORPH_COLORS="1")
+        self.assertNotIn("ERR|", messages)
+        boxes = frames[-1]["boxes"]
+        self.assertGreater(boxes["blue"], 400, frames)
+        self.assertGreater(boxes["orange"], 1.1 * boxes["blue"], frames)
 
     def test_slider(self):
         import window_scene

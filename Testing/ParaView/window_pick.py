@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces that are picked in the view: select cells, press *Add selected surfaces*, and the names
-are ticked. In ParaView's window the morphed mesh has the numbers of pvpython. A script finds the
+are ticked. In ParaView's window the morphed mesh has the numbers of pvpython, and clicks are counted as in window_tasks.py. A script finds the
 same names by the properties that the button sets.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
@@ -16,7 +16,9 @@ from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 from versions import BOX_FIELDS
-from window_events import FRAME, PANEL, Events
+from window_events import PANEL
+from window_morph_mesh import text
+from window_tasks import Tasks
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -26,12 +28,6 @@ UP = "0.2"
 NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId",
            "LargestValidStep")
 BOX = f"Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
-
-
-def text(value):
-    """As the panel shows it."""
-    shown = repr(float(value))
-    return shown[:-2] if shown.endswith(".0") else shown
 
 
 def cells(ids):
@@ -137,24 +133,28 @@ class Pick(unittest.TestCase):
         morph.UpdatePipeline()
         self.assertEqual(morph.MorphStatus, "Valid")
         with tempfile.TemporaryDirectory() as name:
-            events = Events()
+            events = Tasks()
             events.load_plugin(PLUGIN)
             events.open(str(MESH))
+            events.task("tick what is selected in the view, and move it")
             events.filter("MorphMesh")
-            events.set("Pick/AddSelected", "activate", "")  # nothing is selected: a hint
+            events.press("Pick/AddSelected")  # nothing is selected: a hint
             # The ring at the end of the bore; the bore itself is not in this rectangle.
             events.select_cells((0.47, 0.23), (0.53, 0.28))
             events.select("/0:0/0:0/0:0")  # ParaView has made the mesh active, which is selected
-            events.set("Pick/AddSelected", "activate", "")
+            events.press("Pick/AddSelected")
             events.expect(PANEL + "Pick/Message", f"Ticked: {self.top}")
-            events.set(BOX + "translateZ", "set_string", UP)
+            events.type(BOX + "translateZ", UP)
             events.apply()
+            events.done()
             for number in NUMBERS:
                 events.expect(f"{PANEL}{number}/DoubleLineEdit0", text(getattr(morph, number)))
             code, messages = events.play(Path(name))
             self.assertEqual(code, 0, messages)
             self.assertNotIn("ERR|", messages)
             self.assertNotIn("rror:", messages)
+            # One of them is the button that had nothing to add.
+            self.assertEqual(list(events.counted.values()), [10])
 
 
 if __name__ == "__main__":

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs in ParaView's window (paraview --script): makes the scene that MORPH_SCENE names, then
 writes a line of JSON to MORPH_FRAMES for each picture: the outputs that are shown, with the sum of
-their points' coordinates, and the filter's properties."""
+their points' coordinates, the filter's properties and, with MORPH_COLORS, how many pixels have a
+color of the boxes."""
 import json
 import os
 from pathlib import Path
 
+import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 # ParaView runs a script without the name of its file.
 MESH = Path(os.environ["MORPH_SOURCE"]) / "Data/Models/small/bore_hex_small.vtu"
 SHAPES = "coords + 0.1*coordsZ*iHat", "coords + 0.2*coordsX*kHat"
+#: Of the lines of a box, in parts of the brightest: of a region, and of what moves it.
+BOXES = {"blue": (0.3, 0.6, 1), "orange": (1, 0.6, 0.1)}
 #: Names of properties that each line has.
 WATCHED = {"box": ("LiveDrag", "Live", "Quality", "MinScaledJacobian", "MorphStatus"),
            "sliders": ("LiveDrag", "FindValidRanges", "Quality", "MinScaledJacobian",
@@ -25,6 +30,13 @@ def scene(name, **more):
     part = simple.OpenDataFile(str(MESH))
     if name == "box":
         return MorphMesh(Input=part, Surfaces=["Surface 1"], **more)
+    if name == "region":
+        part.UpdatePipeline()
+        bounds = part.GetDataInformation().GetBounds()
+        morph = MorphMesh(Input=part, Moving="Region", Region="Box", **more)
+        morph.Region.Position = bounds[::2]
+        morph.Region.Length = [b - a for a, b in zip(bounds[::2], bounds[1::2])]
+        return morph
     boundary = ExtractMorphBoundary(Input=part)
     shapes = [simple.Calculator(Input=boundary, Function=function, CoordinateResults=1)
               for function in SHAPES]
@@ -37,6 +49,16 @@ def points(morph, port):
     data = morph.SMProxy.GetClientSideObject().GetOutputDataObject(port)
     found = data.GetPoints()
     return float(vtk_to_numpy(found.GetData()).sum()) if found else 0.
+
+
+def boxes(view):
+    """How many pixels of the picture have a color of BOXES."""
+    width, height = view.ViewSize
+    pixels = vtkUnsignedCharArray()
+    view.GetRenderWindow().GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels)
+    colors = vtk_to_numpy(pixels).reshape(-1, 4)[:, :3].astype(float)
+    return {name: int((abs(colors - 255 * np.array(color)).max(axis=1) < 40).sum())
+            for name, color in BOXES.items()}
 
 
 def main():
@@ -55,11 +77,13 @@ def main():
             if source and representation.Visibility and source.SMProxy == morph.SMProxy:
                 shown[source.Port] = points(morph, source.Port)
         line = {"shown": shown}
-        for key in WATCHED[name]:
+        if "MORPH_COLORS" in os.environ:
+            line["boxes"] = boxes(view)
+        for key in WATCHED.get(name, ()):
             value = getattr(morph, key)
             line[key] = (list(value) if key == "Weights" else
                          value if isinstance(value, (int, float)) else str(value).strip("'"))
-        if name == "box":
+        if name != "sliders":
             line["Position"] = list(morph.Transform.Translate)
         frames.write(json.dumps(line) + "\n")
         frames.flush()

@@ -11,11 +11,13 @@ Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1
 import os
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from paraview import simple
 
-from window_events import MAIN, PANEL, VIEW
+from versions import HELP_PAGE
+from window_events import MAIN, PANEL, PROPERTIES, VIEW
 from window_morph_mesh import Clicks, text
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
@@ -23,10 +25,12 @@ simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 
 MESH = Path(__file__).resolve().parents[2] / "Data/Models/small/canister_hex_small.vtu"
 HOLE, WALL, LID = "Surface 0", "Surface 1", "Surface 3"
+ASIDE = 0.6  # the hole, into the wall
 NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId")
 COLORS = MAIN + "variableToolbar/displayColor/Variables"
 #: Of each task; numbers are typed besides.
-CLICKS = {"see which surface has which number": 4, "widen a hole by a number": 8,
+CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
+          "widen a hole by a number": 8, "count and see inverted cells": 11,
           "undo and redo": 4, "move a surface along a vector, in 20 steps": 10,
           "an error keeps the picture": 8}
 
@@ -49,6 +53,16 @@ class Tasks(Clicks):
     def select(self, *arguments):
         super().select(*arguments)
         self.clicks += 1
+
+    def press(self, name):
+        """A button of the panel."""
+        self.set(name, "activate", "")
+        self.clicks += 1
+
+    def select_cells(self, *arguments):
+        """A button of the view, and a rectangle."""
+        super().select_cells(*arguments)
+        self.clicks += 2
 
     def choose(self, name, entry, widget="ComboBox"):
         """An entry of a list in the panel."""
@@ -84,6 +98,15 @@ class Tasks(Clicks):
             self.expect(f"{PANEL}{name}/DoubleLineEdit0", text(getattr(morph, name)))
 
 
+def legend(state, array):
+    """The names that the legend of an array gives its values, from a state."""
+    root = ElementTree.parse(state).getroot()
+    item = root.find(f".//ProxyCollection/Item[@name='{array}.PVLookupTable']")
+    found = root.findall(f".//Proxy[@id='{item.get('id')}']/Property[@name='Annotations']/Element")
+    texts = [element.get("value") for element in found]
+    return dict(zip(texts[::2], texts[1::2]))
+
+
 class WindowTasks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -108,6 +131,12 @@ class WindowTasks(unittest.TestCase):
         for bound, wanted in zip(bounds, (-1, 1, -1, 1, 0, 2.2)):  # the wall stays
             self.assertAlmostEqual(bound, wanted, delta=1e-6)
         moved = self.expected(Surfaces=[LID], Displacement="Vector", Vector=[0, 0, 0.3])
+        inverted = MorphMesh(Input=self.mesh, Surfaces=[HOLE], Displacement="Vector",
+                             Vector=[ASIDE, 0, 0], Validity="Report")
+        inverted.UpdatePipeline()
+        self.assertGreater(inverted.InvertedCells, 0)
+        clicks = {task: number for task, number in CLICKS.items()
+                  if HELP_PAGE or "page" not in task}
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             events = Tasks()
@@ -121,6 +150,14 @@ class WindowTasks(unittest.TestCase):
             events.done()
             events.expect(COLORS, "SurfaceId", "currentText")
             events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+
+            if HELP_PAGE:
+                events.task("open the filter's page")
+                events.do(PROPERTIES + "Help", "activate")
+                events.clicks += 1
+                events.done()
+                events.expect(HELP_PAGE, "qthelp://meshmorphing.org/MeshMorphing/"
+                              "filters.MorphMesh.html", "source")
 
             events.select("/0:0/0:0")
             events.task("widen a hole by a number")
@@ -153,6 +190,19 @@ class WindowTasks(unittest.TestCase):
             events.shows(moved)
 
             events.select("/0:0/0:0")
+            events.task("count and see inverted cells")
+            events.filter("MorphMesh")
+            events.tick("Surfaces/ArraySelectionWidget", self.row(HOLE))
+            events.choose("Displacement", "Vector")
+            events.type("Vector/DoubleLineEdit0", str(ASIDE))
+            events.choose("Validity", "Report")
+            events.apply()
+            events.select("/0:0/0:0/3:0/1:0")  # the second output, Bad cells
+            events.done()
+            events.shows(inverted)
+            events.expect(COLORS, "ScaledJacobian", "currentText")
+
+            events.select("/0:0/0:0")
             events.task("an error keeps the picture")
             events.filter("MorphMesh")
             events.tick("Surfaces/ArraySelectionWidget", self.row(LID))
@@ -169,7 +219,10 @@ class WindowTasks(unittest.TestCase):
                           messages)
             self.assertEqual(messages.count("ERR|"), 1, messages)
             self.assertNotIn("FORWARD_DIRECTION", messages)
-            self.assertEqual(events.counted, CLICKS)
+            self.assertEqual(events.counted, clicks)
+            surfaces = [name for name in self.names if name.startswith("Surface")]
+            self.assertEqual(legend(folder / "state.pvsm", "SurfaceId"),
+                             {name.split()[1]: name for name in surfaces})
             simple.LoadState(str(folder / "state.pvsm"))
             again = simple.FindSource("MorphMesh2")
             again.UpdatePipeline()

@@ -5,13 +5,11 @@ no other byte changed. Random models, node numbers, spellings and line ends.
 Run: MORPH_MESH=<path of morph-mesh> python3 solver_files.py
 MORPH_TEST_SEED sets another first seed; MORPH_TEST_CASES the number of random cases a format.
 Readers and solvers of others are used where they are installed, and skipped by name elsewhere:
-meshio (python3-meshio), CalculiX (calculix-ccx), OpenFOAM (openfoam).
+meshio (python3-meshio), CalculiX (calculix-ccx). OpenFOAM is in openfoam_files.py.
 """
-import gzip
 import os
 import re
 import shutil
-import struct
 import subprocess
 import tempfile
 import unittest
@@ -19,7 +17,6 @@ from pathlib import Path
 
 import gmsh_models
 import solver_models as models
-from legacy_files import points_of, types_of
 
 try:
     import meshio
@@ -272,6 +269,10 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
             ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
             ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
+            # Shells alone may be a target, so that they are read, and refused as a mesh.
+            ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
+            ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
+             "m.inp: None of .* is a volume cell"),
             ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
             ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
             ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),
@@ -403,171 +404,6 @@ class NastranIncludes(SolverFiles):
 
 
 forget_tests_of_superclass(NastranIncludes)
-
-
-class OpenFoam(SolverFiles):
-    MOVE = ("--move", "wall", "--translate", "0.05,0.02,-0.03")
-
-    def case(self, name="case", seed=SEED, **options):
-        model, rng = models.random_model(f"foam {seed}", **options)
-        return models.OpenFoam(model, rng), self.folder / name
-
-    def exact(self, case):
-        """The morphed coordinates of each point."""
-        vtu = self.folder / "exact.vtk"
-        self.morph(case, vtu, *self.MOVE)
-        return points_of(vtu)
-
-    def test_text_keeps_all_but_coordinates(self):
-        for seed in range(SEED, SEED + CASES):
-            with self.subTest(seed=seed):
-                foam, case = self.case(f"case{seed}", seed,
-                                       kind=("mixed", "tetrahedra", "hexahedra")[seed % 3])
-                mesh = foam.write(case)
-                exact = self.exact(case)
-                others = {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"}
-                old = models.coordinates_in(foam.pieces, (mesh / "points").read_bytes())
-                out = case / "0.5" / "polyMesh" / "points"  # of a new time
-                self.morph(case, out, *self.MOVE)
-                found = models.coordinates_in(foam.pieces, out.read_bytes())
-                values = [models.value(found[n, a]) for n in foam.model.order for a in range(3)]
-                self.assertEqual(tuple(values), exact)
-                self.assertNotEqual(old, found)
-                self.morph(mesh / "points", mesh, *self.MOVE)  # in place, by other names
-                self.assertEqual((mesh / "points").read_bytes(), out.read_bytes())
-                self.assertEqual(others,
-                                 {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"})
-                # The time's points are read with the faces of constant/polyMesh.
-                listed = run("--list-surfaces", out).stdout
-                self.assertEqual(listed, run("--list-surfaces", mesh).stdout)
-                self.assertRegex(listed, f"wall +{len(foam.model.wall)} ")
-
-    def test_binary_files_keep_all_but_coordinates(self):
-        for label, scalar in ((4, 8), (8, 8), (4, 4)):
-            with self.subTest(label=label, scalar=scalar):
-                foam, case = self.case(f"binary{label}{scalar}")
-                mesh, before, after = foam.write_binary(case, label, scalar)
-                exact = self.exact(case)
-                out = self.folder / "points"
-                printed = self.morph(case, out, *self.MOVE)
-                content = out.read_bytes()
-                self.assertTrue(content.startswith(before) and content.endswith(after))
-                numbers = content[len(before):-len(after)]
-                code = "d" if scalar == 8 else "f"
-                values = struct.unpack(f"<{len(numbers) // scalar}{code}", numbers)
-                error = max(abs(a - b) for a, b in zip(values, exact))
-                if scalar == 8:
-                    self.assertEqual(values, exact)
-                    self.assertNotIn("rounding", printed)
-                else:
-                    self.assertLess(error, 1e-6)
-                    rounding = float(re.search("rounding of a coordinate: (.*)", printed)[1])
-                    self.assertAlmostEqual(rounding / error, 1, delta=1e-3)
-                out.unlink()
-
-    def test_packed_files_and_regions(self):
-        foam, case = self.case()
-        region = case / "constant" / "fluid"
-        mesh = foam.write(case).rename(region.parent / "polyMesh2")
-        region.mkdir()
-        mesh = mesh.rename(region / "polyMesh")
-        for name in ("points", "faces", "owner"):
-            (mesh / (name + ".gz")).write_bytes(gzip.compress((mesh / name).read_bytes()))
-            (mesh / name).unlink()
-        out = case / "0.1" / "fluid" / "polyMesh" / "points.gz"
-        self.morph(region, out, *self.MOVE)
-        models.coordinates_in(foam.pieces, gzip.decompress(out.read_bytes()))
-        plain = self.folder / "points"
-        self.morph(mesh / "points.gz", plain, *self.MOVE)
-        self.assertEqual(plain.read_bytes(), gzip.decompress(out.read_bytes()))
-        self.assertEqual(run("--list-surfaces", out).returncode, 0)
-        (mesh / "points.gz").write_bytes(b"\x1f\x8b damaged")
-        self.refuse("points.gz: it is damaged", "--list-surfaces", mesh)
-
-    def test_what_is_refused(self):
-        foam, case = self.case()
-        mesh = foam.write(case)
-        whole = {p.name: p.read_text() for p in mesh.iterdir()}
-        move = (*self.MOVE, case)
-        self.refuse("called points or points.gz", *move, self.folder / "out.foam2")
-        self.refuse("lies beside it", *move, mesh / "points.gz")
-        self.refuse("there is no mesh of OpenFOAM in it", *move, self.folder)
-        cases = (
-            ("points", lambda s: s.replace("(\n(", "(\n(nan ", 1), "point 0 .*'nan"),
-            ("points", lambda s: s[:-400], "it ends too soon|is no number|missing"),
-            ("points", lambda s: re.sub(r"\n(\d+)\n\(", r"\n99999\n(", s, 1), "is too short"),
-            ("points", lambda s: s.replace("FoamFile", "File"), "no header FoamFile"),
-            ("owner", lambda s: s.replace("\n0\n", "\n-7\n", 1), "cell -7"),
-            ("owner", lambda s: s.replace("\n0\n", "\n99999999\n", 1), "cell 99999999"),
-            ("faces", lambda s: re.sub(r"4\((\d+)", "4(9999", s, 1), "the point 9999"),
-            ("boundary", lambda s: s.replace("startFace ", "startFace 9", 1), "patch wall"),
-            ("neighbour", lambda s: s.replace("\n(\n", "\n(\nx", 1), "whole number is missing"))
-        for name, damage, message in cases:
-            with self.subTest(name=name, message=message):
-                (mesh / name).write_text(damage(whole[name]))
-                self.assertNotEqual((mesh / name).read_text(), whole[name])
-                self.refuse(message, "--list-surfaces", case)
-                (mesh / name).write_text(whole[name])
-
-    def test_polyhedra(self):
-        """Two hexahedra side by side, as one cell of ten faces."""
-        foam, case = self.case(kind="hexahedra")
-        mesh = foam.write(case)
-        inner = len(foam.neighbour)
-        first, second = foam.owner[0], foam.neighbour[0]
-
-        def joined(cell):
-            return first if cell == second else cell - (cell > second)
-
-        foam.owner = [joined(cell) for cell in foam.owner[1:]]
-        foam.neighbour = [joined(cell) for cell in foam.neighbour[1:]]
-        foam.faces = foam.faces[1:]
-        foam.boundary = re.sub(r"startFace (\d+)",
-                               lambda m: f"startFace {int(m[1]) - 1}", foam.boundary)
-        self.assertEqual(len(foam.neighbour), inner - 1)
-        shutil.rmtree(case)
-        mesh = foam.write(case)
-        others = {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"}
-        grid = self.folder / "grid.vtk"
-        self.morph(case, grid, *self.MOVE)
-        self.assertIn(42, types_of(grid))
-        exact = self.exact(case)
-        self.morph(case, mesh, *self.MOVE)
-        found = models.coordinates_in(foam.pieces, (mesh / "points").read_bytes())
-        values = [models.value(found[n, a]) for n in foam.model.order for a in range(3)]
-        self.assertEqual(tuple(values), exact)
-        self.assertEqual(others,
-                         {p: p.read_bytes() for p in mesh.iterdir() if p.name != "points"})
-
-    @unittest.skipUnless(shutil.which("checkMesh"), "OpenFOAM is not installed (openfoam)")
-    def test_check_mesh_passes_what_it_passed(self):
-        foam, case = self.case(kind="mixed", sizes=(4, 5, 6))
-        mesh = foam.write(case)
-        (case / "system").mkdir()
-        for name, entries in (
-                ("controlDict", "application x; startFrom startTime; startTime 0; stopAt endTime; "
-                                "endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;"),
-                ("fvSchemes", "ddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{} "
-                              "interpolationSchemes{} snGradSchemes{}"), ("fvSolution", "")):
-            (case / "system" / name).write_text(models.foam_header("dictionary", name) + entries)
-        self.assertEqual(self.failed_checks(case), 0)
-        for _ in range(2):
-            self.morph(case, mesh, "--move", "wall", "--translate", "0.05,0.02,-0.03",
-                       "--validity", "Refuse")
-            self.assertEqual(self.failed_checks(case), 0)
-
-    def failed_checks(self, case):
-        environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}  # where Debian has it
-        result = subprocess.run(["checkMesh", "-case", case], capture_output=True, text=True,
-                                timeout=120, env=environment)
-        self.assertIn("Checking geometry", result.stdout, result.stdout + result.stderr)
-        match = re.search(r"Failed (\d+) mesh checks", result.stdout)
-        if not match:
-            self.assertIn("Mesh OK", result.stdout)
-        return int(match[1]) if match else 0
-
-
-forget_tests_of_superclass(OpenFoam)
 
 
 @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (calculix-ccx)")

@@ -279,10 +279,12 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
         const Shape shape = cellShape(rest.types[c])->shape;
         const double sign = orientation[c];
         CellCorners x;
-        if (valid[c])
+        const CellCorners at = cornersOf(rest, c, guide);
+        // Ideal targets take nothing from the undeformed cell.
+        if (valid[c] ||
+            (target == TargetConstruction::IdealSkew && (lengths(shape, at).array() > 0).all()))
         {
-          x = targetOf(
-            shape, cornersOf(rest, c, rest.points), cornersOf(rest, c, guide), sign, target);
+          x = targetOf(shape, cornersOf(rest, c, rest.points), at, sign, target);
         }
         else
         {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexLinear.h"
 
+#include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
 #include "LinearMethods/BridgingTetrahedra.h"
 #include "Support/Error.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
-#include <sstream>
+#include <numeric>
+#include <utility>
 
 namespace morph
 {
@@ -22,49 +24,75 @@ std::vector<int> distinct(std::vector<int> values)
   return values;
 }
 
-/// Warns of extrapolated nodes with large weights: a tetrahedron's weights are unbounded outside
-/// the hull.
-void warnOfLargeWeights(
-  const PointLocation& enclosing, const std::vector<Index>& ids, Monitor& monitor)
+/// A tetrahedron's weights are unbounded outside the hull. Beyond this, the affine fit of the
+/// nearest sites replaces them.
+constexpr double MostWeight = 10;
+
+/// Returns the rows with a larger weight, ascending.
+std::vector<Index> farRows(const PointLocation& enclosing)
 {
-  constexpr double Large = 10;
-  double largest = 0;
-  std::vector<Index> nodes;
+  std::vector<Index> rows;
   for (Index row = 0; row < enclosing.barycentric.rows(); ++row)
   {
-    const double weight = enclosing.barycentric.row(row).cwiseAbs().maxCoeff();
-    largest = std::max(largest, weight);
-    if (weight > Large)
+    if (enclosing.barycentric.row(row).cwiseAbs().maxCoeff() > MostWeight)
     {
-      nodes.push_back(ids[row]);
+      rows.push_back(row);
     }
   }
+  return rows;
+}
+
+void warnOfFarNodes(const std::vector<Index>& rows, const std::vector<Index>& ids, Monitor& monitor)
+{
+  std::vector<Index> nodes(rows.size());
+  std::transform(rows.begin(), rows.end(), nodes.begin(), [&](Index row) { return ids[row]; });
   if (!nodes.empty())
   {
-    std::ostringstream text;
-    text.precision(3);
-    text << "Free nodes far outside the convex hull of the prescribed nodes take " << largest
-         << " times the motion of some of these at worst: node ids " << listIds(nodes)
-         << ". Prescribe nodes around them, or choose FEMWARP.";
-    monitor.warn(text.str());
+    monitor.warn("Free nodes far outside the convex hull of the prescribed nodes follow the affine "
+                 "fit to the motion of the nearest ones: node ids " +
+                 listIds(nodes) + ". Prescribe nodes around them, or choose FEMWARP.");
   }
 }
 
-void fillWeights(
-  const Delaunay& delaunay, const PointLocation& enclosing, WeightMatrix& weights, Monitor& monitor)
+/// `far`: rows, ascending, that take the weights `affine` instead of their tetrahedron's.
+void fillWeights(const Delaunay& delaunay, const PointLocation& enclosing,
+  const std::vector<Index>& far, const std::vector<AffineRow>& affine, WeightMatrix& weights,
+  Monitor& monitor)
 {
   const Index rows = static_cast<Index>(enclosing.tetrahedron.size());
-  weights.open(rows, delaunay.sites().rows(), 4);
+  if (far.empty())
+  {
+    weights.open(rows, delaunay.sites().rows(), 4);
+  }
+  else
+  {
+    std::vector<Index> offsets(rows + 1, 4);
+    offsets[0] = 0;
+    for (std::size_t i = 0; i < far.size(); ++i)
+    {
+      offsets[far[i] + 1] = static_cast<Index>(affine[i].sites.size());
+    }
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    weights.open(delaunay.sites().rows(), std::move(offsets));
+  }
   monitor.parallelFor(rows, Grain,
     [&](Index first, Index last)
     {
       for (Index row = first; row < last; ++row)
       {
         const auto& sites = delaunay.tetrahedra()[enclosing.tetrahedron[row]].sites;
-        std::copy(sites.begin(), sites.end(), weights.column(row));
-        std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
+        if (enclosing.barycentric.row(row).cwiseAbs().maxCoeff() <= MostWeight)
+        {
+          std::copy(sites.begin(), sites.end(), weights.column(row));
+          std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
+        }
       }
     });
+  for (std::size_t i = 0; i < far.size(); ++i)
+  {
+    std::copy(affine[i].sites.begin(), affine[i].sites.end(), weights.column(far[i]));
+    std::copy(affine[i].weights.begin(), affine[i].weights.end(), weights.weight(far[i]));
+  }
 }
 }
 
@@ -77,9 +105,26 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
   const PointLocation enclosing =
     locatePoints(this->delaunay_, rest.points, this->partition().free, monitor);
   monitor.progress(0.8);
-  warnOfLargeWeights(enclosing, this->partition().free, monitor);
-  fillWeights(this->delaunay_, enclosing, this->weights_, monitor);
-  this->used_ = distinct(enclosing.tetrahedron);
+  const std::vector<Index>& free = this->partition().free;
+  const std::vector<Index> far = farRows(enclosing);
+  warnOfFarNodes(far, free, monitor);
+  Points places(static_cast<Index>(far.size()), 3);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    places.row(i) = rest.points.row(free[far[i]]) - this->delaunay_.origin();
+  }
+  fillWeights(this->delaunay_, enclosing, far,
+    far.empty() ? std::vector<AffineRow>()
+                : affineWeights(this->delaunay_.sites(), places, MostWeight, monitor),
+    this->weights_, monitor);
+  std::vector<int> inside = enclosing.tetrahedron;
+  for (const Index row : far)
+  {
+    inside[row] = Delaunay::Outside;
+  }
+  inside.erase(std::remove(inside.begin(), inside.end(), Delaunay::Outside), inside.end());
+  this->used_ = distinct(std::move(inside));
+  this->affine_ = static_cast<Index>(far.size());
   this->extrapolated_ = static_cast<Index>(enclosing.extrapolated.size());
   this->bridging_ = static_cast<Index>(bridgingTetrahedra(
     rest, this->partition().prescribed, this->sites_, this->delaunay_, this->used_, monitor)
@@ -104,7 +149,7 @@ EvaluateReport SimplexLinear::displace(
   report.bytesMoved =
     static_cast<double>(this->weights_.memory()) + 48. * static_cast<double>(free.rows());
   report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
-    { "ExtrapolatedNodes", this->extrapolated_ } };
+    { "ExtrapolatedNodes", this->extrapolated_ }, { "AffineNodes", this->affine_ } };
   return report;
 }
 

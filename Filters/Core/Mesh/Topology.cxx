@@ -3,8 +3,10 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
+#include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
-#include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/ShapeVolumes.h"
+#include "Mesh/ShapeWindings.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -210,14 +212,11 @@ void addPolyhedronFace(const Mesh& mesh, const Place& place, BoundaryFaces& resu
       }
     });
 }
-}
 
-BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
+/// Describes the faces at these places.
+BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
 {
   const Index nodes = mesh.numberOfNodes();
-  const std::vector<Place> faces =
-    hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
-
   BoundaryFaces result;
   std::vector<std::uint8_t> onBoundary(
     nodes, 0);                               // 1: as a corner, 2: in the middle of an edge or face
@@ -303,6 +302,27 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   }
   return result;
 }
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
+{
+  return describeFaces(
+    mesh, hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor));
+}
+
+BoundaryFaces facesOfCells(
+  const Mesh& mesh, const BoundaryFaces& faces, const std::vector<std::uint8_t>& isOf)
+{
+  std::vector<Place> places;
+  for (std::size_t face = 0; face < faces.cells.size(); ++face)
+  {
+    if (isOf[faces.cells[face]] != 0)
+    {
+      places.push_back({ faces.cells[face], faces.sides[face] });
+    }
+  }
+  return describeFaces(mesh, places);
+}
 
 ConnectedComponents connectedComponents(const Mesh& mesh)
 {
@@ -346,46 +366,8 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
 
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies)
 {
-  const Index cells = mesh.numberOfCells();
-  constexpr int Shapes = static_cast<int>(Shape::Polyhedron) + 1;
-  struct Sum
-  {
-    double volume = 0;
-    Index cells = 0;
-  };
-  std::vector<Sum> sums(bodies.count * Shapes);
-  const auto slot = [&](Index c, Shape shape) -> Sum&
-  { return sums[bodies.ofCell[c] * Shapes + static_cast<int>(shape)]; };
-  for (Index c = 0; c < cells; ++c)
-  {
-    if (const CellShape* shape = volumeShape(mesh, c))
-    {
-      Sum& sum = slot(c, shape->shape);
-      if (isPolyhedron(mesh, c))
-      {
-        sum.volume += polyhedronVolume(mesh, c, mesh.points);
-      }
-      else
-      {
-        double corners[8][3];
-        copyCorners(mesh, c, *shape, mesh.points, corners[0]);
-        sum.volume += signedVolume(shape->shape, corners);
-      }
-      ++sum.cells;
-    }
-  }
-  std::vector<std::int8_t> result(cells, 1);
-  for (Index c = 0; c < cells; ++c)
-  {
-    if (const CellShape* shape = volumeShape(mesh, c))
-    {
-      const Sum& sum = slot(c, shape->shape);
-      if (sum.volume < 0 && (sum.cells > 1 || shape->shape == Shape::Wedge))
-      {
-        result[c] = -1;
-      }
-    }
-  }
+  std::vector<std::int8_t> result = cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}));
+  alignShapeSigns(mesh, bodies, result);
   return result;
 }
 }

@@ -31,7 +31,7 @@ MovableQuality::MovableQuality(
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape& shape = *cellShape(mesh.types[c]);
-    if (shape.dimension != 3)
+    if (shape.dimension != 3 || shape.numberOfCorners == 0)
     {
       this->skip_[c] = 1;
       continue;

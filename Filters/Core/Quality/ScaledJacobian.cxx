@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Quality/CornerNodes.h"
+#include "Quality/PartialQuality.h"
 #include "Quality/PolyhedronQuality.h"
 #include "Quality/QuadraticJacobian.h"
 
@@ -229,28 +230,43 @@ double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh
                                                 : ofCorners;
 }
 
+/// The highest dimension of the mesh's cells.
+int dimensionOf(const Mesh& mesh)
+{
+  bool has[256] = {};
+  for (const std::uint8_t type : mesh.types)
+  {
+    has[type] = true;
+  }
+  int dimension = 0;
+  for (int type = 0; type < 256; ++type)
+  {
+    const CellShape* shape = has[type] ? cellShape(static_cast<std::uint8_t>(type)) : nullptr;
+    dimension = std::max(dimension, shape ? shape->dimension : 0);
+  }
+  return dimension;
+}
+
+/// `chosen`: the cells to measure, ascending; null for all.
 Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
-  bool cornersOnly, Monitor& monitor)
+  const std::vector<Index>* chosen, bool cornersOnly, Monitor& monitor)
 {
   monitor.check();
   const Index cells = mesh.numberOfCells();
-  int dimension = 0;
-  for (const std::uint8_t type : mesh.types)
-  {
-    const CellShape* shape = cellShape(type);
-    dimension = std::max(dimension, shape ? shape->dimension : 0);
-  }
+  const Index count = chosen ? static_cast<Index>(chosen->size()) : cells;
+  const int dimension = dimensionOf(mesh);
 
   Quality quality;
   quality.scaledJacobian.assign(cells, NotMeasured);
   std::vector<std::uint8_t> isCollapsed(cells, 0);
-  monitor.parallelFor(cells, 4096,
+  monitor.parallelFor(count, 4096,
     [&](Index first, Index last)
     {
       PolyhedronMeasure polyhedra;
-      for (Index c = first; c < last; ++c)
+      for (Index i = first; i < last; ++i)
       {
+        const Index c = chosen ? (*chosen)[i] : i;
         const CellShape* shape = cellShape(mesh.types[c]);
         if (!shape || shape->shape == Shape::Other || shape->dimension != dimension ||
             (!skip.empty() && skip[c]))
@@ -285,8 +301,9 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   monitor.check();
 
   double sum = 0;
-  for (Index c = 0; c < cells; ++c)
+  for (Index i = 0; i < count; ++i)
   {
+    const Index c = chosen ? (*chosen)[i] : i;
     const double value = quality.scaledJacobian[c];
     if (std::isnan(value))
     {
@@ -498,14 +515,21 @@ Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor)
 {
-  return measureCells(mesh, points, orientation, skip, false, monitor);
+  return measureCells(mesh, points, orientation, skip, nullptr, false, monitor);
+}
+
+Quality measureQualityOf(const Mesh& mesh, const ConstPoints& points,
+  const std::vector<std::int8_t>& orientation, const std::vector<Index>& cells,
+  const std::vector<std::uint8_t>& skip, Monitor& monitor)
+{
+  return measureCells(mesh, points, orientation, skip, &cells, false, monitor);
 }
 
 Quality measureCorners(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor)
 {
-  return measureCells(mesh, points, orientation, skip, true, monitor);
+  return measureCells(mesh, points, orientation, skip, nullptr, true, monitor);
 }
 
 std::vector<Index> invertedCells(const Quality& quality)

@@ -124,11 +124,10 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
 }
 
 CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
-  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
-  Monitor& monitor)
+  const std::vector<std::uint8_t>& near, const std::vector<int>& group, Monitor& monitor)
 {
   const float omega = 4.f / 3.f / eigenvalue;
-  return assembleRows<float>(A.rows, groups, monitor,
+  return assembleRows<float>(A.rows, monitor,
     [&](int i, const auto& add)
     {
       float diagonal = 0, own = 0;

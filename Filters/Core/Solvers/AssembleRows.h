@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
+#include "Solvers/LocalColumnMap.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -14,12 +15,11 @@ namespace morph
 {
 /// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
 /// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
-/// have the order of their first call. Cost: each of at most 128 ranges of chunks takes one int a
-/// column.
+/// have the order of their first call. Cost: no memory beside the chunks' rows.
 template <typename Scalar, typename MakeRow>
-CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
+CsrRows<Scalar> assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
 {
-  constexpr Index Grain = 4096, MostRanges = 128;
+  constexpr Index Grain = 4096;
   struct Chunk
   {
     std::vector<int> size, column;
@@ -27,12 +27,11 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
   };
   const Index chunks = (rows + Grain - 1) / Grain;
   std::vector<Chunk> parts(chunks);
-  monitor.parallelFor(chunks, 1 + chunks / MostRanges,
+  monitor.parallelFor(chunks, 1,
     [&](Index firstChunk, Index lastChunk)
     {
-      // The index of each column in the row, valid if the entry there has this column.
-      std::vector<int> index(columns, 0);
-      Chunk scratch; // keeps its capacity between chunks
+      LocalColumnMap local; // of the columns in a row
+      Chunk scratch;        // keeps its capacity between chunks
       for (Index c = firstChunk; c < lastChunk; ++c)
       {
         scratch.size.clear();
@@ -42,16 +41,16 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
         for (int i = static_cast<int>(c * Grain); i < last; ++i)
         {
           const std::size_t start = scratch.column.size();
+          local.clear();
           makeRow(i,
             [&](int column, Scalar value)
             {
-              const std::size_t at = start + index[column];
-              if (at < scratch.column.size() && scratch.column[at] == column)
+              const std::size_t at = start + local.localIndex(column);
+              if (at < scratch.column.size())
               {
                 scratch.value[at] += value;
                 return;
               }
-              index[column] = static_cast<int>(scratch.column.size() - start);
               scratch.column.push_back(column);
               scratch.value.push_back(value);
             });

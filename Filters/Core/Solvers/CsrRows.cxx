@@ -10,10 +10,9 @@ namespace morph
 namespace
 {
 template <typename ScalarA, typename ScalarB>
-CsrRows<double> multiply(
-  const CsrRows<ScalarA>& A, const CsrRows<ScalarB>& B, int columns, Monitor& monitor)
+CsrRows<double> multiply(const CsrRows<ScalarA>& A, const CsrRows<ScalarB>& B, Monitor& monitor)
 {
-  return assembleRows<double>(A.rows, columns, monitor,
+  return assembleRows<double>(A.rows, monitor,
     [&](int i, const auto& add)
     {
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
@@ -55,15 +54,13 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns)
   return result;
 }
 
-CsrRows<double> product(
-  const CsrRows<double>& A, const CsrRows<float>& B, int columns, Monitor& monitor)
+CsrRows<double> product(const CsrRows<double>& A, const CsrRows<float>& B, Monitor& monitor)
 {
-  return multiply(A, B, columns, monitor);
+  return multiply(A, B, monitor);
 }
 
-CsrRows<double> product(
-  const CsrRows<float>& A, const CsrRows<double>& B, int columns, Monitor& monitor)
+CsrRows<double> product(const CsrRows<float>& A, const CsrRows<double>& B, Monitor& monitor)
 {
-  return multiply(A, B, columns, monitor);
+  return multiply(A, B, monitor);
 }
 }

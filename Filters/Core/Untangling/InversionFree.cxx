@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/InversionFree.h"
 
+#include "LinearMethods/GraphLaplace.h"
+#include "Mesh/CellEdges.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/MinQualityAscent.h"
 #include "Untangling/Untangling.h"
 
@@ -28,21 +31,12 @@ double meanEdge(const Mesh& mesh)
 {
   double sum = 0;
   Index count = 0;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    for (int f = 0; f < shape.numberOfFaces; ++f)
+  forCellEdges(mesh,
+    [&](Index a, Index b)
     {
-      const FaceShape& face = shape.faces[f];
-      for (int k = 0; k < face.size; ++k)
-      {
-        const Index a = mesh.cell(c)[shape.cornerNode[face.corner[k]]];
-        const Index b = mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]];
-        sum += (mesh.points.row(a) - mesh.points.row(b)).norm();
-        ++count;
-      }
-    }
-  }
+      sum += (mesh.points.row(a) - mesh.points.row(b)).norm();
+      ++count;
+    });
   return sum > 0 ? sum / static_cast<double>(count) : 1;
 }
 }
@@ -71,7 +65,14 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
   monitor.check();
-  this->femWarp_.prepare(rest, this->partition(), second);
+  const Points atRest = rest.points * this->scale_;
+  MeshEnergy energy(this->referenceMesh_, this->partition().free);
+  energy.setTargets(targetMatrices(this->referenceMesh_, this->orientation_, atRest,
+    TargetConstruction::Initial, CellWeights::Volume, monitor));
+  this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
+  this->minimumAtRest_ =
+    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
+  this->prepareFemWarp(rest, second);
   try
   {
     this->hasSimplexLinear_ = false;
@@ -89,14 +90,25 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   {
     this->method_->prepare(rest, this->partition(), last);
   }
-  monitor.check();
-  const Points atRest = rest.points * this->scale_;
-  MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(targetMatrices(this->referenceMesh_, this->orientation_, atRest,
-    TargetConstruction::Initial, CellWeights::Volume, monitor));
-  this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
-  this->minimumAtRest_ =
-    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
+}
+
+void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
+{
+  this->hasFemWarp_ = true;
+  try
+  {
+    this->femWarp_.prepare(rest, this->partition(), monitor);
+  }
+  catch (const Error& error)
+  {
+    // Where all cells around a node are flat, the graph-Laplace mesh replaces FEMWARP's.
+    if (error.kind() != Error::Kind::Singular || this->validAtRest_)
+    {
+      throw;
+    }
+    requirePrescribedBodies(rest, connectedComponents(rest), this->partition());
+    this->hasFemWarp_ = false;
+  }
 }
 
 Points InversionFree::moved(
@@ -129,10 +141,28 @@ Points InversionFree::betterGuess(
   return warped;
 }
 
-TargetMatrices InversionFree::targets(const Points& guide, bool isTangled, Monitor& monitor) const
+void InversionFree::startFromGraph(
+  Points& points, Points& alternative, TargetConstruction& target, Monitor& monitor) const
 {
-  const bool equal = isTangled && this->target_ != TargetConstruction::Initial;
-  return targetMatrices(this->referenceMesh_, this->orientation_, guide, this->target_,
+  const MovableQuality quality = this->movableQuality();
+  const Points graph = graphLaplaceMesh(this->referenceMesh_, this->partition(), points, monitor);
+  const MovableQuality::Result drawn = quality.measure(graph, monitor);
+  if (drawn.inverted < quality.measure(points, monitor).inverted)
+  {
+    points = graph;
+    target =
+      this->target_ == TargetConstruction::Initial ? this->target_ : TargetConstruction::IdealSkew;
+    if (quality.measure(alternative, monitor) < drawn)
+    {
+      alternative = graph;
+    }
+  }
+}
+
+TargetMatrices InversionFree::targets(const Aim& aim, bool isTangled, Monitor& monitor) const
+{
+  const bool equal = isTangled && aim.target != TargetConstruction::Initial;
+  return targetMatrices(this->referenceMesh_, this->orientation_, aim.guide, aim.target,
     equal ? CellWeights::Equal : CellWeights::Volume, monitor);
 }
 
@@ -146,12 +176,12 @@ double InversionFree::goal(const MovableQuality& quality, const Points& points) 
 }
 
 bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, double best,
-  const Points& guide, Points& points, Outcome& outcome, Monitor& monitor) const
+  const Aim& aim, Points& points, Outcome& outcome, Monitor& monitor) const
 {
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
   const bool isTangled = best <= 0;
-  const TargetMatrices targets = this->targets(guide, isTangled, monitor);
+  const TargetMatrices targets = this->targets(aim, isTangled, monitor);
   monitor.check();
   ProgressRange untangle(monitor, 0.1, 0.7);
   const Untangling::Result untangling = Untangling(
@@ -164,8 +194,7 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
     for (int refresh = 0;
          refresh < this->refreshes_ && this->target_ == TargetConstruction::Stretched; ++refresh)
     {
-      const Points ownGuide = points;
-      energy.setTargets(this->targets(ownGuide, isTangled, monitor));
+      energy.setTargets(this->targets({ points, aim.target }, isTangled, monitor));
       stages.improve(points, RefreshSteps, monitor);
     }
     monitor.progress(0.8);
@@ -181,19 +210,19 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
 }
 
 bool InversionFree::untangleNear(
-  const Points& guide, Points& points, MinimizerEffort& effort, Monitor& monitor) const
+  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const
 {
   MeshEnergy nothing(this->referenceMesh_, {});
   FoldoverContinuation stages(nothing, this->minimizer_);
   const bool done = Untangling(
     this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                      .runNear(this->targets(guide, true, monitor), stages, points, monitor);
+                      .runNear(this->targets(aim, true, monitor), stages, points, monitor);
   effort = stages.effort();
   return done;
 }
 
-InversionFree::Outcome InversionFree::improve(Points& points, const Points& guide,
-  const Points& alternative, double enough, Monitor& monitor) const
+InversionFree::Outcome InversionFree::improve(
+  Points& points, const Aim& aim, const Points& alternative, double enough, Monitor& monitor) const
 {
   monitor.check();
   const MovableQuality quality = this->movableQuality();
@@ -206,7 +235,7 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Points& guid
   {
     ProgressRange near(monitor, 0.1, 0.3);
     Points untangled = alternative;
-    if (this->untangleNear(guide, untangled, outcome.effort, near))
+    if (this->untangleNear(aim, untangled, outcome.effort, near))
     {
       best = quality.measure(untangled, monitor);
       bestPoints = std::move(untangled);
@@ -223,6 +252,10 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Points& guid
     }
     if (hasReached(best.minimum, goal) || best.minimum >= enough * this->minimumAtRest_)
     {
+      if (best.minimum < enough * this->minimumAtRest_)
+      {
+        raiseNextWorst(quality, bestPoints, monitor);
+      }
       points = std::move(bestPoints);
       return outcome;
     }
@@ -231,8 +264,8 @@ InversionFree::Outcome InversionFree::improve(Points& points, const Points& guid
       points = bestPoints;
     }
   }
-  outcome.untangled = this->minimizeEnergy(quality, goal, isValid ? best.minimum : 0, guide, points,
-                        outcome, monitor) ||
+  outcome.untangled = this->minimizeEnergy(
+                        quality, goal, isValid ? best.minimum : 0, aim, points, outcome, monitor) ||
                       isValid;
   if (quality.measure(points, monitor) < best)
   {
@@ -304,17 +337,27 @@ EvaluateReport InversionFree::displace(
 
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
-  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
+  Points alternative = points;
+  if (this->hasFemWarp_)
+  {
+    alternative = this->moved(this->femWarp_, boundary, guesses, first);
+  }
   if (this->start_ == Start::Method && this->method_)
   {
     points = this->moved(*this->method_, boundary, guesses, second);
   }
-  const Points alternative = this->betterGuess(warped, boundary, third);
+  alternative = this->betterGuess(alternative, boundary, third);
+  TargetConstruction target = this->target_;
   if (this->start_ == Start::FemWarp && this->validAtRest_)
   {
     points = alternative;
   }
-  const Outcome outcome = this->improve(points, alternative, alternative, Enough, monitor);
+  else if (!this->validAtRest_ && this->start_ != Start::Method)
+  {
+    this->startFromGraph(points, alternative, target, third);
+  }
+  const Outcome outcome =
+    this->improve(points, { alternative, target }, alternative, Enough, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];
@@ -341,11 +384,12 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   }
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.1);
-  const Points warped = this->moved(this->femWarp_, boundary, guesses, first);
   const Points before = moved * this->scale_;
+  const Points guide =
+    this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : before;
   Points points = before;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
-  const Outcome outcome = this->improve(points, warped, before, 0, monitor);
+  const Outcome outcome = this->improve(points, { guide, this->target_ }, before, 0, monitor);
   const std::vector<Index> determined =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
@@ -364,6 +408,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
+  untangleHigherOrder(this->referenceMesh_, partition, this->orientation_, moved, monitor);
   monitor.progress(1);
   return this->report(outcome, determined, monitor);
 }

@@ -76,7 +76,8 @@ public:
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
   /// prescribed nodes in place. Where its inverted cells can be untangled by the nodes near them,
   /// and the minimum raised near the worst cells, no other node moves. A valid mesh whose minimum
-  /// scaled Jacobian is higher than the repaired one's stays.
+  /// scaled Jacobian is higher than the repaired one's stays. Quadratic cells that are inverted
+  /// between their corners are untangled last (HigherOrderUntangling.h).
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:
@@ -91,17 +92,28 @@ private:
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
-  /// Improves `points` in coordinates times scale_. `guide`: see TargetMatrices; `alternative`: a
-  /// mesh that the result must not be worse than; `enough`: the part of the undeformed mesh's
-  /// minimum with which a valid mesh is the result, without the energy of the whole mesh.
-  Outcome improve(Points& points, const Points& guide, const Points& alternative, double enough,
+  /// What the cells' targets are made from, see targetMatrices().
+  struct Aim
+  {
+    const Points& guide;
+    TargetConstruction target;
+  };
+  void prepareFemWarp(const Mesh& rest, Monitor& monitor);
+  /// Replaces the start `points` by the graph-Laplace mesh if that has fewer inverted cells. Then
+  /// the undeformed shapes are worth nothing, and `target` becomes IdealSkew instead of Stretched.
+  void startFromGraph(
+    Points& points, Points& alternative, TargetConstruction& target, Monitor& monitor) const;
+  /// Improves `points` in coordinates times scale_. `alternative`: a mesh that the result must not
+  /// be worse than; `enough`: the part of the undeformed mesh's minimum with which a valid mesh is
+  /// the result, without the energy of the whole mesh.
+  Outcome improve(Points& points, const Aim& aim, const Points& alternative, double enough,
     Monitor& monitor) const;
   /// Returns FEMWARP's mesh `warped`, or simplex-linear's if that is better.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
   MovableQuality movableQuality() const;
   /// The targets of all cells. `isTangled`: of the mesh that is minimised. All cells then count
   /// alike, so that those of a boundary layer are untangled, too; never for Initial.
-  TargetMatrices targets(const Points& guide, bool isTangled, Monitor& monitor) const;
+  TargetMatrices targets(const Aim& aim, bool isTangled, Monitor& monitor) const;
   /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
   /// holds that of the whole mesh there; infinite where it does not.
   double goal(const MovableQuality& quality, const Points& points) const;
@@ -111,10 +123,10 @@ private:
   }
   /// Untangles `points` near its inverted cells alone. Returns whether the mesh is valid.
   bool untangleNear(
-    const Points& guide, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
+    const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
   /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
   /// minimum of the best mesh so far, 0 without a valid one.
-  bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Points& guide,
+  bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Aim& aim,
     Points& points, Outcome& outcome, Monitor& monitor) const;
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(
@@ -137,6 +149,7 @@ private:
   bool validAtRest_ = true;
   double minimumAtRest_ = 0; ///< of the scaled Jacobian
   FemWarp femWarp_;
+  bool hasFemWarp_ = false; ///< a tangled mesh may leave a node without a cell that has volume
   SimplexLinear simplexLinear_;
   bool hasSimplexLinear_ = false; ///< a flat boundary has no tessellation, for instance
   std::unique_ptr<Morpher> method_;

@@ -2,6 +2,7 @@
 #include "Untangling/MinQualityAscent.h"
 
 #include "Energies/WorstCornerNorm.h"
+#include "Mesh/CellShape.h"
 #include "Mesh/KRing.h"
 #include "Optimization/Minimizers.h"
 
@@ -42,6 +43,26 @@ std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& qu
     }
   }
   return worst;
+}
+}
+
+namespace
+{
+constexpr int MostLevels = 2;
+constexpr double FewCells = 0.01; // of all: where more are at the minimum, it is no single place's
+
+/// Returns the cells at the minimum, within NearBound.
+std::vector<Index> atMinimum(const MovableQuality::Result& quality)
+{
+  std::vector<Index> cells;
+  for (std::size_t c = 0; c < quality.scaledJacobian.size(); ++c)
+  {
+    if (quality.scaledJacobian[c] * (1 - NearBound) <= quality.minimum)
+    {
+      cells.push_back(static_cast<Index>(c));
+    }
+  }
+  return cells;
 }
 }
 
@@ -98,6 +119,39 @@ int raiseMinimumQuality(
     {
       ++squarings;
     }
+  }
+  return kept;
+}
+
+int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& monitor)
+{
+  const Mesh& mesh = measured.mesh();
+  int kept = raiseMinimumQuality(measured, measured.bounds(points).movable, points, monitor);
+  std::vector<char> stays(mesh.numberOfNodes(), 0);
+  std::vector<Index> free = measured.free();
+  for (int level = 0; level < MostLevels && !free.empty(); ++level)
+  {
+    const MovableQuality rest(mesh, measured.orientation(), free);
+    const MovableQuality::Result quality = rest.measure(points, monitor);
+    if (!(quality.minimum > 0) || quality.minimum >= 1 - NearBound)
+    {
+      break;
+    }
+    const std::vector<Index> worst = atMinimum(quality);
+    if (static_cast<double>(worst.size()) > FewCells * static_cast<double>(mesh.numberOfCells()))
+    {
+      break;
+    }
+    for (const Index c : worst)
+    {
+      const Index* corners = mesh.cell(c);
+      const int count = cellShape(mesh.types[c])->numberOfCorners;
+      std::for_each(corners, corners + count, [&](Index node) { stays[node] = 1; });
+    }
+    free.erase(std::remove_if(free.begin(), free.end(), [&](Index node) { return stays[node]; }),
+      free.end());
+    const MovableQuality others(mesh, measured.orientation(), free);
+    kept += raiseMinimumQuality(others, others.bounds(points).movable, points, monitor);
   }
   return kept;
 }

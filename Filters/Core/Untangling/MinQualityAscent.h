@@ -24,4 +24,11 @@ bool hasReached(double minimum, double goal);
 /// a round, and the minimisation near the worst cells.
 int raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
+
+/// Raises the next-worst cells of a mesh whose minimum has reached a bound. First the minimum over
+/// what free nodes can change is raised as far as prescribed nodes allow. Then the nodes of the
+/// cells at the minimum stay, and the minimum over the others is raised, twice at most. That ends
+/// where more than 1 % of the cells are at the minimum. No minimum falls. Returns the number of
+/// rounds with a gain. Cost: as raiseMinimumQuality(), three times.
+int raiseNextWorst(const MovableQuality& quality, Points& points, Monitor& monitor);
 }

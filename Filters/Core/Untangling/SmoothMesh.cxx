@@ -3,6 +3,7 @@
 
 #include "Energies/MeshEnergy.h"
 #include "Energies/UntangleEnergy.h"
+#include "Mesh/CellEdges.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/KRing.h"
 #include "Mesh/SimplicialDecomposition.h"
@@ -41,31 +42,12 @@ double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, con
     });
 }
 
-/// Calls body(a, b) for the edges of each volume cell, once for each adjacent face.
-template <typename Body>
-void forEdges(const Mesh& mesh, const Body& body)
-{
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const CellShape& shape = *cellShape(mesh.types[c]);
-    for (int f = 0; f < shape.numberOfFaces; ++f)
-    {
-      const FaceShape& face = shape.faces[f];
-      for (int k = 0; k < face.size; ++k)
-      {
-        body(mesh.cell(c)[shape.cornerNode[face.corner[k]]],
-          mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]]);
-      }
-    }
-  }
-}
-
 /// Returns the mean edge length at each node; 0 if it has none.
 std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
 {
   std::vector<double> sum(mesh.numberOfNodes(), 0);
   std::vector<Index> count(mesh.numberOfNodes(), 0);
-  forEdges(mesh,
+  forCellEdges(mesh,
     [&](Index a, Index b)
     {
       const double length = (points.row(a) - points.row(b)).norm();

@@ -262,7 +262,9 @@ std::string openFoamTarget(const std::string& original, const std::string& out)
   std::error_code error;
   if (fs::is_directory(file, error) || extensionOf(out) == ".foam")
   {
-    const fs::path folder = pointsFolder(out);
+    // ParaView's marker of a case, which need not be there yet.
+    const bool isMarker = extensionOf(out) == ".foam";
+    const fs::path folder = pointsFolder(isMarker ? (file.parent_path() / ".").string() : out);
     if (folder.empty())
     {
       throw Error("Cannot write " + out +

@@ -260,6 +260,17 @@ bool IsModerate(const Eigen::RowVector3d& x)
 std::vector<Index> Immoderate(const morph::Points& x)
 {
   std::vector<Index> rows;
+  // Nearly always none: told without a branch for each value.
+  bool isModerate = true;
+  const double* values = x.data();
+  for (Index k = 0; k < x.size(); ++k)
+  {
+    isModerate &= std::abs(values[k]) <= Largest; // a NaN is not
+  }
+  if (isModerate)
+  {
+    return rows;
+  }
   for (Index i = 0; i < x.rows(); ++i)
   {
     if (!IsModerate(x.row(i)))

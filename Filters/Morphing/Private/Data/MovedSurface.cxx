@@ -9,6 +9,8 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -21,19 +23,38 @@
 
 namespace morph::filters
 {
-void MovedSurface::Make(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
+namespace
+{
+/// Copies the points `ids` where both arrays are of this class; returns whether they are.
+template <typename Array>
+bool gather(vtkDataArray* from, vtkIdTypeArray* ids, vtkDataArray* to)
+{
+  auto *source = Array::FastDownCast(from), *target = Array::FastDownCast(to);
+  if (!source || !target)
+  {
+    return false;
+  }
+  const auto* values = source->GetPointer(0);
+  auto* next = target->GetPointer(0);
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+  {
+    next = std::copy_n(values + 3 * ids->GetValue(i), 3, next);
+  }
+  return true;
+}
+}
+
+void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces, const std::vector<std::int8_t>* orientation)
 {
   vtkNew<vtkPolyData> surface;
-  Surface::Write(grid, mesh, faces, surface);
+  Surface::Write(grid, mesh, faces, surface, orientation);
   this->Polygons = surface->GetPolys();
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
-  this->Inner.assign(mesh.numberOfCells(), 1);
-  for (const morph::Index cell : faces.cells)
-  {
-    this->Inner[cell] = 0;
-  }
+  this->Outer = faces.cells;
+  std::sort(this->Outer.begin(), this->Outer.end());
+  this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
 }
 
 void MovedSurface::SetFeatureLines(
@@ -83,9 +104,13 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
   vtkNew<vtkPoints> points;
   points->SetDataType(moved->GetDataType());
   points->SetNumberOfPoints(count);
-  for (vtkIdType i = 0; i < count; ++i)
+  if (!gather<vtkDoubleArray>(moved->GetData(), this->Nodes, points->GetData()) &&
+      !gather<vtkFloatArray>(moved->GetData(), this->Nodes, points->GetData()))
   {
-    points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      points->SetPoint(i, moved->GetPoint(this->Nodes->GetValue(i)));
+    }
   }
   output->SetPoints(points);
   output->SetLines(this->Lines);
@@ -108,8 +133,7 @@ vtkIdType MovedSurface::Write(
       i, owner < 0 ? std::numeric_limits<double>::quiet_NaN() : quality.scaledJacobian[owner]);
   }
   output->GetCellData()->SetScalars(scaledJacobian);
-  const std::vector<morph::Index> bad = morph::invertedCells(quality);
-  return std::count_if(
-    bad.begin(), bad.end(), [this](morph::Index cell) { return this->Inner[cell] == 0; });
+  return std::count_if(this->Outer.begin(), this->Outer.end(),
+    [&quality](morph::Index cell) { return quality.scaledJacobian[cell] <= 0; });
 }
 }

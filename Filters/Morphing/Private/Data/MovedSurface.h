@@ -8,7 +8,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
-#include <cstdint>
 #include <vector>
 
 class vtkCellArray;
@@ -24,14 +23,16 @@ namespace morph::filters
 class MovedSurface
 {
 public:
-  /// Makes the polygons. `mesh`, `faces`: of `grid`. Cost: a pass over the faces.
-  void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
+  /// Makes the polygons. `mesh`, `faces`: of `grid`. `orientation`: see Surface::Write(). Cost: a
+  /// pass over the faces.
+  void Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces,
+    const std::vector<std::int8_t>* orientation = nullptr);
   /// Adds lines along the edges at which the undeformed faces turn by more than 25 degrees, or not
   /// exactly two faces meet; or takes them away. `mesh`, `faces`: those of Make(). Cost: where they
   /// were not there, a sort of the faces' edges.
   void SetFeatureLines(bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
-  /// #cells: 0 for the cells behind the faces, 1 for all others.
-  const std::vector<std::uint8_t>& InnerCells() const { return this->Inner; }
+  /// The cells behind the faces, ascending.
+  const std::vector<morph::Index>& OuterCells() const { return this->Outer; }
 
   /// Fills `output`: the polygons and the arrays MorphPointId and MorphCellId are the same objects
   /// each time. `moved`: the points of all nodes. Lines have the MorphCellId -1.
@@ -42,7 +43,7 @@ public:
   vtkIdType Write(vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const;
 
 private:
-  std::vector<std::uint8_t> Inner;
+  std::vector<morph::Index> Outer;
   vtkSmartPointer<vtkCellArray> Polygons;
   vtkSmartPointer<vtkIdTypeArray> Nodes;  ///< MorphPointId
   vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId: that of the lines, then of the polygons

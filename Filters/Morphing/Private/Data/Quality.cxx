@@ -2,6 +2,7 @@
 #include "Private/Data/Quality.h"
 
 #include "Private/Data/GridMesh.h"
+#include "Quality/PartialQuality.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
@@ -16,12 +17,14 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace morph::filters
 {
 namespace
 {
+/// Marks the ghost cells in `skip`, which stays empty where there are none.
 void skipGhosts(
   const morph::Mesh& mesh, vtkUnstructuredGrid* output, std::vector<std::uint8_t>& skip)
 {
@@ -58,7 +61,7 @@ namespace Quality
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, morph::Monitor& monitor)
 {
-  return Measure(mesh, output, orientation, {}, monitor);
+  return Measure(mesh, output, orientation, std::vector<std::uint8_t>(), monitor);
 }
 
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
@@ -68,6 +71,29 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   skipGhosts(mesh, output, skip);
   return withPoints(output, [&](const morph::ConstPoints& written)
     { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
+}
+
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
+  morph::Monitor& monitor)
+{
+  std::vector<std::uint8_t> skip;
+  skipGhosts(mesh, output, skip);
+  return withPoints(output, [&](const morph::ConstPoints& written)
+    { return morph::measureQualityOf(mesh, written, orientation, cells, skip, monitor); });
+}
+
+std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,
+  std::vector<std::uint8_t> skip, vtkUnstructuredGrid* grid)
+{
+  skip.resize(mesh.types.size(), 0);
+  skipGhosts(mesh, grid, skip);
+  std::vector<morph::Index> count(256, 0);
+  for (std::size_t c = 0; c < mesh.types.size(); ++c)
+  {
+    count[mesh.types[c]] += skip[c] == 0 && std::isnan(quality.scaledJacobian[c]);
+  }
+  return count;
 }
 
 morph::Index MirroredBodies(

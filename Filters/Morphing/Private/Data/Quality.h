@@ -26,6 +26,16 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor);
 
+/// As the first, of these cells alone. `cells`: their ids, ascending.
+morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
+  morph::Monitor& monitor);
+
+/// The number of cells of each type, 256 of them, that have no value though they are neither ghosts
+/// of `grid` nor in `skip` (#cells).
+std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,
+  std::vector<std::uint8_t> skip, vtkUnstructuredGrid* grid);
+
 /// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells
 /// (Topology.h).
 morph::Index MirroredBodies(

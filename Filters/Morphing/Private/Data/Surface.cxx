@@ -86,15 +86,14 @@ void writePoints(
 }
 
 std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, vtkPolyData* output)
+  const morph::BoundaryFaces& faces, const std::vector<std::int8_t>& orientation,
+  vtkPolyData* output)
 {
   std::vector<vtkIdType> number(mesh.numberOfNodes(), -1);
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     number[faces.nodes[i]] = static_cast<vtkIdType>(i);
   }
-  const std::vector<std::int8_t> orientation =
-    morph::cellSigns(mesh, morph::connectedComponents(mesh));
 
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdTypeArray> owners;
@@ -162,10 +161,13 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
 namespace Surface
 {
 std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, vtkPolyData* output)
+  const morph::BoundaryFaces& faces, vtkPolyData* output,
+  const std::vector<std::int8_t>* orientation)
 {
   writePoints(grid, faces.nodes, output);
-  return writePolygons(grid, mesh, faces, output);
+  return orientation ? writePolygons(grid, mesh, faces, *orientation, output)
+                     : writePolygons(grid, mesh, faces,
+                         morph::cellSigns(mesh, morph::connectedComponents(mesh)), output);
 }
 
 void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor)

@@ -4,6 +4,9 @@
 #include "Mesh/Topology.h"
 #include "Support/Monitor.h"
 
+#include <cstdint>
+#include <vector>
+
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -20,10 +23,12 @@ constexpr const char* FreeName = "MorphFree";
 
 /// Fills `output` with faces.nodes as points, undeformed, and the faces as polygons. The arrays are
 /// those of vtkExtractMorphBoundary: point arrays of the grid, MorphPointId and RestPosition, cell
-/// arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. Returns for each polygon
-/// the number of its face: a face of a quadratic cell becomes several polygons.
+/// arrays of the owning cells and MorphCellId. `mesh`, `faces`: of `grid`. `orientation`: #cells;
+/// null for cellSigns() of `mesh`. Returns for each polygon the number of its face: a face of a
+/// quadratic cell becomes several polygons.
 std::vector<morph::Index> Write(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, vtkPolyData* output);
+  const morph::BoundaryFaces& faces, vtkPolyData* output,
+  const std::vector<std::int8_t>* orientation = nullptr);
 
 /// Warns where a mesh has cells but no outer face, so that its boundary is empty.
 void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor);

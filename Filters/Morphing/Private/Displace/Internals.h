@@ -5,6 +5,7 @@
 #include "vtkBoundaryDisplacement.h"
 
 #include "Private/Blocks/Blocks.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/BoundaryModel.h"
@@ -62,6 +63,7 @@ struct vtkBoundaryDisplacement::vtkInternals
   vtkSmartPointer<vtkExtractSelection> Extractor;
 
   morph::filters::Blocks Blocks;
+  morph::filters::Unchanged Checked; ///< the input, where it is a grid
   morph::filters::BlockSelection Selected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet

@@ -305,8 +305,14 @@ std::vector<Index> Collapsed(
   const BoundaryModel& model, const Choice::Result& choice, const Points& moved)
 {
   const morph::BoundaryFaces& faces = model.Faces();
-  const Points before = morph::faceAreas(model.Points(), faces);
   const Points after = morph::faceAreas(moved, faces);
+  // No face of the boundary is larger than this, and nearly always all are larger than that part.
+  const double largest = model.Size() * model.Size();
+  if (after.rows() == 0 || after.rowwise().norm().minCoeff() > 1e-12 * largest)
+  {
+    return {};
+  }
+  const Points before = morph::faceAreas(model.Points(), faces);
   const auto isCollapsed = [&](Index f)
   {
     const double area = before.row(f).norm();

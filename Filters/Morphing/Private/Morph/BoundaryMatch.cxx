@@ -34,9 +34,7 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 
-/// Which boundary point stands for which node, in the order of the boundary points; a node may come
-/// up again.
-using Pairs = std::vector<std::pair<Index, Index>>; // boundary point, node
+using Pairs = std::vector<std::pair<Index, Index>>; // see BoundaryMatch::NamedPoints
 
 std::string quoted(const std::string& name)
 {
@@ -257,11 +255,7 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
   BoundaryMatch::Result& result)
 {
   const Index nodes = rest.numberOfNodes();
-  if (!options.BoundaryIdArray.empty())
-  {
-    return byIds(requireArray(boundary, options.BoundaryIdArray, "BoundaryIdArray", 1), nodes);
-  }
-  if (vtkDataArray* ids = findArray(boundary, Surface::IdName))
+  if (vtkDataArray* ids = BoundaryMatch::FindIds(boundary, options))
   {
     return byIds(ids, nodes);
   }
@@ -313,227 +307,75 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
               ". Make the boundary with Extract Morph Boundary, or set BoundaryIdArray, or give "
               "undeformed points with a DisplacementArray.");
 }
-
-/// Ids that were made from another mesh, or went stale when a filter changed the points.
-void verifyRestPositions(
-  vtkPointSet* boundary, const Pairs& pairs, const morph::Mesh& rest, double tolerance)
-{
-  vtkDataArray* array = findArray(boundary, Surface::RestName);
-  if (!array)
-  {
-    return;
-  }
-  if (array->GetNumberOfComponents() < 3)
-  {
-    throw Error(
-      "The boundary's point array 'RestPosition' has " +
-      std::to_string(array->GetNumberOfComponents()) +
-      " components; a position has three. Rename it, or make the boundary with Extract Morph "
-      "Boundary.");
-  }
-  const Points expected = GridMesh::FromVectors(array);
-  std::vector<Index> stale;
-  for (const auto& [point, node] : pairs)
-  {
-    // Written so that a NaN disagrees.
-    if (!((expected.row(point) - rest.points.row(node)).norm() <= tolerance))
-    {
-      stale.push_back(node);
-    }
-  }
-  if (!stale.empty())
-  {
-    throw Error(
-      "The boundary's ids are stale: its 'RestPosition' disagrees with the grid at node ids " +
-      morph::listIds(stale) +
-      ". The boundary was made from another mesh, or a filter has interpolated its arrays. Apply "
-      "Extract Morph Boundary to this grid again.");
-  }
-}
-
-/// The positions asked for, ScaleFactor not yet applied.
-Points targetPositions(vtkPointSet* boundary, const Points& positions, const Pairs& pairs,
-  const morph::Mesh& rest, const BoundaryMatch::Options& options)
-{
-  Points displacements;
-  if (!options.DisplacementArray.empty())
-  {
-    displacements = GridMesh::FromVectors(
-      requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
-  }
-  Points targets(static_cast<Index>(pairs.size()), 3);
-  std::vector<Index> notFinite, huge;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-  {
-    const auto [point, node] = pairs[k];
-    const auto from = rest.points.row(node);
-    auto to = targets.row(static_cast<Index>(k));
-    to = positions.row(point);
-    if (displacements.rows() > 0)
-    {
-      to = from + displacements.row(point);
-    }
-    if (!to.allFinite())
-    {
-      notFinite.push_back(node);
-    }
-    else if (!DataCheck::IsModerate(to))
-    {
-      huge.push_back(node);
-    }
-  }
-  if (!notFinite.empty())
-  {
-    throw Error(
-      "The boundary has coordinates or displacements that are not finite (NaN or infinite), "
-      "at node ids " +
-      morph::listIds(notFinite) + ".");
-  }
-  if (!huge.empty())
-  {
-    throw Error("The boundary moves nodes beyond 1e50, at node ids " + morph::listIds(huge) +
-                ". Use another unit, or correct the displacements.");
-  }
-  return targets;
-}
-
-/// What a node has that is in no row of the targets.
-constexpr Index Held = -1, Unnamed = -2, Free = -3;
-
-/// Marks the nodes of free points, and removes their pairs.
-void takeFree(vtkPointSet* boundary, Pairs& pairs, std::vector<Index>& row)
-{
-  vtkDataArray* marks = findArray(boundary, Surface::FreeName);
-  if (!marks || pairs.empty())
-  {
-    return;
-  }
-  const auto isFree = [&](const std::pair<Index, Index>& pair)
-  { return marks->GetComponent(pair.first, 0) != 0; };
-  for (const auto& pair : pairs)
-  {
-    if (isFree(pair))
-    {
-      row[pair.second] = Free;
-    }
-  }
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isFree), pairs.end());
-  if (pairs.empty())
-  {
-    throw Error("All points of the boundary are free (its point array MorphFree is not 0), so "
-                "nothing says where the mesh goes. Let some of them stay or move.");
-  }
-}
-
-/// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
-/// of which moves: those follow their cell, or edges would bend where corners alone are named.
-/// ScaleFactor does not matter, so that changing it does not prepare again.
-void holdUnnamed(const morph::BoundaryFaces& outer, const morph::Mesh& rest, const Points& targets,
-  std::vector<Index>& row)
-{
-  const auto moves = [&](Index node)
-  { return row[node] >= 0 && targets.row(row[node]) != rest.points.row(node); };
-  for (std::size_t i = 0; i < outer.nodes.size(); ++i)
-  {
-    const Index node = outer.nodes[i], k = static_cast<Index>(i);
-    if (row[node] == Unnamed && std::none_of(outer.between.begin(k), outer.between.end(k), moves))
-    {
-      row[node] = Held;
-    }
-  }
-}
 }
 
 namespace BoundaryMatch
 {
+vtkDataArray* FindIds(vtkPointSet* boundary, const Options& options)
+{
+  return options.BoundaryIdArray.empty()
+           ? findArray(boundary, Surface::IdName)
+           : requireArray(boundary, options.BoundaryIdArray, "BoundaryIdArray", 1);
+}
+
+Pairs FindByIds(vtkDataArray* ids, Index nodes)
+{
+  return byIds(ids, nodes);
+}
+
+Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
+  const std::vector<Index>& outer, double tolerance, Index& unmatched)
+{
+  return byPosition(positions, rest, outer, tolerance, unmatched);
+}
+
+NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options)
+{
+  NamedPoints named;
+  named.Positions = GridMesh::FromPoints(boundary->GetPoints());
+  if (vtkDataArray* array = findArray(boundary, Surface::RestName))
+  {
+    if (array->GetNumberOfComponents() < 3)
+    {
+      throw Error(
+        "The boundary's point array 'RestPosition' has " +
+        std::to_string(array->GetNumberOfComponents()) +
+        " components; a position has three. Rename it, or make the boundary with Extract Morph "
+        "Boundary.");
+    }
+    named.Rest = GridMesh::FromVectors(array);
+  }
+  if (vtkDataArray* marks = findArray(boundary, Surface::FreeName))
+  {
+    named.IsFree.resize(boundary->GetNumberOfPoints());
+    for (std::size_t i = 0; i < named.IsFree.size(); ++i)
+    {
+      named.IsFree[i] = marks->GetComponent(static_cast<vtkIdType>(i), 0) != 0;
+    }
+  }
+  if (!options.DisplacementArray.empty())
+  {
+    named.Displacements = GridMesh::FromVectors(
+      requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
+  }
+  return named;
+}
+
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options)
 {
-  const Points positions = GridMesh::FromPoints(boundary->GetPoints());
-  if (positions.rows() == 0)
+  if (boundary->GetNumberOfPoints() == 0)
   {
     throw Error("The boundary has no points, so nothing says where the mesh goes.");
   }
-  const double tolerance = options.MatchTolerance * size;
-
+  NamedPoints named = ReadPoints(boundary, options);
   Result result;
-  Pairs pairs = findNodes(boundary, positions, rest, outer.nodes, tolerance, options, result);
-  verifyRestPositions(boundary, pairs, rest, tolerance);
-  std::vector<Index> row(rest.numberOfNodes(), Unnamed);
-  takeFree(boundary, pairs, row);
-  const Points targets = targetPositions(boundary, positions, pairs, rest, options);
-
-  std::vector<Index> torn;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-  {
-    Index& r = row[pairs[k].second];
-    if (r < 0)
-    {
-      r = static_cast<Index>(k);
-    }
-    else if ((targets.row(r) - targets.row(static_cast<Index>(k))).norm() > tolerance)
-    {
-      torn.push_back(pairs[k].second);
-    }
-  }
-  if (!torn.empty())
-  {
-    throw Error(
-      "The boundary names the same node more than once with different targets, at node ids " +
-      morph::listIds(torn) + ". Points that stand for one node have to move together.");
-  }
-
-  if (options.HoldUnnamedBoundary)
-  {
-    holdUnnamed(outer, rest, targets, row);
-  }
-
-  for (Index node = 0; node < rest.numberOfNodes(); ++node)
-  {
-    if (row[node] != Unnamed && row[node] != Free)
-    {
-      result.Ids.push_back(node);
-      result.Sources.push_back(row[node] < 0 ? -1 : pairs[row[node]].first);
-    }
-  }
-  const double scale = options.ScaleFactor;
-  std::vector<Index> huge;
-  result.Targets.resize(static_cast<Index>(result.Ids.size()), 3);
-  for (std::size_t k = 0; k < result.Ids.size(); ++k)
-  {
-    const auto from = rest.points.row(result.Ids[k]);
-    const Index r = row[result.Ids[k]];
-    auto to = result.Targets.row(static_cast<Index>(k));
-    // ScaleFactor 0 and 1 give the rest and the target positions bit for bit.
-    if (r < 0 || scale == 0)
-    {
-      to = from;
-    }
-    else if (scale == 1)
-    {
-      to = targets.row(r);
-    }
-    else
-    {
-      to = from + scale * (targets.row(r) - from);
-    }
-    if (!DataCheck::IsModerate(to))
-    {
-      huge.push_back(result.Ids[k]);
-    }
-  }
-  if (!huge.empty())
-  {
-    throw Error("ScaleFactor " + text(scale) + " moves nodes beyond 1e50, at node ids " +
-                morph::listIds(huge) + ". Lower it.");
-  }
-  if (result.Unmatched > 0)
-  {
-    result.Warnings.push_back(
-      std::to_string(result.Unmatched) + " of the boundary's " + std::to_string(positions.rows()) +
-      " points are not within MatchTolerance of a node of the grid and were left out.");
-  }
-  return result;
+  named.Pairs = findNodes(
+    boundary, named.Positions, rest, outer.nodes, options.MatchTolerance * size, options, result);
+  named.Unmatched = result.Unmatched;
+  Result found = FindTargets(std::move(named), rest, outer, size, options);
+  found.Warnings.insert(found.Warnings.begin(), result.Warnings.begin(), result.Warnings.end());
+  return found;
 }
 }
 }

@@ -4,9 +4,12 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+class vtkDataArray;
 class vtkPointSet;
 
 /// Matches the points of a displaced boundary to nodes of the undeformed mesh, and computes the
@@ -31,6 +34,18 @@ struct Result
   std::vector<std::string> Warnings;
 };
 
+/// The points of a boundary that stand for nodes.
+struct NamedPoints
+{
+  /// Point and node, in the order of the points; a node may come up again.
+  std::vector<std::pair<morph::Index, morph::Index>> Pairs;
+  morph::Points Positions;          ///< #points x 3
+  morph::Points Rest;               ///< #points x 3, or no rows: unknown
+  morph::Points Displacements;      ///< #points x 3, or no rows: Positions are the targets
+  std::vector<std::uint8_t> IsFree; ///< #points, or empty: none is
+  morph::Index Unmatched = 0;       ///< points that stand for no node
+};
+
 /// Matches the points of `boundary`. `outer`, `size`: of the undeformed mesh; see GridMesh::Size.
 /// Ids come from the first of: the
 /// array BoundaryIdArray; MorphPointId; the point's own number where the boundary has as many
@@ -45,4 +60,24 @@ struct Result
 /// one pass over the boundary; by position also a point locator over the mesh.
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options);
+
+/// The part of Match() that follows once nodes are found: it verifies RestPosition, and computes
+/// the targets. `globalIds`: of the nodes, for a part of a mesh that is distributed over MPI ranks.
+/// Messages name these then, and no point need be there.
+Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
+  double size, const Options& options, const std::vector<std::int64_t>* globalIds = nullptr);
+
+/// The steps of Match() before FindTargets(), for the same. They throw as it does.
+///@{
+/// The boundary's array of node ids that comes first, or null: BoundaryIdArray, MorphPointId.
+vtkDataArray* FindIds(vtkPointSet* boundary, const Options& options);
+/// Pairs of a point and its id; ids lie between 0 and `nodes` - 1.
+std::vector<std::pair<morph::Index, morph::Index>> FindByIds(vtkDataArray* ids, morph::Index nodes);
+/// Pairs of a point and its node, by position; `unmatched` counts the points without one.
+std::vector<std::pair<morph::Index, morph::Index>> FindByPosition(const morph::Points& positions,
+  const morph::Mesh& rest, const std::vector<morph::Index>& outer, double tolerance,
+  morph::Index& unmatched);
+/// All of NamedPoints but Pairs.
+NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options);
+///@}
 }

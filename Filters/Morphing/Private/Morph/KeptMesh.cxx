@@ -16,9 +16,14 @@ namespace morph::filters
 {
 bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
+  if (this->Taken.Is(grid) && this->Copy.numberOfCells() > 0)
+  {
+    return false;
+  }
   const bool sameCells = GridMesh::SameCells(grid, this->Copy);
   if (sameCells && GridMesh::SamePoints(grid, this->Copy) && this->Copy.numberOfCells() > 0)
   {
+    this->Taken.See(grid);
     return false;
   }
   morph::Mesh mesh = GridMesh::FromGrid(grid);
@@ -38,6 +43,7 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   this->Signs = std::move(signs);
   this->Diameter = GridMesh::Size(mesh);
   this->Copy = std::move(mesh);
+  this->Taken.See(grid);
   this->SetFeatureLines(false); // those of other points
   return true;
 }

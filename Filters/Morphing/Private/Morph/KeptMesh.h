@@ -4,6 +4,7 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/MovedSurface.h"
+#include "Private/Data/Unchanged.h"
 
 #include <cstdint>
 #include <vector>
@@ -23,8 +24,8 @@ class KeptMesh
 {
 public:
   /// Copies the grid, unless it is the same as the kept one; returns whether it was copied. Throws
-  /// morph::Error for a grid that cannot be morphed; the kept one stays. Cost: a comparison, or the
-  /// search of the outer faces.
+  /// morph::Error for a grid that cannot be morphed; the kept one stays. Cost: nothing for a grid
+  /// that is not modified, else a comparison, or the search of the outer faces.
   bool Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 
   /// Whether Surface() has lines along sharp edges; see MovedSurface. After Take().
@@ -44,6 +45,7 @@ public:
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
 
 private:
+  Unchanged Taken; ///< the grid that is the same as Copy
   morph::Mesh Copy;
   morph::BoundaryFaces Outer;
   MovedSurface Polygons;

@@ -7,6 +7,7 @@
 #include "Private/Data/Results.h"
 #include "Private/Morph/Session.h"
 #include "Private/Pipeline/Input.h"
+#include "Quality/WorstMean.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>
@@ -44,6 +45,8 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   }
   Quality::Write(quality, output);
   results.Set(quality);
+  results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
+  results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
   if (certify)
   {
     const morph::CertificateReport report =
@@ -64,7 +67,7 @@ void measureSurface(const Session& session, Results& results, vtkUnstructuredGri
 {
   const KeptMesh& kept = session.GetKept();
   const morph::Quality quality =
-    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().InnerCells(), monitor);
+    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().OuterCells(), monitor);
   results.SetInteger(
     "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
   results.SetText("MorphStatus", "Unmeasured");

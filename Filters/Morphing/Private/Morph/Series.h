@@ -4,6 +4,7 @@
 #include "Morpher/Morpher.h"
 #include "Private/Morph/Validity.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -20,6 +21,8 @@ struct StepResult
   morph::Index Prescribed = 0;
   morph::Index Unmatched = 0;
   morph::Index BoundaryInverted = 0; ///< see vtkMorphAlgorithm::GetBoundaryInvertedCells()
+  /// see vtkMorphAlgorithm::GetBoundaryMinimum(), NaN without such a corner
+  double BoundaryMinimum = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The meshes of a run in which each step starts from the mesh of the step before. As many are kept

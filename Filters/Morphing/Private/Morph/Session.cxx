@@ -11,9 +11,11 @@
 #include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/SmoothMesh.h"
 
@@ -22,6 +24,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -248,6 +251,11 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     PolyhedralRepair::Run(
       from, this->Kept.Mesh().points, partition, this->Kept.Orientation(), result.Moved, repairing);
   }
+  if (validity.IsInversionFree)
+  {
+    auto untangling = part(0.74, 0.75);
+    morph::untangleHigherOrder(from, partition, this->Kept.Orientation(), result.Moved, untangling);
+  }
   if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
   {
     throw morph::Error(
@@ -269,6 +277,11 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
+    const double minimum = morph::MovableQuality(from, this->Kept.Orientation(), partition.free)
+                             .bounds(result.Moved)
+                             .fixed;
+    result.BoundaryMinimum =
+      std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
   else
   {
@@ -324,9 +337,11 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   const Options& options, morph::Monitor& monitor)
 {
   this->Results.SetNumber("PrepareSeconds", 0);
+  // SetGrid() drops the method with the mesh that it is prepared for.
+  const bool isOfKept = &from == &this->Kept.Mesh();
   if (this->Method && this->MethodOptions == options.PrepareOptions &&
       this->Method->partition().prescribed == partition.prescribed &&
-      this->Method->restPoints() == from.points)
+      ((isOfKept && this->MethodIsOfKept) || this->Method->restPoints() == from.points))
   {
     return;
   }
@@ -334,12 +349,13 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   this->Method.reset();
   this->Modes.clear();
   std::unique_ptr<morph::Morpher> morpher = makeMethod(options, from);
-  if (from.points != this->Kept.Mesh().points)
+  if (!isOfKept && from.points != this->Kept.Mesh().points)
   {
     morpher->setReference(this->Kept.Mesh().points);
   }
   morpher->prepare(from, partition, monitor);
   this->Method = std::move(morpher);
+  this->MethodIsOfKept = isOfKept;
   this->MethodOptions = options.PrepareOptions;
   this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
   this->Results.SetNumber("PrepareSeconds", secondsSince(start));

@@ -114,6 +114,7 @@ private:
   KeptMesh Kept;
   morph::NodePartition Partition;         ///< of Kept, or empty
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
+  bool MethodIsOfKept = false;            ///< not of a step's points
   std::string MethodOptions;
   morph::AffineModes Modes; ///< of Method under ModesOptions
   std::string ModesOptions;

@@ -286,6 +286,8 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetText("MorphStatus", from->GetMorphStatus());
   to.SetNumber("MinScaledJacobian", from->GetMinScaledJacobian());
   to.SetNumber("MeanScaledJacobian", from->GetMeanScaledJacobian());
+  to.SetNumber("WorstMeanScaledJacobian", from->GetWorstMeanScaledJacobian());
+  to.SetNumber("BoundaryMinimum", from->GetBoundaryMinimum());
   to.SetInteger("InvertedCells", from->GetInvertedCells());
   to.SetInteger("DegenerateCells", from->GetDegenerateCells());
   to.SetInteger("WorstCellId", from->GetWorstCellId());

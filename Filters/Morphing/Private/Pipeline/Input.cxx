@@ -5,6 +5,7 @@
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Data/Version.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -70,6 +71,19 @@ vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port)
   refuse(input, port, "an unstructured grid (Append Datasets makes one of any data set)");
 }
 
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port, Unchanged& checked)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && checked.Is(grid))
+  {
+    DataCheck::RequireLengths(grid, port);
+    return grid;
+  }
+  grid = RequireGrid(input, port);
+  checked.See(grid);
+  return grid;
+}
+
 vtkPointSet* RequirePointSet(vtkDataObject* input, const char* port)
 {
   if (auto* points = vtkPointSet::SafeDownCast(input))
@@ -130,6 +144,12 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port)
     "Extract Morph Boundary,");
 }
 
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Unchanged& checked)
+{
+  return vtkUnstructuredGrid::SafeDownCast(input) ? RequireGrid(input, port, checked)
+                                                  : RequireGridOrPolyData(input, port);
+}
+
 bool IsReadable(vtkDataObject* data)
 {
   try
@@ -143,25 +163,12 @@ bool IsReadable(vtkDataObject* data)
   }
 }
 
-int RequireOneRankWithCells(vtkDataSet* grid)
+Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
+  const char* filter, morph::Monitor& monitor)
 {
-  const int ranks = Ranks::Count(grid && grid->GetNumberOfCells() > 0);
-  if (ranks > 1)
-  {
-    throw morph::Error(
-      "The mesh is distributed over " + std::to_string(ranks) +
-      " MPI ranks; a mesh is morphed on one rank only, because the cuts between the ranks' pieces "
-      "would be taken for a fixed boundary. Run on one rank, or bring the mesh to one.");
-  }
-  return ranks;
-}
-
-Mesh TakeMesh(
-  vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use, morph::Monitor& monitor)
-{
-  Mesh mesh = { nullptr, false, false };
+  Mesh mesh = { nullptr, false, false, false };
   const auto unknown =
-    use == Use::ToMorph ? GridMesh::UnknownCells::Refuse : GridMesh::UnknownCells::Keep;
+    use == Use::ToMeasure ? GridMesh::UnknownCells::Keep : GridMesh::UnknownCells::Refuse;
   std::exception_ptr problem;
   try
   {
@@ -173,13 +180,36 @@ Mesh TakeMesh(
   }
   auto* data = vtkDataSet::SafeDownCast(mesh.Data);
   const bool hasCells = data && data->GetNumberOfCells() > 0;
-  const int ranks = use == Use::ToMorph ? RequireOneRankWithCells(data) : Ranks::Count(hasCells);
-  if (problem)
+  const int ranks = Ranks::Count(hasCells);
+  if (ranks > 1 && use == Use::ToMorph)
   {
-    std::rethrow_exception(problem);
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) + " MPI ranks, and " + filter +
+      " needs it on one: the cuts between the ranks' pieces would be taken for a fixed boundary. "
+      "Run on one rank, or bring the mesh to one.");
   }
+  if (ranks > 1 && use == Use::ToMorphOnRanks && !Ranks::TakePieces())
+  {
+    throw morph::Error(
+      "The mesh is distributed over " + std::to_string(ranks) +
+      " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
+      " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
+  }
+  mesh.IsDistributed = ranks > 1;
   mesh.IsElsewhere = ranks > 0 && !hasCells;
   mesh.IsEmpty = ranks == 0;
+  const auto rethrow = [&]
+  {
+    if (problem)
+    {
+      std::rethrow_exception(problem);
+    }
+  };
+  if (mesh.IsDistributed)
+  {
+    Ranks::Together(rethrow);
+  }
+  rethrow();
   return mesh;
 }
 

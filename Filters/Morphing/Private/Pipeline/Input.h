@@ -19,6 +19,7 @@ class Monitor;
 namespace morph::filters
 {
 class Blocks;
+class Unchanged;
 }
 
 /// The checks of the inputs of every filter of this module. Filters accept vtkDataObject on their
@@ -35,6 +36,10 @@ vtkPolyData* RequirePolyData(vtkDataObject* input, const char* port);
 
 /// Returns an unstructured grid or polygonal data.
 vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port);
+/// As above, for a filter that is executed again and again. `checked`: the grid that it checked
+/// last, of which the arrays' lengths alone are checked again.
+vtkUnstructuredGrid* RequireGrid(vtkDataObject* input, const char* port, Unchanged& checked);
+vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Unchanged& checked);
 /// As RequirePointSet(), for the boundary of a mesh to be morphed; null has a message of its own.
 vtkPointSet* RequireBoundary(vtkDataObject* input);
 
@@ -47,27 +52,24 @@ bool IsReadable(vtkDataObject* data);
 /// Either may be null.
 void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
-/// Returns how many MPI processes have cells, 0 or 1; throws morph::Error on all of them if there
-/// are more. To be called on every process, before anything can fail there. `grid`: null where its
-/// type was wrong.
-int RequireOneRankWithCells(vtkDataSet* grid);
-
 enum class Use
 {
-  ToMorph,   ///< one MPI process may have cells, of known types alone
-  ToMeasure, ///< each process may have a part, of any cells
+  ToMorph,        ///< one MPI process may have cells, of known types alone
+  ToMorphOnRanks, ///< each process may have a part, of known types alone, where Ranks::TakePieces()
+  ToMeasure,      ///< each process may have a part, of any cells
 };
 struct Mesh
 {
   vtkDataObject* Data; ///< the input, or its blocks as one grid
   bool IsElsewhere;    ///< other MPI processes have the cells
   bool IsEmpty;        ///< no process has any
+  bool IsDistributed;  ///< several processes have cells
 };
 /// Takes a filter's mesh, of composite data too; see Blocks::Gather(). Throws morph::Error as that
-/// does and, with ToMorph, as RequireOneRankWithCells() does. To be called on every process, before
-/// anything can fail there.
-Mesh TakeMesh(
-  vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use, morph::Monitor& monitor);
+/// does and, on all processes, where more of them have cells than `use` allows. To be called on
+/// every process, before anything can fail there. `filter`: what the message says needs one rank.
+Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
+  const char* filter, morph::Monitor& monitor);
 
 /// Throws morph::Error unless there are cells of dimension 3 that are large enough to compute with
 /// (see DataCheck). All types have to be known to the core.

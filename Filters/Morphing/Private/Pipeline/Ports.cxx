@@ -6,6 +6,7 @@
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
 #include <vtkAlgorithm.h>
@@ -29,6 +30,14 @@
 
 namespace morph::filters
 {
+namespace
+{
+bool hasPoints(vtkDataObject* data)
+{
+  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
+}
+}
+
 int Ports::FillInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see Input.h.
@@ -181,14 +190,45 @@ int Ports::RequestData(
                   [this](int port, std::optional<double> time) { return this->Update(port, time); })
               : given;
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
-    const Input::Mesh mesh =
-      Input::TakeMesh(input, this->Mesh, task.CoincidentPoints, Input::Use::ToMorph, monitor);
+    const char* name = this->Filter->GetClassName();
+    Input::Mesh mesh = Input::TakeMesh(input, this->Mesh, task.CoincidentPoints,
+      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor);
     input = mesh.Data;
-    Input::RequireNotSwapped(input, boundary);
-    vtkUnstructuredGrid* grid = Input::RequireGrid(input, "The input");
+    if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && hasPoints(boundary)) > 0)
+    {
+      if (!task.WorkOnRanks || !Ranks::TakePieces())
+      {
+        throw morph::Error(
+          std::string("The boundary is on MPI ranks that have no part of the mesh; ") + name +
+          " needs both on one rank.");
+      }
+      mesh.IsDistributed = true;
+    }
+    vtkUnstructuredGrid* grid = nullptr;
+    const auto check = [&]
+    {
+      if (mesh.IsDistributed && this->Mesh.Merged())
+      {
+        throw morph::Error(std::string("Composite data on several MPI ranks: ") + name +
+                           " needs them on one. Apply Merge Blocks first, or run on one rank.");
+      }
+      Input::RequireNotSwapped(input, boundary);
+      grid = Input::RequireGrid(input, "The input", this->Checked);
+      if (mesh.IsDistributed || !mesh.IsElsewhere)
+      {
+        boundary = this->AsOne(boundary, "The boundary");
+      }
+    };
+    if (mesh.IsDistributed)
+    {
+      Ranks::Together(check);
+      task.WorkOnRanks(grid, boundary, monitor);
+      return;
+    }
+    check();
     if (!mesh.IsElsewhere)
     {
-      task.Work(grid, this->AsOne(boundary, "The boundary"), monitor);
+      task.Work(grid, boundary, monitor);
     }
   };
   const auto clear = [&]

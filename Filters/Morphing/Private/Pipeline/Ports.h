@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Private/Blocks/Blocks.h"
+#include "Private/Data/Unchanged.h"
 #include "Private/Pipeline/Time.h"
 
 #include <vtkSmartPointer.h>
@@ -64,6 +65,10 @@ public:
     /// type, null where it is not available, one grid where its blocks could be merged) and
     /// "Failed" or "Cancelled"; the outputs are empty.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
+    /// Work() for a mesh with pieces on several MPI processes, called on all of them: it
+    /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.
+    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)>
+      WorkOnRanks = {};
   };
   /// The grid that the work of a task fills for output 0, which may be composite.
   vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)
@@ -74,9 +79,10 @@ public:
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
   const Blocks& GetBlocks() const { return this->Mesh; }
 
-  /// Calls `task.Work`, on the one MPI process with cells if there are several. After an exception
-  /// the outputs are empty; errors and warnings are the filter's. Returns the result of
-  /// RequestData.
+  /// Calls `task.Work`, on the one MPI process with cells if there are several processes. Calls
+  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary.
+  /// After an exception the outputs are empty; errors and warnings are the filter's. Returns the
+  /// result of RequestData.
   int RequestData(
     const Task& task, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
@@ -98,6 +104,7 @@ private:
   vtkAlgorithm* Filter;
   filters::Time Time;
   Blocks Mesh;
+  Unchanged Checked; ///< the mesh, as one grid
   mutable std::vector<vtkSmartPointer<vtkDataObject>> Made; ///< by AsOne()
 };
 }

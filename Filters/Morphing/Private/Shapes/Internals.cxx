@@ -210,9 +210,13 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Results.SetNumber("EvaluateSeconds",
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
-  if (this->Filter->FindValidRanges)
+  if (this->Filter->FindValidRanges && this->Modes.HasRanges())
   {
     this->FindRanges(weights, monitor);
+  }
+  else if (this->Filter->FindValidRanges)
+  {
+    this->Results.SetText("ValidRanges", "not known for polyhedra");
   }
   this->Measure(
     output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
@@ -224,12 +228,12 @@ void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
-  const std::vector<std::uint8_t>& inner = this->Modes.GetKept().Surface().InnerCells();
+  const std::vector<morph::Index>& outer = this->Modes.GetKept().Surface().OuterCells();
   const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
   const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
   const morph::Quality quality =
     all ? filters::Quality::Measure(mesh, output, orientation, monitor)
-        : filters::Quality::Measure(mesh, output, orientation, inner, monitor);
+        : filters::Quality::Measure(mesh, output, orientation, outer, monitor);
   this->Results.SetInteger("SurfaceInvertedCells",
     this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
   filters::Quality::Remove(output);
@@ -287,7 +291,7 @@ void vtkMorphShapes::vtkInternals::WriteShapes(
     output->GetFieldData()->AddArray(values);
   };
   add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
-  if (this->Filter->FindValidRanges)
+  if (!this->Ranges.Shapes.empty())
   {
     add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
     add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });

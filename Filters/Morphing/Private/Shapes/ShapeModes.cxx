@@ -3,6 +3,7 @@
 
 #include "Geometry/RotationFit.h"
 #include "Mesh/Polyhedra.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Pipeline/Input.h"
@@ -35,6 +36,20 @@ auto named(const std::string& name, const Work& work)
   {
     throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
   }
+}
+
+/// The method, not prepared, for the cells of `mesh`.
+std::unique_ptr<morph::LinearMorpher> forCellsOf(
+  const morph::Mesh& mesh, std::unique_ptr<morph::LinearMorpher> method)
+{
+  if (!morph::hasPolyhedra(mesh))
+  {
+    return method;
+  }
+  // Of a linear method it is a linear one.
+  std::unique_ptr<morph::Morpher> onPieces = morph::morpherForPolyhedra(std::move(method));
+  return std::unique_ptr<morph::LinearMorpher>(
+    dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
 }
 
 /// The nodes that any of the shapes names, and those that all hold.
@@ -120,12 +135,6 @@ bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     this->Method.reset();
     this->Modes.clear();
   }
-  if (morph::hasPolyhedra(this->Kept.Mesh()))
-  {
-    throw morph::Error(
-      "Morph Shapes does not know in which range polyhedra stay valid. Use a morph filter, or a "
-      "mesh of tetrahedra, hexahedra, wedges and pyramids.");
-  }
   return isCopied;
 }
 
@@ -188,7 +197,7 @@ void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& op
   }
   this->Method.reset();
   this->Modes.clear();
-  auto method = options.CreateMorpher();
+  auto method = forCellsOf(this->Kept.Mesh(), options.CreateMorpher());
   method->prepare(this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), prescribed), monitor);
   this->Method = std::move(method);
   this->MethodOptions = options.Method;
@@ -247,6 +256,11 @@ ShapeModes::Effort ShapeModes::Solve(
   this->Modes = std::move(modes);
   this->Shapes = std::move(solved);
   return effort;
+}
+
+bool ShapeModes::HasRanges() const
+{
+  return !morph::hasPolyhedra(this->Kept.Mesh());
 }
 
 std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>& weights) const

@@ -18,7 +18,7 @@
 #include <sstream>
 #include <string>
 
-TEST(Readme, CxxExample)
+TEST(ApiPage, CxxExample)
 {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetFileName("part.vtu");
@@ -31,7 +31,7 @@ TEST(Readme, CxxExample)
 
   std::ostringstream printed;
   std::streambuf* screen = std::cout.rdbuf(printed.rdbuf());
-#include "ReadmeExample.inc" // made from README.md
+#include "ApiPageExample.inc" // made from Documentation/API.md
   std::cout.rdbuf(screen);
   std::remove("part.vtu");
 

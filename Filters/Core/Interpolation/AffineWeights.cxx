@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interpolation/AffineWeights.h"
+
+#include "Geometry/AffineFit.h"
+#include "Geometry/NearestNodes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 64;
+constexpr Index FirstCount = 32;
+
+/// Sets `row` to the fit's weights at `x`. Returns false if the sites lie in a plane.
+bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::RowVector3d& x,
+  AffineRow& row)
+{
+  row.sites.assign(near.nodes, near.nodes + near.count);
+  const double count = static_cast<double>(near.count);
+  // Relative to the first site: coordinates far from the origin lose no digits.
+  const Eigen::RowVector3d first = sites.row(row.sites[0]);
+  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+  for (const std::int32_t site : row.sites)
+  {
+    centre += (sites.row(site) - first) / count;
+  }
+  centre += first;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const std::int32_t site : row.sites)
+  {
+    const Eigen::RowVector3d arm = sites.row(site) - centre;
+    spread += arm.transpose() * arm;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Eigen::Vector3d moments = axes.eigenvalues(); // ascending
+  if (!AffineLeastSquares::isExtended(moments[0], moments[2]))
+  {
+    return false;
+  }
+  const Eigen::Vector3d slope =
+    axes.eigenvectors() *
+    (axes.eigenvectors().transpose() * (x - centre).transpose()).cwiseQuotient(moments);
+  row.weights.clear();
+  for (const std::int32_t site : row.sites)
+  {
+    row.weights.push_back(1 / count + (sites.row(site) - centre).dot(slope));
+  }
+  return true;
+}
+
+double largest(const std::vector<double>& weights)
+{
+  double result = 0;
+  for (const double weight : weights)
+  {
+    result = std::max(result, std::abs(weight));
+  }
+  return result;
+}
+}
+
+std::vector<AffineRow> affineWeights(
+  const Points& sites, const Points& places, double most, Monitor& monitor)
+{
+  const NearestNodes nearest(sites);
+  std::vector<AffineRow> rows(places.rows());
+  std::vector<Index> order(places.rows());
+  std::iota(order.begin(), order.end(), Index(0));
+  monitor.parallelFor(places.rows(), Grain,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        bool isDone = false;
+        for (Index count = FirstCount; !isDone; count *= 2)
+        {
+          nearest.search(places, order, i, i + 1, count,
+            [&](Index, const NearestNodes::Neighbors& near)
+            {
+              const bool spans = fit(sites, near, places.row(i), rows[i]);
+              isDone = (spans && largest(rows[i].weights) <= most) || near.count == sites.rows();
+            });
+        }
+      }
+    });
+  return rows;
+}
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Topology.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// Returns those boundary faces that belong to a cell with a nonzero entry in `isOf` (#cells), with
+/// the nodes on them. `faces`: boundaryFaces(mesh). Cost: one pass over the faces.
+BoundaryFaces facesOfCells(
+  const Mesh& mesh, const BoundaryFaces& faces, const std::vector<std::uint8_t>& isOf);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/ShapeVolumes.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+namespace morph
+{
+namespace
+{
+const CellShape* volumeShape(const Mesh& mesh, Index cell)
+{
+  const CellShape* shape = cellShape(mesh.types[cell]);
+  return shape && shape->dimension == 3 ? shape : nullptr;
+}
+
+std::size_t slot(const ConnectedComponents& bodies, Index cell, Shape shape)
+{
+  return static_cast<std::size_t>(bodies.ofCell[cell]) * ShapeVolumes::Shapes +
+         static_cast<std::size_t>(shape);
+}
+}
+
+const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
+
+ShapeVolumes shapeVolumes(
+  const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<std::uint8_t>& skip)
+{
+  ShapeVolumes sums;
+  sums.volume.assign(bodies.count * ShapeVolumes::Shapes, 0);
+  sums.cells.assign(sums.volume.size(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = skip.empty() || skip[c] == 0 ? volumeShape(mesh, c) : nullptr;
+    if (!shape)
+    {
+      continue;
+    }
+    const std::size_t at = slot(bodies, c, shape->shape);
+    if (isPolyhedron(mesh, c))
+    {
+      sums.volume[at] += polyhedronVolume(mesh, c, mesh.points);
+    }
+    else
+    {
+      double corners[8][3];
+      copyCorners(mesh, c, *shape, mesh.points, corners[0]);
+      sums.volume[at] += signedVolume(shape->shape, corners);
+    }
+    ++sums.cells[at];
+  }
+  return sums;
+}
+
+std::vector<std::int8_t> cellSigns(
+  const Mesh& mesh, const ConnectedComponents& bodies, const ShapeVolumes& volumes)
+{
+  std::vector<std::int8_t> result(mesh.numberOfCells(), 1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (const CellShape* shape = volumeShape(mesh, c))
+    {
+      const std::size_t at = slot(bodies, c, shape->shape);
+      if (volumes.volume[at] < 0 && (volumes.cells[at] > 1 || shape->shape == Shape::Wedge))
+      {
+        result[c] = -1;
+      }
+    }
+  }
+  return result;
+}
+}

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/ShapeWindings.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/SimplicialDecomposition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr double Doubt = 0.5; // of the sum of absolute volumes
+constexpr int Shapes = static_cast<int>(Shape::Polyhedron) + 1;
+
+/// The cells of one shape in one body.
+struct Group
+{
+  double volume = 0, absolute = 0;
+  Index cells = 0;
+  std::array<Index, Shapes>
+    votes{};        ///< faces with another shape that wind alike, less those that do not
+  int relative = 0; ///< to the body's first group; 0: not known
+};
+
+/// A face, and the direction in which its cell's node list runs round it.
+struct Winding
+{
+  std::array<Index, 4> nodes; ///< ascending, the first -1 in a triangle
+  Index group;
+  bool isForward;
+
+  bool operator<(const Winding& other) const { return this->nodes < other.nodes; }
+};
+
+/// Whether the shape has faces in a table, and corners whose tetrahedra make its volume.
+bool isMeasured(const CellShape& shape)
+{
+  return numberOfCorners(shape.shape) > 0;
+}
+
+Winding windingOf(const Mesh& mesh, Index cell, const CellShape& shape, int f, Index group)
+{
+  const FaceShape& face = shape.faces[f];
+  const auto node = [&](int k)
+  { return mesh.cell(cell)[shape.cornerNode[face.corner[(k + face.size) % face.size]]]; };
+  Winding result{ { -1, -1, -1, -1 }, group, false };
+  int lowest = 0;
+  for (int k = 0; k < face.size; ++k)
+  {
+    result.nodes[k] = node(k);
+    lowest = node(k) < node(lowest) ? k : lowest;
+  }
+  result.isForward = node(lowest + 1) < node(lowest - 1);
+  std::sort(result.nodes.begin(), result.nodes.end());
+  return result;
+}
+
+class Alignment
+{
+public:
+  Alignment(const Mesh& mesh, const ConnectedComponents& bodies)
+    : mesh_(mesh)
+    , bodies_(bodies)
+    , groups_(bodies.count * Shapes)
+  {
+  }
+
+  /// Returns whether some body has several shapes.
+  bool count()
+  {
+    this->forCells([&](Index c, const CellShape& shape) { ++this->group(c, shape).cells; });
+    bool found = false;
+    for (Index body = 0; body < this->bodies_.count; ++body)
+    {
+      const auto first = this->groups_.begin() + body * Shapes;
+      found = found || std::count_if(first, first + Shapes,
+                         [](const Group& group) { return group.cells > 1; }) > 1;
+    }
+    return found;
+  }
+
+  /// Returns whether a body is in doubt.
+  bool measure()
+  {
+    this->forCells(
+      [&](Index c, const CellShape& shape)
+      {
+        double corners[8][3];
+        copyCorners(this->mesh_, c, shape, this->mesh_.points, corners[0]);
+        const double volume = signedVolume(shape.shape, corners);
+        Group& group = this->group(c, shape);
+        group.volume += volume;
+        group.absolute += std::abs(volume);
+      });
+    this->isInDoubt_.assign(this->bodies_.count, 0);
+    for (std::size_t g = 0; g < this->groups_.size(); ++g)
+    {
+      const Group& group = this->groups_[g];
+      if (group.cells > 1 && std::abs(group.volume) < Doubt * group.absolute)
+      {
+        this->isInDoubt_[g / Shapes] = 1;
+      }
+    }
+    return std::count(this->isInDoubt_.begin(), this->isInDoubt_.end(), 1) > 0;
+  }
+
+  void compareFaces()
+  {
+    std::vector<Winding> faces;
+    this->forCells(
+      [&](Index c, const CellShape& shape)
+      {
+        if (this->isInDoubt_[this->bodies_.ofCell[c]])
+        {
+          for (int f = 0; f < shape.numberOfFaces; ++f)
+          {
+            faces.push_back(windingOf(this->mesh_, c, shape, f, this->number(c, shape)));
+          }
+        }
+      });
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    {
+      const Winding &a = faces[i], &b = faces[i + 1];
+      if (a.nodes == b.nodes && a.group != b.group)
+      {
+        const Index vote = a.isForward != b.isForward ? 1 : -1;
+        this->groups_[a.group].votes[b.group % Shapes] += vote;
+        this->groups_[b.group].votes[a.group % Shapes] += vote;
+      }
+    }
+  }
+
+  void align(std::vector<std::int8_t>& signs)
+  {
+    std::vector<int> sign(this->groups_.size(), 0);
+    for (Index body = 0; body < this->bodies_.count; ++body)
+    {
+      for (int first = 0; this->isInDoubt_[body] && first < Shapes; ++first)
+      {
+        this->alignFrom(body, first, sign);
+      }
+    }
+    this->forCells(
+      [&](Index c, const CellShape& shape)
+      {
+        const int own = sign[this->number(c, shape)];
+        signs[c] = static_cast<std::int8_t>(own == 0 ? signs[c] : own);
+      });
+  }
+
+private:
+  template <typename Body>
+  void forCells(const Body& body) const
+  {
+    for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
+    {
+      const CellShape& shape = *cellShape(this->mesh_.types[c]);
+      if (isMeasured(shape))
+      {
+        body(c, shape);
+      }
+    }
+  }
+
+  Index number(Index cell, const CellShape& shape) const
+  {
+    return this->bodies_.ofCell[cell] * Shapes + static_cast<Index>(shape.shape);
+  }
+  Group& group(Index cell, const CellShape& shape)
+  {
+    return this->groups_[this->number(cell, shape)];
+  }
+
+  /// Sets the sign of the shapes that shared faces connect with the shape `first`.
+  void alignFrom(Index body, int first, std::vector<int>& sign)
+  {
+    Group* groups = this->groups_.data() + body * Shapes;
+    if (groups[first].cells < 2 || groups[first].relative != 0)
+    {
+      return;
+    }
+    groups[first].relative = 1;
+    std::vector<int> connected{ first };
+    double volume = 0;
+    for (std::size_t i = 0; i < connected.size(); ++i)
+    {
+      const Group& from = groups[connected[i]];
+      volume += from.relative * from.volume;
+      for (int next = 0; next < Shapes; ++next)
+      {
+        Group& to = groups[next];
+        if (from.votes[next] != 0 && to.cells > 1 && to.relative == 0)
+        {
+          to.relative = from.votes[next] > 0 ? from.relative : -from.relative;
+          connected.push_back(next);
+        }
+      }
+    }
+    for (const int shape : connected)
+    {
+      sign[body * Shapes + shape] = volume < 0 ? -groups[shape].relative : groups[shape].relative;
+    }
+  }
+
+  const Mesh& mesh_;
+  const ConnectedComponents& bodies_;
+  std::vector<Group> groups_;   ///< #bodies x Shapes
+  std::vector<char> isInDoubt_; ///< #bodies
+};
+}
+
+void alignShapeSigns(
+  const Mesh& mesh, const ConnectedComponents& bodies, std::vector<std::int8_t>& signs)
+{
+  Alignment alignment(mesh, bodies);
+  if (alignment.count() && alignment.measure())
+  {
+    alignment.compareFaces();
+    alignment.align(signs);
+  }
+}
+}

@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/DistributedMesh.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/FacesOfCells.h"
+#include "Mesh/Polyhedra.h"
+#include "Mesh/ShapeVolumes.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+namespace morph::distributed
+{
+namespace
+{
+/// Above all ids, and a double holds it.
+constexpr std::int64_t NoBody = std::int64_t(1) << 52;
+
+bool isVolume(const Mesh& mesh, Index cell)
+{
+  const CellShape* shape = cellShape(mesh.types[cell]);
+  return shape && shape->dimension == 3;
+}
+
+/// A copy of `mesh` with a vertex for each ghost.
+Mesh withoutGhosts(const Mesh& mesh, const std::vector<std::uint8_t>& isGhost)
+{
+  Mesh result;
+  result.points = mesh.points;
+  result.types = mesh.types;
+  result.offsets = { 0 };
+  if (hasPolyhedra(mesh))
+  {
+    result.faceOffsets = { 0 };
+  }
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const bool ghost = !isGhost.empty() && isGhost[c] != 0 && mesh.cellSize(c) > 0;
+    const Index* nodes = mesh.cell(c);
+    result.connectivity.insert(
+      result.connectivity.end(), nodes, nodes + (ghost ? 1 : mesh.cellSize(c)));
+    result.offsets.push_back(static_cast<Index>(result.connectivity.size()));
+    if (ghost)
+    {
+      result.types[c] = Vertex;
+    }
+    if (hasPolyhedra(mesh))
+    {
+      if (!ghost)
+      {
+        result.faces.insert(result.faces.end(), mesh.faces.begin() + mesh.faceOffsets[c],
+          mesh.faces.begin() + mesh.faceOffsets[c + 1]);
+      }
+      result.faceOffsets.push_back(static_cast<Index>(result.faces.size()));
+    }
+  }
+  return result;
+}
+}
+
+/// The messages that carry ghost cells.
+struct DistributedMesh::Builder
+{
+  struct Node
+  {
+    std::int64_t id;
+    std::array<double, 3> x;
+    std::int64_t owner;
+  };
+
+  DistributedMesh& mesh;
+  std::set<std::pair<Index, int>> sent;         ///< cells, by rank
+  std::vector<std::vector<Node>> nodes;         ///< for each rank
+  std::vector<std::set<Index>> nodesSent;       ///< by rank
+  std::vector<std::vector<std::int64_t>> cells; ///< for each rank
+
+  explicit Builder(DistributedMesh& owner)
+    : mesh(owner)
+    , nodesSent(owner.ranks_->count())
+  {
+  }
+
+  void open()
+  {
+    this->nodes.assign(this->mesh.ranks_->count(), {});
+    this->cells.assign(this->mesh.ranks_->count(), {});
+  }
+
+  /// Packs a cell of the piece for `rank`, unless it has been sent: its global id, type, nodes,
+  /// and the faces of a polyhedron, each list after its length.
+  void pack(Index cell, int rank)
+  {
+    if (!this->sent.emplace(cell, rank).second)
+    {
+      return;
+    }
+    const Mesh& m = this->mesh.mesh_;
+    std::vector<std::int64_t>& stream = this->cells[rank];
+    stream.push_back(this->mesh.cellIds_[cell]);
+    stream.push_back(m.types[cell]);
+    stream.push_back(m.cellSize(cell));
+    for (Index k = 0; k < m.cellSize(cell); ++k)
+    {
+      const Index node = m.cell(cell)[k];
+      stream.push_back(this->mesh.nodeIds_[node]);
+      if (this->nodesSent[rank].insert(node).second)
+      {
+        this->nodes[rank].push_back({ this->mesh.nodeIds_[node],
+          { m.points(node, 0), m.points(node, 1), m.points(node, 2) }, this->mesh.owner_[node] });
+      }
+    }
+    const std::size_t length = stream.size();
+    stream.push_back(0);
+    forEachFace(m, cell,
+      [&](const Index* face, Index size)
+      {
+        stream.push_back(size);
+        for (Index k = 0; k < size; ++k)
+        {
+          stream.push_back(this->mesh.nodeIds_[face[k]]);
+        }
+      });
+    stream[length] = static_cast<std::int64_t>(stream.size() - length - 1);
+  }
+
+  /// Appends the cells that other ranks have packed. Returns their new nodes.
+  std::vector<Index> unpack(const std::vector<std::vector<Node>>& newNodes,
+    const std::vector<std::vector<std::int64_t>>& newCells)
+  {
+    Mesh& m = this->mesh.mesh_;
+    std::vector<Node> missing;
+    for (const auto& part : newNodes)
+    {
+      for (const Node& node : part)
+      {
+        if (this->mesh.nodeOf(node.id) < 0)
+        {
+          missing.push_back(node);
+        }
+      }
+    }
+    std::sort(
+      missing.begin(), missing.end(), [](const Node& a, const Node& b) { return a.id < b.id; });
+    missing.erase(std::unique(missing.begin(), missing.end(),
+                    [](const Node& a, const Node& b) { return a.id == b.id; }),
+      missing.end());
+    const Index before = m.numberOfNodes();
+    m.points.conservativeResize(before + static_cast<Index>(missing.size()), 3);
+    std::vector<Index> added;
+    for (const Node& node : missing)
+    {
+      const Index n = before + static_cast<Index>(added.size());
+      m.points.row(n) << node.x[0], node.x[1], node.x[2];
+      this->mesh.nodeIds_.push_back(node.id);
+      this->mesh.owner_.push_back(static_cast<int>(node.owner));
+      this->mesh.byId_.emplace_back(node.id, n);
+      added.push_back(n);
+    }
+    std::sort(this->mesh.byId_.begin(), this->mesh.byId_.end());
+    for (const auto& stream : newCells)
+    {
+      for (std::size_t at = 0; at < stream.size();)
+      {
+        this->mesh.cellIds_.push_back(stream[at++]);
+        const auto type = static_cast<std::uint8_t>(stream[at++]);
+        m.types.push_back(type);
+        this->mesh.isGhost_.push_back(1);
+        for (std::int64_t k = stream[at++]; k > 0; --k)
+        {
+          m.connectivity.push_back(this->mesh.nodeOf(stream[at++]));
+        }
+        m.offsets.push_back(static_cast<Index>(m.connectivity.size()));
+        const std::size_t end = at + 1 + stream[at];
+        ++at;
+        if (type == Polyhedron && m.faceOffsets.empty())
+        {
+          m.faceOffsets.assign(m.types.size(), 0); // the cells before have none
+        }
+        while (at < end)
+        {
+          m.faces.push_back(stream[at]);
+          for (std::int64_t k = stream[at++]; k > 0; --k)
+          {
+            m.faces.push_back(this->mesh.nodeOf(stream[at++]));
+          }
+        }
+        if (hasPolyhedra(m))
+        {
+          m.faceOffsets.push_back(static_cast<Index>(m.faces.size()));
+        }
+      }
+    }
+    return added;
+  }
+};
+
+DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor)
+  : ranks_(&ranks)
+  , mesh_(withoutGhosts(piece.mesh, piece.isGhost))
+  , pieceNodes_(piece.mesh.numberOfNodes())
+  , pieceCells_(piece.mesh.numberOfCells())
+  , isGhost_(std::move(piece.isGhost))
+  , nodeIds_(std::move(piece.nodeIds))
+  , cellIds_(std::move(piece.cellIds))
+{
+  this->isGhost_.resize(this->pieceCells_, 0);
+  this->isUsed_ = usedNodes(this->mesh_, this->isGhost_);
+  std::vector<Index> wrong;
+  for (Index n = 0; n < this->pieceNodes_; ++n)
+  {
+    if (this->nodeIds_[n] < 0 || this->nodeIds_[n] >= NoBody)
+    {
+      wrong.push_back(this->nodeIds_[n]);
+    }
+  }
+  ranks.together(
+    [&]
+    {
+      if (!wrong.empty())
+      {
+        throw Error("Global point ids have to lie between 0 and 2^52: there are " + listIds(wrong) +
+                    ". Make the ids again (Generate Global Ids).");
+      }
+    });
+  this->measure();
+  this->directory_ = std::make_unique<Directory>(ranks, this->numberNodes(), 1e-6 * this->size_);
+  this->owner_ = this->directory_->owners(this->nodeIds_);
+  for (const auto& pair : this->doubles_)
+  {
+    this->owner_[pair.first] = -1;
+  }
+  this->addGhosts(layers, monitor);
+  this->halo_ =
+    Halo(ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
+  this->findBodies();
+  this->findOuter(monitor);
+}
+
+/// Fills byId_ and doubles_; returns what the directory is to know.
+std::vector<NodeRecord> DistributedMesh::numberNodes()
+{
+  std::vector<Index> order(this->pieceNodes_);
+  std::iota(order.begin(), order.end(), Index(0));
+  // A node of own cells stands for its copies in ghost cells.
+  const auto key = [this](Index n)
+  { return std::tuple(this->nodeIds_[n], this->isUsed_[n] == 0, n); };
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  std::vector<NodeRecord> records;
+  for (Index n : order)
+  {
+    const std::int64_t id = this->nodeIds_[n];
+    if (this->isUsed_[n] == 0 && !this->byId_.empty() && this->byId_.back().first == id)
+    {
+      this->doubles_.emplace_back(n, this->byId_.back().second);
+      continue;
+    }
+    records.push_back(
+      { id, { this->mesh_.points(n, 0), this->mesh_.points(n, 1), this->mesh_.points(n, 2) },
+        this->isUsed_[n] });
+    this->byId_.emplace_back(id, n);
+  }
+  return records;
+}
+
+void DistributedMesh::copyToDoubles(Points& values) const
+{
+  for (const auto& [copy, node] : this->doubles_)
+  {
+    values.row(copy) = values.row(node);
+  }
+}
+
+std::vector<Index> DistributedMesh::idsOfNodes(const std::vector<Index>& nodes) const
+{
+  std::vector<Index> ids;
+  for (Index node : nodes)
+  {
+    ids.push_back(this->nodeIds_[node]);
+  }
+  return ids;
+}
+
+Index DistributedMesh::nodeOf(std::int64_t id) const
+{
+  const auto found =
+    std::lower_bound(this->byId_.begin(), this->byId_.end(), std::pair(id, Index(-1)));
+  return found != this->byId_.end() && found->first == id ? found->second : -1;
+}
+
+/// The box of the nodes of volume cells, and their number.
+void DistributedMesh::measure()
+{
+  double least[3], most[3];
+  std::fill_n(least, 3, std::numeric_limits<double>::max());
+  std::fill_n(most, 3, std::numeric_limits<double>::lowest());
+  Index cells = 0;
+  for (Index c = 0; c < this->pieceCells_; ++c)
+  {
+    if (this->isGhost_[c] != 0 || !isVolume(this->mesh_, c))
+    {
+      continue;
+    }
+    ++cells;
+    for (Index k = 0; k < this->mesh_.cellSize(c); ++k)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        const double x = this->mesh_.points(this->mesh_.cell(c)[k], j);
+        least[j] = std::min(least[j], x);
+        most[j] = std::max(most[j], x);
+      }
+    }
+  }
+  this->volumeCells_ = this->ranks_->sum(cells);
+  double squares = 0;
+  for (int j = 0; j < 3; ++j)
+  {
+    const double low = this->ranks_->minimum(least[j]), high = this->ranks_->maximum(most[j]);
+    squares += low <= high ? (high - low) * (high - low) : 0;
+  }
+  this->size_ = std::sqrt(squares);
+}
+
+void DistributedMesh::addGhosts(int layers, Monitor&)
+{
+  const Ranks& ranks = *this->ranks_;
+  // The cells around each node of the piece that other ranks may ask for.
+  std::vector<std::int64_t> wanted;
+  for (Index n = 0; n < this->pieceNodes_; ++n)
+  {
+    if (this->isUsed_[n])
+    {
+      wanted.push_back(this->nodeIds_[n]);
+    }
+  }
+  Builder builder(*this);
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    const std::vector<Directory::Request> requests = this->directory_->requests(wanted);
+    std::unordered_map<Index, std::vector<int>> ranksOf;
+    for (const Directory::Request& request : requests)
+    {
+      ranksOf[this->nodeOf(request.id)].push_back(static_cast<int>(request.rank));
+    }
+    builder.open();
+    for (Index c = 0; c < this->pieceCells_ && !ranksOf.empty(); ++c)
+    {
+      if (this->isGhost_[c] != 0 || !isVolume(this->mesh_, c))
+      {
+        continue;
+      }
+      for (Index k = 0; k < this->mesh_.cellSize(c); ++k)
+      {
+        const auto found = ranksOf.find(this->mesh_.cell(c)[k]);
+        if (found != ranksOf.end())
+        {
+          for (int rank : found->second)
+          {
+            builder.pack(c, rank);
+          }
+        }
+      }
+    }
+    for (int r = 0; r < ranks.count(); ++r)
+    {
+      this->bytesSent_ += builder.nodes[r].size() * sizeof(Builder::Node) +
+                          builder.cells[r].size() * sizeof(std::int64_t);
+    }
+    const auto nodes = ranks.exchange(builder.nodes);
+    const auto cells = ranks.exchange(builder.cells);
+    wanted.clear();
+    for (Index node : builder.unpack(nodes, cells))
+    {
+      wanted.push_back(this->nodeIds_[node]);
+    }
+  }
+}
+
+void DistributedMesh::findBodies()
+{
+  const Ranks& ranks = *this->ranks_;
+  this->bodies_ = connectedComponents(this->mesh_);
+  std::vector<std::int64_t> label(this->bodies_.count, NoBody);
+  std::vector<std::int64_t> ofNode(this->mesh_.numberOfNodes(), NoBody);
+  for (std::size_t n = 0; n < ofNode.size(); ++n)
+  {
+    const Index body = this->bodies_.ofNode[n];
+    ofNode[n] = body < 0 ? NoBody : this->nodeIds_[n];
+  }
+  for (Index changes = 1; changes > 0;)
+  {
+    changes = 0;
+    for (std::size_t n = 0; n < ofNode.size(); ++n)
+    {
+      if (const Index body = this->bodies_.ofNode[n]; body >= 0 && ofNode[n] < label[body])
+      {
+        label[body] = ofNode[n];
+        ++changes;
+      }
+    }
+    for (std::size_t n = 0; n < ofNode.size(); ++n)
+    {
+      if (const Index body = this->bodies_.ofNode[n]; body >= 0)
+      {
+        ofNode[n] = label[body];
+      }
+    }
+    this->halo_.minimum(ranks, ofNode);
+    changes = ranks.sum(changes);
+  }
+  std::vector<std::int64_t> labels = label;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  labels = ranks.gather(labels);
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  const auto numberOf = [&](Index body)
+  {
+    return body < 0 ? body
+                    : std::lower_bound(labels.begin(), labels.end(), label[body]) - labels.begin();
+  };
+  for (std::vector<Index>* list : { &this->bodies_.ofCell, &this->bodies_.ofNode })
+  {
+    std::transform(list->begin(), list->end(), list->begin(), numberOf);
+  }
+  this->bodies_.count = static_cast<Index>(labels.size());
+
+  ShapeVolumes volumes = shapeVolumes(this->mesh_, this->bodies_, this->isGhost_);
+  ranks.sum(volumes.volume.data(), volumes.volume.size());
+  ranks.sum(volumes.cells.data(), volumes.cells.size());
+  this->orientation_ = cellSigns(this->mesh_, this->bodies_, volumes);
+  std::vector<Index> mirrored(this->bodies_.count, 0);
+  for (std::size_t c = 0; c < this->orientation_.size(); ++c)
+  {
+    if (this->orientation_[c] < 0)
+    {
+      mirrored[this->bodies_.ofCell[c]] = 1;
+    }
+  }
+  ranks.sum(mirrored.data(), mirrored.size());
+  this->mirrored_ =
+    std::count_if(mirrored.begin(), mirrored.end(), [](Index count) { return count > 0; });
+}
+
+void DistributedMesh::findOuter(Monitor& monitor)
+{
+  BoundaryFaces all;
+  this->ranks_->together([&] { all = boundaryFaces(this->mesh_, monitor); });
+  std::vector<std::uint8_t> isOwn(this->isGhost_.size());
+  std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
+    [](std::uint8_t ghost) { return ghost == 0; });
+  this->outerFaces_ = facesOfCells(this->mesh_, all, isOwn);
+  // All cells around a node of the piece's own cells are here, so that its faces are known.
+  this->outerNodes_.between.offsets = { 0 };
+  for (std::size_t i = 0; i < all.nodes.size(); ++i)
+  {
+    const Index node = all.nodes[i];
+    if (node >= this->pieceNodes_ || this->isUsed_[node] == 0)
+    {
+      continue;
+    }
+    this->outerNodes_.nodes.push_back(node);
+    Adjacency& between = this->outerNodes_.between;
+    const Index k = static_cast<Index>(i);
+    between.values.insert(between.values.end(), all.between.begin(k), all.between.end(k));
+    between.offsets.push_back(static_cast<Index>(between.values.size()));
+  }
+}
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Directory.h"
+#include "Distributed/Halo.h"
+#include "Distributed/Piece.h"
+#include "Distributed/Ranks.h"
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace morph::distributed
+{
+/// A mesh whose cells are distributed over ranks. Each rank has its piece and, behind it, copies of
+/// the other ranks' cells around the piece's nodes (ghosts). Each node that a cell uses has one
+/// owner, the lowest rank that uses it.
+///
+/// Local numbers: the piece's nodes and cells come first, in the piece's order. A ghost cell of the
+/// piece itself is a vertex here, which no method reads.
+class DistributedMesh
+{
+public:
+  /// Builds the ghosts. `piece`: with node and cell ids. `layers`: of cells around the piece's
+  /// nodes, 1 or more. Throws Error on all ranks where the pieces do not fit together. Collective.
+  /// Cost: messages of the size of the interfaces, and a directory of 40 bytes a node.
+  DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
+
+  const Ranks& ranks() const { return *this->ranks_; }
+  const Mesh& mesh() const { return this->mesh_; }
+  Index pieceNodes() const { return this->pieceNodes_; }
+  Index pieceCells() const { return this->pieceCells_; }
+
+  /// Gives further copies of a node, as the piece's ghost cells may have them, the row of that
+  /// node; #nodes x 3. They take part in nothing else.
+  void copyToDoubles(Points& values) const;
+  bool owns(Index node) const { return this->owner_[node] == this->ranks_->rank(); }
+  /// #cells: nonzero for ghosts.
+  const std::vector<std::uint8_t>& isGhost() const { return this->isGhost_; }
+  std::int64_t nodeId(Index node) const { return this->nodeIds_[node]; }
+  std::int64_t cellId(Index cell) const { return this->cellIds_[cell]; }
+  const std::vector<std::int64_t>& nodeIds() const { return this->nodeIds_; }
+  const std::vector<std::int64_t>& cellIds() const { return this->cellIds_; }
+  /// Global ids of nodes or cells, for messages.
+  std::vector<Index> idsOfNodes(const std::vector<Index>& nodes) const;
+  /// Returns the local node of a global id, or -1.
+  Index nodeOf(std::int64_t id) const;
+
+  const Halo& halo() const { return this->halo_; }
+  const Directory& directory() const { return *this->directory_; }
+
+  /// The bodies of the whole mesh, by the same numbers on all ranks.
+  const ConnectedComponents& bodies() const { return this->bodies_; }
+  /// cellSigns() of the whole mesh; #cells.
+  const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
+  /// The number of bodies with cells of orientation -1.
+  Index mirroredBodies() const { return this->mirrored_; }
+  /// The outer faces of the whole mesh that belong to this rank's cells.
+  const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
+  /// The nodes of this rank's cells that lie on the outer boundary of the whole mesh, with
+  /// `between`; its faces are not those.
+  const BoundaryFaces& outerNodes() const { return this->outerNodes_; }
+  /// The diagonal of the bounding box of the nodes that volume cells use.
+  double size() const { return this->size_; }
+  /// Volume cells of all ranks.
+  Index volumeCells() const { return this->volumeCells_; }
+  /// Bytes that this rank has sent to build the ghosts.
+  std::size_t bytesSent() const { return this->bytesSent_; }
+
+private:
+  struct Builder;
+  std::vector<NodeRecord> numberNodes();
+  void addGhosts(int layers, Monitor& monitor);
+  void findBodies();
+  void findOuter(Monitor& monitor);
+  void measure();
+
+  const Ranks* ranks_;
+  Mesh mesh_;
+  Index pieceNodes_ = 0, pieceCells_ = 0;
+  std::vector<std::uint8_t> isGhost_;
+  std::vector<std::int64_t> nodeIds_, cellIds_;
+  std::vector<std::uint8_t> isUsed_; ///< #nodes of the piece, by its own cells
+  std::vector<int> owner_;
+  std::vector<std::pair<std::int64_t, Index>> byId_; ///< sorted
+  std::vector<std::pair<Index, Index>> doubles_;     ///< a node, and the one that stands for it
+  std::unique_ptr<Directory> directory_;
+  Halo halo_;
+  ConnectedComponents bodies_;
+  std::vector<std::int8_t> orientation_;
+  Index mirrored_ = 0;
+  BoundaryFaces outerFaces_, outerNodes_;
+  double size_ = 0;
+  Index volumeCells_ = 0;
+  std::size_t bytesSent_ = 0;
+};
+}

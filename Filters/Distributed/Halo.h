@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Ranks.h"
+
+#include "Support/Types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace morph::distributed
+{
+/// Carries values of nodes from their owners to the ranks that have them as ghosts, and back.
+class Halo
+{
+public:
+  Halo() = default;
+  /// `ids`: #nodes global ids. `owner`: #nodes ranks, -1 for a node without one. `localOf`: the
+  /// node of an id, which this rank owns. Collective, as all below.
+  Halo(const Ranks& ranks, const std::vector<std::int64_t>& ids, const std::vector<int>& owner,
+    const std::function<Index(std::int64_t id)>& localOf);
+
+  /// Overwrites the ghosts' rows with those of their owners; #nodes x 3.
+  void update(const Ranks& ranks, Points& values) const;
+  /// The same for whole numbers below 2^53.
+  void update(const Ranks& ranks, std::vector<std::int64_t>& values) const;
+  /// Sets each owner's value to the minimum over all ranks that have the node, and then the
+  /// ghosts' to the owner's.
+  void minimum(const Ranks& ranks, std::vector<std::int64_t>& values) const;
+
+  /// Bytes that this rank sends in an update of `columns` doubles a node.
+  std::size_t bytes(int columns) const;
+
+private:
+  std::vector<int> targets_, sources_;
+  std::vector<std::vector<Index>> sends_;    ///< a list of owned nodes for each target
+  std::vector<std::vector<Index>> receives_; ///< a list of ghosts for each source
+};
+}

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/HypreSolver.h"
+
+#include "Support/Error.h"
+
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_krylov.h>
+#include <HYPRE_parcsr_ls.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace morph::distributed
+{
+namespace
+{
+void startHypre()
+{
+  static const bool started = []
+  {
+    HYPRE_Init();
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
+bool isMpiRunning()
+{
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  return finalized == 0;
+}
+
+/// A distributed vector of hypre over this rank's unknowns.
+class Vector
+{
+public:
+  Vector(MPI_Comm communicator, std::int64_t first, std::int64_t size)
+    : numbers_(size)
+  {
+    HYPRE_IJVectorCreate(communicator, static_cast<HYPRE_BigInt>(first),
+      static_cast<HYPRE_BigInt>(first + size - 1), &this->ij_);
+    HYPRE_IJVectorSetObjectType(this->ij_, HYPRE_PARCSR);
+    std::iota(this->numbers_.begin(), this->numbers_.end(), static_cast<HYPRE_BigInt>(first));
+  }
+  ~Vector() { HYPRE_IJVectorDestroy(this->ij_); }
+  Vector(const Vector&) = delete;
+  Vector& operator=(const Vector&) = delete;
+
+  HYPRE_ParVector set(const std::vector<double>& values)
+  {
+    HYPRE_IJVectorInitialize(this->ij_);
+    HYPRE_IJVectorSetValues(
+      this->ij_, static_cast<HYPRE_Int>(values.size()), this->numbers_.data(), values.data());
+    HYPRE_IJVectorAssemble(this->ij_);
+    void* object = nullptr;
+    HYPRE_IJVectorGetObject(this->ij_, &object);
+    return static_cast<HYPRE_ParVector>(object);
+  }
+  void get(std::vector<double>& values)
+  {
+    HYPRE_IJVectorGetValues(
+      this->ij_, static_cast<HYPRE_Int>(values.size()), this->numbers_.data(), values.data());
+  }
+
+private:
+  HYPRE_IJVector ij_ = nullptr;
+  std::vector<HYPRE_BigInt> numbers_;
+};
+}
+
+struct HypreSolver::Handles
+{
+  Kind kind = Kind::Symmetric;
+  HYPRE_IJMatrix ij = nullptr;
+  HYPRE_ParCSRMatrix matrix = nullptr;
+  HYPRE_Solver multigrid = nullptr;
+  HYPRE_Solver krylov = nullptr;
+  bool isSetUp = false;
+
+  ~Handles() { this->clear(); }
+
+  void clear()
+  {
+    if (isMpiRunning())
+    {
+      if (this->krylov)
+      {
+        this->kind == Kind::Symmetric ? HYPRE_ParCSRPCGDestroy(this->krylov)
+                                      : HYPRE_ParCSRBiCGSTABDestroy(this->krylov);
+      }
+      if (this->multigrid)
+      {
+        HYPRE_BoomerAMGDestroy(this->multigrid);
+      }
+      if (this->ij)
+      {
+        HYPRE_IJMatrixDestroy(this->ij);
+      }
+    }
+    this->krylov = this->multigrid = nullptr;
+    this->ij = nullptr;
+    this->isSetUp = false;
+  }
+
+  void createMultigrid()
+  {
+    HYPRE_BoomerAMGCreate(&this->multigrid);
+    HYPRE_BoomerAMGSetPrintLevel(this->multigrid, 0);
+    HYPRE_BoomerAMGSetCoarsenType(this->multigrid, 10); // HMIS
+    HYPRE_BoomerAMGSetInterpType(this->multigrid, 6);   // extended+i
+    HYPRE_BoomerAMGSetPMaxElmts(this->multigrid, 4);
+    HYPRE_BoomerAMGSetStrongThreshold(this->multigrid, 0.5); // hypre's advice in three dimensions
+    HYPRE_BoomerAMGSetRelaxType(this->multigrid, 8);         // symmetric l1 Gauss-Seidel
+    HYPRE_BoomerAMGSetRelaxOrder(this->multigrid, 0);
+    HYPRE_BoomerAMGSetTol(this->multigrid, 0);
+    HYPRE_BoomerAMGSetMaxIter(this->multigrid, 1);
+  }
+
+  void createKrylov(MPI_Comm communicator)
+  {
+    if (this->kind == Kind::Symmetric)
+    {
+      HYPRE_ParCSRPCGCreate(communicator, &this->krylov);
+      HYPRE_PCGSetTwoNorm(this->krylov, 1);
+      HYPRE_PCGSetPrintLevel(this->krylov, 0);
+      HYPRE_PCGSetLogging(this->krylov, 0);
+      HYPRE_ParCSRPCGSetPrecond(
+        this->krylov, HYPRE_BoomerAMGSolve, HYPRE_BoomerAMGSetup, this->multigrid);
+    }
+    else
+    {
+      HYPRE_ParCSRBiCGSTABCreate(communicator, &this->krylov);
+      HYPRE_BiCGSTABSetPrintLevel(this->krylov, 0);
+      HYPRE_BiCGSTABSetLogging(this->krylov, 0);
+      HYPRE_ParCSRBiCGSTABSetPrecond(
+        this->krylov, HYPRE_BoomerAMGSolve, HYPRE_BoomerAMGSetup, this->multigrid);
+    }
+  }
+
+  void setUp(HYPRE_ParVector b, HYPRE_ParVector x)
+  {
+    this->kind == Kind::Symmetric ? HYPRE_ParCSRPCGSetup(this->krylov, this->matrix, b, x)
+                                  : HYPRE_ParCSRBiCGSTABSetup(this->krylov, this->matrix, b, x);
+    this->isSetUp = true;
+  }
+
+  int solve(HYPRE_ParVector b, HYPRE_ParVector x, double tolerance, int maxIterations)
+  {
+    HYPRE_Int iterations = 0;
+    if (this->kind == Kind::Symmetric)
+    {
+      HYPRE_PCGSetTol(this->krylov, tolerance);
+      HYPRE_PCGSetMaxIter(this->krylov, maxIterations);
+      HYPRE_ParCSRPCGSolve(this->krylov, this->matrix, b, x);
+      HYPRE_PCGGetNumIterations(this->krylov, &iterations);
+    }
+    else
+    {
+      HYPRE_BiCGSTABSetTol(this->krylov, tolerance);
+      HYPRE_BiCGSTABSetMaxIter(this->krylov, maxIterations);
+      HYPRE_ParCSRBiCGSTABSolve(this->krylov, this->matrix, b, x);
+      HYPRE_BiCGSTABGetNumIterations(this->krylov, &iterations);
+    }
+    HYPRE_ClearAllErrors(); // no convergence is seen in the residual
+    return static_cast<int>(iterations);
+  }
+};
+
+HypreSolver::HypreSolver() = default;
+HypreSolver::~HypreSolver() = default;
+
+void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
+  const CsrMatrix& ghosts, const std::vector<std::int64_t>& ghostNumbers)
+{
+  startHypre();
+  const Index rows = own.rows();
+  this->first_ = ranks.sumBefore(rows);
+  this->unknowns_ = ranks.sum(rows);
+  const std::int64_t most = std::numeric_limits<HYPRE_BigInt>::max();
+  if (this->unknowns_ > most)
+  {
+    throw Error("The mesh has " + std::to_string(this->unknowns_) +
+                " free nodes; this build of hypre numbers " + std::to_string(most) +
+                ". Build with a hypre of 64-bit integers (libhypre64m-dev).");
+  }
+  this->handles_ = std::make_unique<Handles>();
+  if (this->unknowns_ == 0)
+  {
+    return;
+  }
+  Handles& handles = *this->handles_;
+  handles.kind = kind;
+  const auto first = static_cast<HYPRE_BigInt>(this->first_);
+  const auto last = static_cast<HYPRE_BigInt>(this->first_ + rows - 1);
+  HYPRE_IJMatrixCreate(ranks.communicator(), first, last, first, last, &handles.ij);
+  HYPRE_IJMatrixSetObjectType(handles.ij, HYPRE_PARCSR);
+  std::vector<HYPRE_Int> inside(rows), outside(rows);
+  for (Index i = 0; i < rows; ++i)
+  {
+    inside[i] = own.outerIndexPtr()[i + 1] - own.outerIndexPtr()[i];
+    outside[i] = ghosts.outerIndexPtr()[i + 1] - ghosts.outerIndexPtr()[i];
+  }
+  HYPRE_IJMatrixSetDiagOffdSizes(handles.ij, inside.data(), outside.data());
+  HYPRE_IJMatrixInitialize(handles.ij);
+  std::vector<HYPRE_BigInt> columns;
+  std::vector<double> values;
+  for (Index i = 0; i < rows; ++i)
+  {
+    columns.clear();
+    values.clear();
+    for (CsrMatrix::InnerIterator entry(own, i); entry; ++entry)
+    {
+      columns.push_back(first + static_cast<HYPRE_BigInt>(entry.col()));
+      values.push_back(entry.value());
+    }
+    for (CsrMatrix::InnerIterator entry(ghosts, i); entry; ++entry)
+    {
+      columns.push_back(static_cast<HYPRE_BigInt>(ghostNumbers[entry.col()]));
+      values.push_back(entry.value());
+    }
+    HYPRE_Int size = static_cast<HYPRE_Int>(columns.size());
+    const HYPRE_BigInt row = first + static_cast<HYPRE_BigInt>(i);
+    HYPRE_IJMatrixSetValues(handles.ij, 1, &size, &row, columns.data(), values.data());
+  }
+  HYPRE_IJMatrixAssemble(handles.ij);
+  void* object = nullptr;
+  HYPRE_IJMatrixGetObject(handles.ij, &object);
+  handles.matrix = static_cast<HYPRE_ParCSRMatrix>(object);
+  handles.createMultigrid();
+  handles.createKrylov(ranks.communicator());
+  Vector b(ranks.communicator(), this->first_, rows), x(ranks.communicator(), this->first_, rows);
+  const std::vector<double> zeros(rows, 0.);
+  HYPRE_ParVector pb = b.set(zeros);
+  handles.setUp(pb, x.set(zeros));
+}
+
+SolveReport HypreSolver::solve(
+  const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const
+{
+  SolveReport report;
+  if (this->unknowns_ == 0)
+  {
+    return report;
+  }
+  Handles& handles = *this->handles_;
+  const Index rows = rhs.rows();
+  Vector b(ranks.communicator(), this->first_, rows), u(ranks.communicator(), this->first_, rows);
+  std::vector<double> column(rows);
+  for (int j = 0; j < 3; ++j)
+  {
+    Eigen::Map<Eigen::VectorXd>(column.data(), rows) = rhs.col(j);
+    const double norm = std::sqrt(ranks.sum(rhs.col(j).squaredNorm()));
+    if (!(norm > 0))
+    {
+      x.col(j).setZero();
+      continue;
+    }
+    HYPRE_ParVector pb = b.set(column);
+    Eigen::Map<Eigen::VectorXd>(column.data(), rows) = x.col(j);
+    HYPRE_ParVector pu = u.set(column);
+    report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
+    u.get(column);
+    x.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
+    // b - A x, in place of b: what the iteration reports may have drifted.
+    HYPRE_ParCSRMatrixMatvec(-1, handles.matrix, pu, 1, pb);
+    b.get(column);
+    const double residual =
+      std::sqrt(ranks.sum(Eigen::Map<const Eigen::VectorXd>(column.data(), rows).squaredNorm()));
+    report.relativeResidual = std::max(report.relativeResidual, residual / norm);
+    if (!(residual <= 1e3 * tolerance * norm) && !(residual <= 1e-9 * norm))
+    {
+      throw Error(Error::Kind::NoConvergence,
+        "hypre's solver did not converge: after " + std::to_string(maxIterations) +
+          " iterations the residual is " + std::to_string(residual / norm) +
+          " of the right-hand side. Repair flat cells, or raise Tolerance.");
+    }
+  }
+  return report;
+}
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/Methods.h"
+
+#include "Distributed/SiteMethod.h"
+#include "Distributed/SystemMethod.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
+
+#include <utility>
+
+namespace morph::distributed
+{
+std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
+{
+  if (dynamic_cast<const morph::FemWarp*>(serial.get()))
+  {
+    auto method = std::make_unique<FemWarp>();
+    method->takeEvaluateOptions(*serial);
+    return method;
+  }
+  if (const auto* warp = dynamic_cast<const morph::LogBarrierWarp*>(serial.get()))
+  {
+    auto method = std::make_unique<LogBarrierWarp>(
+      warp->outsideHull() == morph::LogBarrierWarp::OutsideHull::Relax);
+    method->takeEvaluateOptions(*serial);
+    return method;
+  }
+  if (dynamic_cast<const WeightedResidual*>(serial.get()) ||
+      dynamic_cast<const SimplexLinear*>(serial.get()) ||
+      dynamic_cast<const SimplexNaturalNeighbor*>(serial.get()))
+  {
+    return std::make_unique<SiteMethod>(std::move(serial));
+  }
+  return nullptr;
+}
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/Ranks.h"
+
+#include "Support/Error.h"
+
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+
+namespace morph::distributed
+{
+namespace
+{
+constexpr int Tag = 7361; // of all messages between two ranks
+
+template <typename Value>
+Value reduce(MPI_Comm communicator, Value value, MPI_Datatype type, MPI_Op operation)
+{
+  Value all = value;
+  MPI_Allreduce(&value, &all, 1, type, operation, communicator);
+  return all;
+}
+
+template <typename Value>
+void sumAll(MPI_Comm communicator, Value* values, std::size_t size, MPI_Datatype type)
+{
+  constexpr std::size_t Most = std::size_t(1) << 30; // MPI counts in int
+  for (std::size_t first = 0; first < size; first += Most)
+  {
+    MPI_Allreduce(MPI_IN_PLACE, values + first, static_cast<int>(std::min(Most, size - first)),
+      type, MPI_SUM, communicator);
+  }
+}
+}
+
+Ranks::Ranks(MPI_Comm communicator)
+  : communicator_(communicator)
+{
+  MPI_Comm_rank(communicator, &this->rank_);
+  MPI_Comm_size(communicator, &this->count_);
+}
+
+void Ranks::together(const std::function<void()>& work) const
+{
+  std::string message;
+  Error::Kind kind = Error::Kind::InvalidInput;
+  bool failed = true;
+  try
+  {
+    work();
+    failed = false;
+  }
+  catch (const Error& error)
+  {
+    kind = error.kind();
+    message = error.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    message = "There is not enough memory on MPI rank " + std::to_string(this->rank_) + ".";
+  }
+  catch (const std::exception& error)
+  {
+    message = std::string("Unexpected failure: ") + error.what();
+  }
+  const int first =
+    reduce(this->communicator_, failed ? this->rank_ : this->count_, MPI_INT, MPI_MIN);
+  if (first == this->count_)
+  {
+    return;
+  }
+  int header[2] = { static_cast<int>(kind), static_cast<int>(message.size()) };
+  MPI_Bcast(header, 2, MPI_INT, first, this->communicator_);
+  message.resize(header[1]);
+  MPI_Bcast(message.data(), header[1], MPI_CHAR, first, this->communicator_);
+  throw Error(static_cast<Error::Kind>(header[0]), message);
+}
+
+void Ranks::sum(double* values, std::size_t size) const
+{
+  sumAll(this->communicator_, values, size, MPI_DOUBLE);
+}
+
+void Ranks::sum(Index* values, std::size_t size) const
+{
+  sumAll(this->communicator_, values, size, MPI_INT64_T);
+}
+
+Index Ranks::sum(Index value) const
+{
+  return reduce(this->communicator_, value, MPI_INT64_T, MPI_SUM);
+}
+
+double Ranks::sum(double value) const
+{
+  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_SUM);
+}
+
+double Ranks::minimum(double value) const
+{
+  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MIN);
+}
+
+double Ranks::maximum(double value) const
+{
+  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MAX);
+}
+
+Index Ranks::minimum(Index value) const
+{
+  return reduce(this->communicator_, value, MPI_INT64_T, MPI_MIN);
+}
+
+Index Ranks::maximum(Index value) const
+{
+  return reduce(this->communicator_, value, MPI_INT64_T, MPI_MAX);
+}
+
+Index Ranks::sumBefore(Index value) const
+{
+  Index before = 0;
+  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, this->communicator_);
+  return this->rank_ == 0 ? 0 : before;
+}
+
+int Ranks::messageSize(std::size_t items) const
+{
+  // Not an Error: the other ranks are about to communicate.
+  return static_cast<int>(std::min<std::size_t>(items, std::numeric_limits<int>::max()));
+}
+
+std::vector<int> Ranks::exchangeSizes(const std::vector<int>& sent) const
+{
+  std::vector<int> received(this->count_);
+  MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, this->communicator_);
+  return received;
+}
+
+void Ranks::exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,
+  const std::vector<const void*>& from, const std::vector<int>& received,
+  const std::vector<void*>& into) const
+{
+  MPI_Datatype item;
+  MPI_Type_contiguous(static_cast<int>(itemSize), MPI_BYTE, &item);
+  MPI_Type_commit(&item);
+  std::vector<MPI_Request> requests;
+  for (int r = 0; r < this->count_; ++r)
+  {
+    if (received[r] > 0)
+    {
+      MPI_Irecv(into[r], received[r], item, r, Tag, this->communicator_, &requests.emplace_back());
+    }
+  }
+  for (int r = 0; r < this->count_; ++r)
+  {
+    if (sent[r] > 0)
+    {
+      MPI_Isend(from[r], sent[r], item, r, Tag, this->communicator_, &requests.emplace_back());
+    }
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Type_free(&item);
+}
+
+void Ranks::exchangeNeighbors(const std::vector<int>& targets,
+  const std::vector<std::vector<double>>& from, const std::vector<int>& sources,
+  std::vector<std::vector<double>>& into) const
+{
+  std::vector<MPI_Request> requests(targets.size() + sources.size());
+  MPI_Request* request = requests.data();
+  for (std::size_t i = 0; i < sources.size(); ++i)
+  {
+    MPI_Irecv(into[i].data(), this->messageSize(into[i].size()), MPI_DOUBLE, sources[i], Tag,
+      this->communicator_, request++);
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i)
+  {
+    MPI_Isend(from[i].data(), this->messageSize(from[i].size()), MPI_DOUBLE, targets[i], Tag,
+      this->communicator_, request++);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Types.h"
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+namespace morph::distributed
+{
+/// The MPI ranks of a computation. Every function but rank() and count() is collective: all ranks
+/// call it, in the same order.
+class Ranks
+{
+public:
+  /// `communicator` has to outlive this object.
+  explicit Ranks(MPI_Comm communicator);
+
+  int rank() const { return this->rank_; }
+  int count() const { return this->count_; }
+  MPI_Comm communicator() const { return this->communicator_; }
+
+  /// Calls `work`, which must not communicate. If it throws on some ranks, all ranks throw Error
+  /// with the message of the first of these. So no rank waits for one that has given up.
+  void together(const std::function<void()>& work) const;
+
+  /// Element-wise over the ranks; all get the result.
+  ///@{
+  void sum(double* values, std::size_t size) const;
+  void sum(Index* values, std::size_t size) const;
+  Index sum(Index value) const;
+  double sum(double value) const;
+  double minimum(double value) const;
+  double maximum(double value) const;
+  Index minimum(Index value) const;
+  Index maximum(Index value) const;
+  ///@}
+  /// Returns the sum over the ranks before this one.
+  Index sumBefore(Index value) const;
+
+  /// Sends `to[r]` to each rank r, and returns what each rank sent here.
+  template <typename Item>
+  std::vector<std::vector<Item>> exchange(const std::vector<std::vector<Item>>& to) const
+  {
+    static_assert(std::is_trivially_copyable_v<Item>);
+    std::vector<int> sent(this->count_), received;
+    std::vector<const void*> from(this->count_);
+    for (int r = 0; r < this->count_; ++r)
+    {
+      sent[r] = this->messageSize(to[r].size());
+    }
+    received = this->exchangeSizes(sent);
+    std::vector<std::vector<Item>> result(this->count_);
+    std::vector<void*> into(this->count_);
+    for (int r = 0; r < this->count_; ++r)
+    {
+      result[r].resize(received[r]);
+      from[r] = to[r].data();
+      into[r] = result[r].data();
+    }
+    this->exchangeBytes(sizeof(Item), sent, from, received, into);
+    return result;
+  }
+
+  /// Returns the items of all ranks, rank by rank.
+  template <typename Item>
+  std::vector<Item> gather(const std::vector<Item>& mine) const
+  {
+    std::vector<Item> all;
+    for (const std::vector<Item>& part :
+      this->exchange(std::vector<std::vector<Item>>(this->count_, mine)))
+    {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+  /// Point-to-point messages: fills `into`, one buffer a rank of `sources`, from the ranks that
+  /// name this one in `targets` with buffers of the same size.
+  void exchangeNeighbors(const std::vector<int>& targets,
+    const std::vector<std::vector<double>>& from, const std::vector<int>& sources,
+    std::vector<std::vector<double>>& into) const;
+
+private:
+  int messageSize(std::size_t items) const;
+  std::vector<int> exchangeSizes(const std::vector<int>& sent) const;
+  void exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,
+    const std::vector<const void*>& from, const std::vector<int>& received,
+    const std::vector<void*>& into) const;
+
+  MPI_Comm communicator_;
+  int rank_ = 0;
+  int count_ = 1;
+};
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/SiteMethod.h"
+
+#include "Support/ProgressRange.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace morph::distributed
+{
+namespace
+{
+/// Keeps back what the serial method says: it numbers its nodes differently.
+class Silent : public ProgressRange
+{
+public:
+  explicit Silent(Monitor& whole)
+    : ProgressRange(whole, 0, 1)
+  {
+  }
+  void warn(const std::string&) override {}
+};
+}
+
+SiteMethod::SiteMethod(std::unique_ptr<Morpher> serial)
+  : serial_(std::move(serial))
+{
+}
+
+Points SiteMethod::gather(const Points& rows) const
+{
+  std::vector<std::array<double, 3>> mine;
+  for (Index i : this->owned_)
+  {
+    mine.push_back({ rows(i, 0), rows(i, 1), rows(i, 2) });
+  }
+  const auto all = this->mesh().ranks().gather(mine);
+  Points result(static_cast<Index>(all.size()), 3);
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    result.row(this->place_[k]) << all[k][0], all[k][1], all[k][2];
+  }
+  return result;
+}
+
+void SiteMethod::doPrepare(Monitor& monitor)
+{
+  const DistributedMesh& mesh = this->mesh();
+  const Ranks& ranks = mesh.ranks();
+  const std::vector<Index>& prescribed = this->partition().prescribed;
+  this->owned_.clear();
+  std::vector<std::int64_t> ids;
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+  {
+    if (mesh.owns(prescribed[i]))
+    {
+      this->owned_.push_back(static_cast<Index>(i));
+      ids.push_back(mesh.nodeId(prescribed[i]));
+    }
+  }
+  ids = ranks.gather(ids);
+  std::vector<Index> order(ids.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return ids[a] < ids[b]; });
+  this->place_.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    this->place_[order[k]] = static_cast<Index>(k);
+  }
+  const Points sites = this->gather(mesh.mesh().points(prescribed, allColumns));
+  this->gatheredBytes_ = ids.size() * (sizeof(std::int64_t) + 3 * sizeof(double));
+
+  // The sites, and then this rank's free nodes.
+  Mesh points;
+  points.offsets = { 0 };
+  const std::vector<Index>& free = this->ownFree();
+  const Index own = static_cast<Index>(free.size());
+  points.points.resize(sites.rows() + own, 3);
+  points.points.topRows(sites.rows()) = sites;
+  points.points.bottomRows(own) = mesh.mesh().points(free, allColumns);
+  NodePartition partition;
+  partition.prescribed.resize(sites.rows());
+  std::iota(partition.prescribed.begin(), partition.prescribed.end(), Index(0));
+  partition.free.resize(own);
+  std::iota(partition.free.begin(), partition.free.end(), sites.rows());
+  Silent silent(monitor);
+  ranks.together([&] { this->serial_->prepare(points, partition, silent); });
+}
+
+EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  const Ranks& ranks = this->mesh().ranks();
+  const Points sites = this->gather(prescribed);
+  const Points& rest = this->serial_->restPoints();
+  EvaluateReport report;
+  Silent silent(monitor);
+  ranks.together(
+    [&]
+    {
+      Points moved;
+      report = this->serial_->evaluate(rest.topRows(sites.rows()) + sites, moved, silent);
+      free = moved.bottomRows(free.rows()) - rest.bottomRows(free.rows());
+    });
+  report.statistics.clear(); // of this rank's nodes alone
+  return report;
+}
+}

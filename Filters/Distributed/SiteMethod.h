@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Method.h"
+
+#include "Morpher/Morpher.h"
+
+#include <memory>
+#include <vector>
+
+namespace morph::distributed
+{
+/// A method that interpolates between the prescribed nodes and reads no cells. Each rank gathers
+/// all prescribed nodes, and evaluates its own free nodes by the serial method. So memory and
+/// messages of each rank grow with the whole boundary: 32 bytes a prescribed node to prepare, 24 a
+/// motion.
+class SiteMethod : public Method
+{
+public:
+  /// `serial`: with the options that prepare() reads, not prepared.
+  explicit SiteMethod(std::unique_ptr<Morpher> serial);
+
+  void takeEvaluateOptions(const Morpher&) override {}
+
+  /// Bytes that this rank received for its last preparation.
+  std::size_t gatheredBytes() const { return this->gatheredBytes_; }
+
+protected:
+  void doPrepare(Monitor& monitor) override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
+
+private:
+  /// Gathers a row of each prescribed node that its owner has, in the order of the global ids.
+  Points gather(const Points& rows) const;
+
+  std::unique_ptr<Morpher> serial_;
+  std::vector<Index> owned_; ///< numbers in partition().prescribed of the nodes this rank owns
+  std::vector<Index> place_; ///< of each gathered node in the order of ids
+  std::size_t gatheredBytes_ = 0;
+};
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/HypreSolver.h"
+#include "Distributed/Method.h"
+
+#include "Geometry/AffineFit.h"
+#include "Solvers/CsrMatrix.h"
+
+#include <vector>
+
+namespace morph::distributed
+{
+/// A method that solves A_I U_I = -A_B U_B with the rows of each rank's own free nodes.
+class SystemMethod : public Method
+{
+public:
+  /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
+  /// 1e-10.
+  void setTolerance(double tolerance);
+
+protected:
+  explicit SystemMethod(HypreSolver::Kind kind)
+    : kind_(kind)
+  {
+  }
+
+  struct Rows
+  {
+    CsrMatrix interior; ///< #ownFree x #ownFree
+    CsrMatrix coupling; ///< #ownFree x #columns
+  };
+  /// Assembles the rows of ownFree(). `columns`: the local nodes of the other columns. Communicates
+  /// where it has to, and throws on all ranks.
+  virtual Rows assemble(const std::vector<Index>& columns, Monitor& monitor) = 0;
+  /// The method's own counts, of the whole mesh.
+  virtual std::vector<Statistic> counts() const { return {}; }
+
+  void doPrepare(Monitor& monitor) final;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const final;
+
+private:
+  std::vector<AffineFit> fits(const Points& prescribed) const;
+
+  HypreSolver::Kind kind_;
+  double tolerance_ = 1e-10;
+  CsrMatrix coupling_; ///< #ownFree x #prescribed
+  HypreSolver solver_;
+};
+
+/// FEMWARP; see morph::FemWarp.
+class FemWarp : public SystemMethod
+{
+public:
+  FemWarp()
+    : SystemMethod(HypreSolver::Kind::Symmetric)
+  {
+  }
+  void takeEvaluateOptions(const Morpher& serial) override;
+
+protected:
+  Rows assemble(const std::vector<Index>& columns, Monitor& monitor) override;
+};
+
+/// LBWARP; see morph::LogBarrierWarp.
+class LogBarrierWarp : public SystemMethod
+{
+public:
+  /// `relax`: free nodes outside the hull of their neighbors take fall-backs; otherwise they are an
+  /// error.
+  explicit LogBarrierWarp(bool relax)
+    : SystemMethod(HypreSolver::Kind::General)
+    , relax_(relax)
+  {
+  }
+  void takeEvaluateOptions(const Morpher& serial) override;
+  /// The second ring of a node's neighbors is a fall-back.
+  int layers() const override { return 2; }
+
+protected:
+  Rows assemble(const std::vector<Index>& columns, Monitor& monitor) override;
+  std::vector<Statistic> counts() const override { return this->counts_; }
+
+private:
+  bool relax_;
+  std::vector<Statistic> counts_;
+};
+}

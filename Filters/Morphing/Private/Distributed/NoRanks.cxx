@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A build without MPI or hypre: Input::TakeMesh() refuses meshes on several ranks before this.
+#include "Private/Distributed/OnRanks.h"
+
+#include <stdexcept>
+
+namespace morph::filters::OnRanks
+{
+namespace
+{
+[[noreturn]] void refuse()
+{
+  throw std::logic_error("This build has no MPI.");
+}
+}
+
+class Morphing::Internals
+{
+};
+
+Morphing::Morphing(Results&)
+{
+}
+
+Morphing::~Morphing() = default;
+
+void Morphing::Run(const Task&, const Session::Options&, morph::Monitor&)
+{
+  refuse();
+}
+
+void ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
+{
+  refuse();
+}
+
+Measured Measure(vtkUnstructuredGrid*, bool, vtkUnstructuredGrid*, morph::Monitor&)
+{
+  refuse();
+}
+}

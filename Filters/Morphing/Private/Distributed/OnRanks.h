@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Private/Morph/MorphOutput.h"
+#include "Private/Morph/Session.h"
+#include "Quality/Certificate.h"
+#include "Quality/ScaledJacobian.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+class vtkDataObject;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+class Results;
+
+/// What filters do with a mesh whose pieces are on several MPI processes. Every function is
+/// collective: all processes call it, also those without cells, and it throws morph::Error on all
+/// or none of them. Not to be called unless Ranks::TakePieces().
+namespace OnRanks
+{
+/// A distributed mesh and the method that is prepared for it, kept from one motion to the next.
+class Morphing
+{
+public:
+  /// `results`: as for Session. All processes get the numbers of the whole mesh.
+  explicit Morphing(Results& results);
+  ~Morphing();
+
+  struct Task
+  {
+    vtkUnstructuredGrid* Grid; ///< this process's piece
+    vtkDataObject* Boundary;   ///< this process's part of the boundary
+    double Fraction;           ///< of the motion
+    int Precision;             ///< of the points, see MorphOutput::Write()
+    MorphOutput::Measures Measures;
+    bool FeatureLines;
+    vtkUnstructuredGrid* Output;
+    vtkUnstructuredGrid* BadCells;
+    vtkPolyData* Surface;
+  };
+  /// Moves the mesh and writes the outputs. Names the options that need one rank.
+  void Run(const Task& task, const Session::Options& options, morph::Monitor& monitor);
+
+private:
+  class Internals;
+  std::unique_ptr<Internals> Own;
+};
+
+/// Writes the outer faces of the whole mesh that belong to this process's cells, as
+/// Surface::Write() does, with global ids.
+void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor);
+
+/// The quality of the mesh; see vtkScaledJacobian.
+struct Measured
+{
+  morph::Quality Whole;                  ///< the numbers of the whole mesh, without cells
+  std::vector<morph::Index> Unmeasured;  ///< Quality::Unmeasured() of the whole mesh
+  morph::CertificateReport Certificates; ///< counts of the whole mesh
+  morph::Index MirroredBodies = 0;
+};
+/// Measures the mesh and, if `certified`, examines it; `output` becomes the grid with the arrays.
+Measured Measure(
+  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor);
+}
+}

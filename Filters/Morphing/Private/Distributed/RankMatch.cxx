@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Distributed/RankMatch.h"
+
+#include "Distributed/DistributedMesh.h"
+#include "Private/Data/Surface.h"
+#include "Support/Error.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+using morph::distributed::DistributedMesh;
+using morph::distributed::Ranks;
+
+/// How points find their nodes. All ranks with points agree on it.
+enum class Way
+{
+  None, ///< this rank has no points
+  Ids,
+  Copies, ///< point i is node i of the rank's piece
+  Positions
+};
+
+/// A point of the boundary as it travels.
+struct Traveller
+{
+  std::int64_t id;          ///< of its node, or -1
+  std::int64_t rank, point; ///< where it comes from
+  std::int64_t isFree;
+  std::array<double, 3> position, rest, displacement;
+};
+
+constexpr Index MostIds = Index(1) << 52;
+
+Way wayOf(vtkPointSet* boundary, const DistributedMesh& mesh, bool areCopies,
+  const BoundaryMatch::Options& options)
+{
+  if (boundary->GetNumberOfPoints() == 0)
+  {
+    return Way::None;
+  }
+  if (BoundaryMatch::FindIds(boundary, options))
+  {
+    return Way::Ids;
+  }
+  if (areCopies && boundary->GetNumberOfPoints() == mesh.pieceNodes())
+  {
+    return Way::Copies;
+  }
+  for (const char* name : { "PointIds", "vtkOriginalPointIds" })
+  {
+    if (boundary->GetPointData()->HasArray(name))
+    {
+      throw Error("On several MPI ranks the point array '" + std::string(name) +
+                  "' may number each rank's points. Name it as BoundaryIdArray if its ids are "
+                  "global, or make the boundary with Extract Morph Boundary.");
+    }
+  }
+  if (options.DisplacementArray.empty())
+  {
+    throw Error("Nothing says which nodes the boundary's points are: there is no point array "
+                "MorphPointId. Make the boundary with Extract Morph Boundary, or set "
+                "BoundaryIdArray, or give undeformed points with a DisplacementArray.");
+  }
+  return Way::Positions;
+}
+
+/// The way that all ranks with points take.
+Way agree(const Ranks& ranks, Way mine)
+{
+  const auto value = static_cast<Index>(mine);
+  const Index most = ranks.maximum(value);
+  const Index least = ranks.minimum(mine == Way::None ? std::numeric_limits<Index>::max() : value);
+  if (most == static_cast<Index>(Way::None))
+  {
+    throw Error("The boundary has no points, so nothing says where the mesh goes.");
+  }
+  if (most != least)
+  {
+    throw Error("The boundary's points have ids on some MPI ranks and not on others. Make it with "
+                "Extract Morph Boundary on all.");
+  }
+  return static_cast<Way>(most);
+}
+
+std::array<double, 3> rowOf(const morph::Points& points, Index row)
+{
+  return points.rows() > 0 ? std::array<double, 3>{ points(row, 0), points(row, 1), points(row, 2) }
+                           : std::array<double, 3>{};
+}
+
+/// This rank's points; `node`: of each, or -1.
+std::vector<Traveller> travellers(const BoundaryMatch::NamedPoints& named,
+  const std::vector<std::pair<Index, std::int64_t>>& pairs, int rank)
+{
+  std::vector<Traveller> result;
+  for (const auto& [point, id] : pairs)
+  {
+    result.push_back({ id, rank, point, named.IsFree.empty() ? 0 : named.IsFree[point],
+      rowOf(named.Positions, point), rowOf(named.Rest, point), rowOf(named.Displacements, point) });
+  }
+  return result;
+}
+
+/// Sends each point to the ranks whose nodes' box, made larger by `tolerance`, holds it.
+std::vector<Traveller> toBoxes(
+  const DistributedMesh& mesh, const std::vector<Traveller>& mine, double tolerance)
+{
+  const Ranks& ranks = mesh.ranks();
+  const morph::Points& points = mesh.mesh().points;
+  std::vector<double> box(6, std::numeric_limits<double>::quiet_NaN());
+  if (points.rows() > 0)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      box[j] = points.col(j).minCoeff() - tolerance;
+      box[3 + j] = points.col(j).maxCoeff() + tolerance;
+    }
+  }
+  box = ranks.gather(box);
+  std::vector<std::vector<Traveller>> to(ranks.count());
+  for (const Traveller& point : mine)
+  {
+    for (int r = 0; r < ranks.count(); ++r)
+    {
+      bool inside = true;
+      for (int j = 0; j < 3; ++j)
+      {
+        inside =
+          inside && point.position[j] >= box[6 * r + j] && point.position[j] <= box[6 * r + 3 + j];
+      }
+      if (inside)
+      {
+        to[r].push_back(point);
+      }
+    }
+  }
+  std::vector<Traveller> received;
+  for (const auto& part : ranks.exchange(to))
+  {
+    received.insert(received.end(), part.begin(), part.end());
+  }
+  return received;
+}
+
+/// How many of a boundary's points no rank has found a node for; all ranks get the number.
+Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller>& received,
+  const std::vector<std::pair<Index, Index>>& pairs)
+{
+  std::vector<std::vector<std::int64_t>> back(ranks.count());
+  for (const auto& pair : pairs)
+  {
+    back[received[pair.first].rank].push_back(received[pair.first].point);
+  }
+  std::vector<std::int64_t> matched;
+  for (const auto& part : ranks.exchange(back))
+  {
+    matched.insert(matched.end(), part.begin(), part.end());
+  }
+  std::sort(matched.begin(), matched.end());
+  matched.erase(std::unique(matched.begin(), matched.end()), matched.end());
+  return ranks.sum(sent - static_cast<Index>(matched.size()));
+}
+
+/// The owners' choice for all local nodes.
+void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
+{
+  const Index nodes = mesh.mesh().numberOfNodes();
+  std::vector<std::int64_t> isPrescribed(nodes, 0);
+  morph::Points targets = mesh.mesh().points;
+  for (std::size_t i = 0; i < result.Ids.size(); ++i)
+  {
+    isPrescribed[result.Ids[i]] = 1;
+    targets.row(result.Ids[i]) = result.Targets.row(static_cast<Index>(i));
+  }
+  mesh.halo().update(mesh.ranks(), isPrescribed);
+  mesh.halo().update(mesh.ranks(), targets);
+  result.Ids.clear();
+  for (Index n = 0; n < nodes; ++n)
+  {
+    if (isPrescribed[n] != 0)
+    {
+      result.Ids.push_back(n);
+    }
+  }
+  result.Targets = targets(result.Ids, morph::allColumns);
+  result.Sources.clear();
+}
+}
+
+namespace RankMatch
+{
+BoundaryMatch::Result Match(
+  vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
+{
+  const Ranks& ranks = mesh.ranks();
+  const double tolerance = options.MatchTolerance * mesh.size();
+  const bool areCopies = ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
+  Way way = Way::None;
+  BoundaryMatch::NamedPoints named;
+  std::vector<std::pair<Index, std::int64_t>> pairs;
+  ranks.together(
+    [&]
+    {
+      way = wayOf(boundary, mesh, areCopies, options);
+      if (way == Way::None)
+      {
+        return;
+      }
+      named = BoundaryMatch::ReadPoints(boundary, options);
+      if (way == Way::Ids)
+      {
+        pairs = BoundaryMatch::FindByIds(BoundaryMatch::FindIds(boundary, options), MostIds);
+      }
+      else if (way == Way::Copies)
+      {
+        for (Index node : mesh.outerNodes().nodes)
+        {
+          pairs.emplace_back(node, mesh.nodeId(node));
+        }
+      }
+      else
+      {
+        for (Index i = 0; i < named.Positions.rows(); ++i)
+        {
+          pairs.emplace_back(i, -1);
+        }
+      }
+    });
+  const bool isEmpty = way == Way::None;
+  way = agree(ranks, way);
+  // RestPosition counts where all points have it.
+  const bool hasRest = ranks.sum(Index(!isEmpty && named.Rest.rows() == 0)) == 0;
+  const std::vector<Traveller> mine = travellers(named, pairs, ranks.rank());
+  std::vector<Traveller> points, unknown;
+  if (way == Way::Positions)
+  {
+    points = toBoxes(mesh, mine, tolerance);
+  }
+  else
+  {
+    points = mesh.directory().route(mine, unknown);
+  }
+  ranks.together(
+    [&]
+    {
+      if (!unknown.empty())
+      {
+        std::vector<Index> ids;
+        for (const Traveller& point : unknown)
+        {
+          ids.push_back(point.id);
+        }
+        throw Error("The boundary names nodes that the grid does not have: global ids " +
+                    morph::listIds(ids) +
+                    ". Make the boundary from this grid, with Extract Morph Boundary.");
+      }
+    });
+  std::sort(points.begin(), points.end(),
+    [](const Traveller& a, const Traveller& b)
+    { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
+
+  const Index count = static_cast<Index>(points.size());
+  BoundaryMatch::NamedPoints here;
+  here.Positions.resize(count, 3);
+  here.Rest.resize(hasRest ? count : 0, 3);
+  here.Displacements.resize(options.DisplacementArray.empty() ? 0 : count, 3);
+  here.IsFree.resize(count);
+  for (Index i = 0; i < count; ++i)
+  {
+    const auto row = [](const std::array<double, 3>& x)
+    { return Eigen::RowVector3d(x[0], x[1], x[2]); };
+    here.Positions.row(i) = row(points[i].position);
+    if (hasRest)
+    {
+      here.Rest.row(i) = row(points[i].rest);
+    }
+    if (here.Displacements.rows() > 0)
+    {
+      here.Displacements.row(i) = row(points[i].displacement);
+    }
+    here.IsFree[i] = points[i].isFree != 0;
+    if (way != Way::Positions)
+    {
+      here.Pairs.emplace_back(i, mesh.nodeOf(points[i].id));
+    }
+  }
+  Index unmatched = 0;
+  if (way == Way::Positions)
+  {
+    Index ignored = 0;
+    ranks.together(
+      [&]
+      {
+        if (count > 0)
+        {
+          here.Pairs = BoundaryMatch::FindByPosition(
+            here.Positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
+        }
+      });
+    unmatched = countUnmatched(ranks, static_cast<Index>(mine.size()), points, here.Pairs);
+  }
+  BoundaryMatch::Result result;
+  ranks.together(
+    [&]
+    {
+      result = BoundaryMatch::FindTargets(
+        std::move(here), mesh.mesh(), mesh.outerNodes(), mesh.size(), options, &mesh.nodeIds());
+    });
+  takeOwners(mesh, result);
+  result.Unmatched = unmatched;
+  if (unmatched > 0)
+  {
+    result.Warnings.push_back(
+      std::to_string(unmatched) +
+      " of the boundary's points are not within MatchTolerance of a node of the grid and were "
+      "left out.");
+  }
+  return result;
+}
+}
+}

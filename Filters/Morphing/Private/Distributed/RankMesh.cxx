@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Distributed/RankMesh.h"
+
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Support/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkIdTypeArray.h>
+#include <vtkMPI.h>
+#include <vtkMPICommunicator.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+std::vector<std::int64_t> globalIds(vtkDataSetAttributes* data)
+{
+  std::vector<std::int64_t> ids;
+  if (vtkDataArray* array = data->GetGlobalIds())
+  {
+    ids.resize(array->GetNumberOfTuples());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      ids[i] = static_cast<std::int64_t>(array->GetComponent(static_cast<vtkIdType>(i), 0));
+    }
+  }
+  return ids;
+}
+
+/// #cells: nonzero for copies of other processes' cells; empty where there are none.
+std::vector<std::uint8_t> ghostCells(vtkUnstructuredGrid* grid)
+{
+  std::vector<std::uint8_t> ghosts;
+  if (vtkUnsignedCharArray* types = grid->GetCellGhostArray())
+  {
+    ghosts.resize(types->GetNumberOfValues());
+    for (std::size_t c = 0; c < ghosts.size(); ++c)
+    {
+      ghosts[c] = types->GetValue(static_cast<vtkIdType>(c)) & vtkDataSetAttributes::DUPLICATECELL;
+    }
+  }
+  return ghosts;
+}
+
+void translate(vtkDataSetAttributes* data, const char* name, const std::vector<std::int64_t>& ids)
+{
+  auto* local = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(name));
+  if (!local)
+  {
+    return;
+  }
+  vtkNew<vtkIdTypeArray> global; // others may share the array
+  global->SetName(name);
+  global->SetNumberOfValues(local->GetNumberOfValues());
+  for (vtkIdType i = 0; i < local->GetNumberOfValues(); ++i)
+  {
+    const vtkIdType value = local->GetValue(i);
+    global->SetValue(i, value < 0 ? value : static_cast<vtkIdType>(ids[value]));
+  }
+  data->AddArray(global);
+}
+}
+
+morph::distributed::Ranks GlobalRanks()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  auto* communicator =
+    controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
+  if (!communicator)
+  {
+    throw morph::Error("The mesh is distributed over processes that do not communicate by MPI. "
+                       "Start them by mpiexec.");
+  }
+  return morph::distributed::Ranks(*communicator->GetMPIComm()->GetHandle());
+}
+
+RankMesh::RankMesh()
+  : Processes(GlobalRanks())
+{
+}
+
+bool RankMesh::Take(
+  vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor)
+{
+  const morph::distributed::Ranks& ranks = this->Processes;
+  std::vector<std::int64_t> nodeIds = globalIds(grid->GetPointData());
+  std::vector<std::int64_t> cellIds = globalIds(grid->GetCellData());
+  std::vector<std::uint8_t> ghosts = ghostCells(grid);
+  const bool same = this->Distributed && this->Layers >= layers && nodeIds == this->NodeIds &&
+                    cellIds == this->CellIds && ghosts == this->Ghosts &&
+                    GridMesh::SameCells(grid, this->Copy) && GridMesh::SamePoints(grid, this->Copy);
+  if (ranks.sum(morph::Index(!same)) == 0)
+  {
+    return false;
+  }
+  this->Distributed.reset();
+  ranks.together([&] { this->Copy = GridMesh::FromGrid(grid, unknown); });
+  morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
+  morph::distributed::requireNodeIds(ranks, piece);
+  morph::distributed::requireCellIds(ranks, piece);
+  auto whole =
+    std::make_unique<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
+  const morph::Index cells = whole->pieceCells();
+  this->Signs.assign(whole->orientation().begin(), whole->orientation().begin() + cells);
+  this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
+  const auto dimension = [this](morph::Index c)
+  { return GridMesh::Dimension(this->Copy.types[c]); };
+  morph::Index highest = 0;
+  for (morph::Index c = 0; c < cells; ++c)
+  {
+    highest = std::max<morph::Index>(highest, dimension(c));
+  }
+  this->Dimension = static_cast<int>(ranks.maximum(highest));
+  for (morph::Index c = 0; c < cells; ++c)
+  {
+    this->Skip[c] |= dimension(c) < this->Dimension;
+  }
+  this->Polygons = {};
+  ranks.together([&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &this->Signs); });
+  this->NodeIds = std::move(nodeIds);
+  this->CellIds = std::move(cellIds);
+  this->Ghosts = std::move(ghosts);
+  this->Layers = layers;
+  this->Distributed = std::move(whole);
+  return true;
+}
+
+void RankMesh::RequireVolumeCells() const
+{
+  if (this->Distributed->volumeCells() == 0)
+  {
+    throw morph::Error("None of the input's cells is a volume cell. Tetrahedra, hexahedra, wedges "
+                       "or pyramids are needed.");
+  }
+  DataCheck::RequireExtent(this->Distributed->size(), "The input's volume mesh");
+}
+
+void RankMesh::WriteGlobalIds(vtkDataSet* output) const
+{
+  translate(output->GetPointData(), Surface::IdName, this->Distributed->nodeIds());
+  translate(output->GetCellData(), "MorphCellId", this->Distributed->cellIds());
+}
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pieces.h"
+
+#include "Files.h"
+#include "Messages.h"
+
+#include "Files/ReadFile.h"
+#include "Files/ReplaceFile.h"
+
+#include <vtkAppendFilter.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <string_view>
+#include <unordered_map>
+
+namespace morph_mesh
+{
+namespace
+{
+namespace fs = std::filesystem;
+namespace io = morph::io;
+
+/// The names of files in an element and those below it.
+void collectSources(vtkXMLDataElement* element, std::vector<std::string>& sources)
+{
+  const bool isPiece = std::strcmp(element->GetName(), "Piece") == 0;
+  const bool isDataSet = std::strcmp(element->GetName(), "DataSet") == 0;
+  const char* source = isPiece     ? element->GetAttribute("Source")
+                       : isDataSet ? element->GetAttribute("file")
+                                   : nullptr;
+  if (source)
+  {
+    sources.emplace_back(source);
+  }
+  for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  {
+    collectSources(element->GetNestedElement(i), sources);
+  }
+}
+
+std::vector<std::string> sourcesOf(const std::string& path)
+{
+  const std::string text = io::readFile(path);
+  ConsoleMessages inner; // the parser's
+  const auto root =
+    vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
+  std::vector<std::string> sources;
+  if (root)
+  {
+    collectSources(root, sources);
+  }
+  if (sources.empty())
+  {
+    throw Failure("Cannot read " + path +
+                  ": the file is damaged, or not what its extension says: it names no piece.");
+  }
+  for (const std::string& source : sources)
+  {
+    if (isListOfPieces(source))
+    {
+      throw Failure("Cannot read " + path + ": it names " + source +
+                    ", a list of pieces again. Give that file.");
+    }
+  }
+  return sources;
+}
+
+std::string beside(const std::string& path, const std::string& source)
+{
+  return (fs::path(path).parent_path() / source).string();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+  {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+bool isSameFile(const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  return a == b || fs::equivalent(a, b, error);
+}
+
+/// What a copy of a list writes: the name of each piece in the list, old and new.
+struct Renaming
+{
+  std::vector<std::string> from, to;
+};
+
+/// A piece that has the name of the list in its own gets the new one: part_0.vtu, moved_0.vtu.
+Renaming renamingOf(const std::string& original, const std::string& path)
+{
+  Renaming result;
+  result.from = sourcesOf(original);
+  const std::string oldStem = fs::path(original).stem().string(),
+                    newStem = fs::path(path).stem().string();
+  for (const std::string& source : result.from)
+  {
+    result.to.push_back(replaced(source, oldStem, newStem));
+    if (fs::path(source).is_absolute() || source.find("..") != std::string::npos)
+    {
+      throw Failure("Cannot write " + path + ": the original names the piece " + source +
+                    ", which is not below its folder.");
+    }
+    if (!isSameFile(original, path) && fs::exists(beside(original, source)) &&
+        isSameFile(beside(original, source), beside(path, result.to.back())))
+    {
+      throw Failure("Cannot write " + path + ": the original names the piece " + source +
+                    ", which would be overwritten. Give another folder.");
+    }
+  }
+  return result;
+}
+
+/// Tells a merged grid's points by their undeformed coordinates.
+class PointsByPlace
+{
+public:
+  explicit PointsByPlace(vtkUnstructuredGrid* grid)
+  {
+    this->Ids.reserve(static_cast<std::size_t>(grid->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      this->Ids.emplace(key(grid->GetPoint(i)), i);
+    }
+  }
+
+  /// -1 where there is none.
+  vtkIdType Find(const double x[3]) const
+  {
+    const auto found = this->Ids.find(key(x));
+    return found == this->Ids.end() ? -1 : found->second;
+  }
+
+private:
+  using Key = std::array<double, 3>;
+  struct Hash
+  {
+    std::size_t operator()(const Key& key) const
+    {
+      return std::hash<std::string_view>()(
+        { reinterpret_cast<const char*>(key.data()), sizeof(Key) });
+    }
+  };
+  /// A zero with a sign equals one without.
+  static Key key(const double x[3]) { return { x[0] + 0., x[1] + 0., x[2] + 0. }; }
+
+  std::unordered_map<Key, vtkIdType, Hash> Ids;
+};
+
+/// The piece's points at their new places, and how many are no point of the mesh; `rounding` grows.
+vtkSmartPointer<vtkPoints> movedPoints(vtkDataSet* piece, const PointsByPlace& places,
+  vtkUnstructuredGrid* moved, int type, vtkIdType& strangers, double& rounding)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(type);
+  points->SetNumberOfPoints(piece->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < piece->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    piece->GetPoint(i, x);
+    const vtkIdType id = places.Find(x);
+    strangers += id < 0;
+    if (id >= 0)
+    {
+      moved->GetPoint(id, x);
+    }
+    points->SetPoint(i, x);
+    double written[3];
+    points->GetPoint(i, written);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rounding = std::max(rounding, std::abs(written[axis] - x[axis]));
+    }
+  }
+  return points;
+}
+
+std::string contentOf(vtkDataSet* piece, const std::string& path)
+{
+  if (piece->IsA("vtkUnstructuredGrid"))
+  {
+    return xmlOf<vtkXMLUnstructuredGridWriter>(piece, path);
+  }
+  return piece->IsA("vtkPolyData") ? xmlOf<vtkXMLPolyDataWriter>(piece, path)
+                                   : xmlOf<vtkXMLStructuredGridWriter>(piece, path);
+}
+}
+
+bool isListOfPieces(const std::string& path)
+{
+  const std::string kind = extensionOf(path);
+  return kind == ".pvtu" || kind == ".vtm";
+}
+
+std::vector<std::string> piecesOf(const std::string& path)
+{
+  std::vector<std::string> pieces = sourcesOf(path);
+  std::transform(pieces.begin(), pieces.end(), pieces.begin(),
+    [&](const std::string& source) { return beside(path, source); });
+  return pieces;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> mergedPieces(const std::string& path)
+{
+  vtkNew<vtkAppendFilter> append;
+  append->MergePointsOn();
+  for (const std::string& piece : piecesOf(path))
+  {
+    const vtkSmartPointer<vtkDataObject> data = readFile(piece);
+    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+    {
+      grid->RemoveGhostCells();
+    }
+    if (vtkDataSet::SafeDownCast(data))
+    {
+      append->AddInputDataObject(data);
+    }
+  }
+  Messages messages(append);
+  messages.update("Cannot read " + path);
+  return append->GetOutput();
+}
+
+void requireWritablePieces(const std::string& original, const std::string& path)
+{
+  if (extensionOf(original) != extensionOf(path))
+  {
+    throw Failure("Cannot write " + path + ": a copy of " + original + " with moved points is " +
+                  extensionOf(original) + " too; a single grid is written as .vtu or .vtk.");
+  }
+  for (const std::string& target : renamingOf(original, path).to)
+  {
+    io::requireReplaceable(beside(path, target), true);
+  }
+  io::requireReplaceable(path);
+}
+
+double writePieces(vtkUnstructuredGrid* moved, const std::string& original, const std::string& path)
+{
+  const Renaming names = renamingOf(original, path);
+  const vtkSmartPointer<vtkUnstructuredGrid> merged = mergedPieces(original);
+  if (merged->GetNumberOfPoints() != moved->GetNumberOfPoints())
+  {
+    throw Failure("Cannot write " + path + ": " + original + " has changed since it was read.");
+  }
+  const PointsByPlace places(merged);
+  std::vector<io::NewFile> files;
+  std::string list = io::readFile(original);
+  vtkIdType strangers = 0;
+  double rounding = 0;
+  for (std::size_t i = 0; i < names.from.size(); ++i)
+  {
+    const std::string source = beside(original, names.from[i]), target = beside(path, names.to[i]);
+    const vtkSmartPointer<vtkDataObject> data = readFile(source);
+    io::NewFile file;
+    file.path = target;
+    file.makeFolder = true;
+    auto* piece = vtkPointSet::SafeDownCast(data);
+    if (piece && piece->GetPoints())
+    {
+      const auto points =
+        movedPoints(piece, places, moved, piece->GetPoints()->GetDataType(), strangers, rounding);
+      piece->SetPoints(points);
+      file.content = contentOf(piece, target);
+    }
+    else
+    {
+      auto* image = vtkDataSet::SafeDownCast(data);
+      if (image && image->GetNumberOfPoints() > 0 && image->GetNumberOfCells() > 0 && !piece)
+      {
+        throw Failure("Cannot write " + path + ": " + source + " is a " + data->GetClassName() +
+                      ", whose points cannot be moved one by one.");
+      }
+      file.content = io::readFile(source);
+    }
+    files.push_back(std::move(file));
+    list = replaced(list, '"' + names.from[i] + '"', '"' + names.to[i] + '"');
+  }
+  files.push_back({ path, list });
+  if (strangers > 0)
+  {
+    std::cerr << "morph-mesh: warning: " << original << ": " << strangers
+              << " points of its pieces are no nodes of the volume mesh, and stay.\n";
+  }
+  io::replaceFiles(files, io::Signals::RemoveTemporaries);
+  return rounding;
+}
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Topology.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Quality/MovableQuality.h"
+#include "Untangling/MinQualityAscent.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::MovableQuality;
+using morph::Points;
+
+/// A node of the top that comes near the diagonal of a face: a place with a low bound.
+const motions::Row Spoilt(2, 4, 6);
+
+Mesh spoiltMesh()
+{
+  Mesh mesh = meshes::hexes(9, 9, 6);
+  meshes::jitterInterior(mesh, 0.3, meshes::seed());
+  for (Index node = 0; node < mesh.numberOfNodes(); ++node)
+  {
+    if ((mesh.points.row(node) - Spoilt).norm() < 1e-9)
+    {
+      mesh.points.row(node) += motions::Row(0.49, 0.49, 0);
+    }
+  }
+  return mesh;
+}
+
+/// The minimum over cells that are not near that node.
+double minimumElsewhere(const Mesh& mesh, const MovableQuality::Result& quality)
+{
+  double least = 1;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if ((mesh.points.row(mesh.cell(c)[0]) - Spoilt).norm() > 4)
+    {
+      least = std::min(least, quality.scaledJacobian[c]);
+    }
+  }
+  return least;
+}
+}
+
+TEST(MinQualityAscent, OnePlaceAtItsBoundDoesNotStopTheOthers)
+{
+  const Mesh mesh = spoiltMesh();
+  const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
+  const morph::NodePartition partition = motions::outerPartition(mesh);
+  const MovableQuality quality(mesh, orientation, partition.free);
+  meshes::ThreadedMonitor one(1), three(3);
+  Points points = mesh.points;
+  const double bound = quality.bounds(points).movable;
+  morph::raiseMinimumQuality(quality, bound, points, one);
+  const MovableQuality::Result floor = quality.measure(points, one);
+  ASSERT_TRUE(morph::hasReached(floor.minimum, bound)) << floor.minimum << " of " << bound;
+  const double before = minimumElsewhere(mesh, floor);
+  ASSERT_GT(before, 3 * floor.minimum);
+
+  Points again = points;
+  EXPECT_GT(morph::raiseNextWorst(quality, points, one), 0);
+  const MovableQuality::Result raised = quality.measure(points, one);
+  EXPECT_GE(raised.minimum, floor.minimum);
+  EXPECT_GT(minimumElsewhere(mesh, raised), 1.2 * before);
+  EXPECT_EQ(
+    meshes::rows(points, partition.prescribed), meshes::rows(mesh.points, partition.prescribed));
+  morph::raiseNextWorst(quality, again, three);
+  EXPECT_TRUE(motions::identical(points, again));
+}
+
+TEST(MinQualityAscent, AMeshWithManyCellsAtItsMinimumStays)
+{
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  const std::vector<std::int8_t> orientation(mesh.numberOfCells(), 1);
+  const morph::NodePartition partition = motions::outerPartition(mesh);
+  Mesh sheared = mesh;
+  meshes::transform(
+    sheared, [](const motions::Row& x) { return motions::Row(x[0] + 0.5 * x[1], x[1], x[2]); });
+  const MovableQuality quality(sheared, orientation, partition.free);
+  meshes::ThreadedMonitor monitor;
+  Points points = sheared.points;
+  EXPECT_EQ(morph::raiseNextWorst(quality, points, monitor), 0);
+  EXPECT_EQ(points, sheared.points);
+}

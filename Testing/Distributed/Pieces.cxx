@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pieces.h"
+
+#include "Support/Error.h"
+
+#include <random>
+
+namespace pieces
+{
+morph::distributed::Ranks world()
+{
+  return morph::distributed::Ranks(MPI_COMM_WORLD);
+}
+
+std::vector<int> randomOwners(const morph::Mesh& mesh, int ranks, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> rank(0, ranks - 1);
+  std::vector<int> owners(mesh.numberOfCells());
+  for (int& owner : owners)
+  {
+    owner = rank(random);
+  }
+  return owners;
+}
+
+morph::distributed::Piece pieceOf(const morph::Mesh& mesh, const std::vector<int>& owners, int rank)
+{
+  morph::distributed::Piece piece;
+  piece.mesh.offsets = { 0 };
+  std::vector<morph::Index> local(mesh.numberOfNodes(), -1);
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (owners[c] != rank)
+    {
+      continue;
+    }
+    for (morph::Index k = 0; k < mesh.cellSize(c); ++k)
+    {
+      const morph::Index node = mesh.cell(c)[k];
+      if (local[node] < 0)
+      {
+        local[node] = static_cast<morph::Index>(piece.nodeIds.size());
+        piece.nodeIds.push_back(node);
+      }
+      piece.mesh.connectivity.push_back(local[node]);
+    }
+    piece.mesh.types.push_back(mesh.types[c]);
+    piece.mesh.offsets.push_back(static_cast<morph::Index>(piece.mesh.connectivity.size()));
+    piece.cellIds.push_back(c);
+  }
+  piece.mesh.points = mesh.points(piece.nodeIds, morph::allColumns);
+  return piece;
+}
+
+std::string messageOf(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const morph::Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+}

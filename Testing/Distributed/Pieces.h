@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Piece.h"
+#include "Distributed/Ranks.h"
+#include "Mesh/Mesh.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Parts of a mesh for the tests on MPI ranks.
+namespace pieces
+{
+/// The ranks of MPI_COMM_WORLD.
+morph::distributed::Ranks world();
+
+/// A rank for each cell, at random, the same on all ranks.
+std::vector<int> randomOwners(const morph::Mesh& mesh, int ranks, unsigned seed);
+
+/// This rank's cells with their nodes. The ids are those of `mesh`.
+morph::distributed::Piece pieceOf(
+  const morph::Mesh& mesh, const std::vector<int>& owners, int rank);
+
+/// The message of the Error that `work` throws on this rank, or "".
+std::string messageOf(const std::function<void()>& work);
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/DistributedMesh.h"
+#include "Distributed/Quality.h"
+#include "Mesh/Topology.h"
+#include "Meshes.h"
+#include "Pieces.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Monitor;
+using morph::distributed::DistributedMesh;
+using morph::distributed::Piece;
+using morph::distributed::Ranks;
+
+DistributedMesh distribute(const Ranks& ranks, const Mesh& mesh, int layers, unsigned seed)
+{
+  Monitor monitor;
+  return DistributedMesh(ranks,
+    pieces::pieceOf(mesh, pieces::randomOwners(mesh, ranks.count(), seed), ranks.rank()), layers,
+    monitor);
+}
+}
+
+TEST(Ranks, AnErrorOnOneRankIsThrownOnAllWithTheSameMessage)
+{
+  const Ranks ranks = pieces::world();
+  const int last = ranks.count() - 1;
+  const std::string message = pieces::messageOf(
+    [&]
+    {
+      ranks.together(
+        [&]
+        {
+          if (ranks.rank() == last)
+          {
+            throw morph::Error("rank " + std::to_string(ranks.rank()) + " says no");
+          }
+        });
+    });
+  EXPECT_EQ(message, "rank " + std::to_string(last) + " says no");
+}
+
+TEST(DistributedMesh, OwnsEachNodeOnceAndHasAllCellsAroundItsNodes)
+{
+  const Ranks ranks = pieces::world();
+  for (const auto& [name, whole] : meshes::all(4, 3, 3))
+  {
+    for (int layers : { 1, 2 })
+    {
+      const DistributedMesh mesh = distribute(ranks, whole, layers, meshes::seed());
+      Index owned = 0;
+      for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+      {
+        owned += mesh.owns(n);
+        EXPECT_EQ(mesh.mesh().points.row(n), whole.points.row(mesh.nodeId(n)));
+      }
+      EXPECT_EQ(ranks.sum(owned), whole.numberOfNodes()) << name;
+      const morph::Adjacency here = morph::nodeToCells(mesh.mesh());
+      const morph::Adjacency all = morph::nodeToCells(whole);
+      for (Index n = 0; n < mesh.pieceNodes(); ++n)
+      {
+        const Index id = mesh.nodeId(n);
+        EXPECT_EQ(here.end(n) - here.begin(n), all.end(id) - all.begin(id)) << name;
+      }
+      std::set<std::int64_t> cells(mesh.cellIds().begin(), mesh.cellIds().end());
+      EXPECT_EQ(cells.size(), mesh.cellIds().size()) << name;
+    }
+  }
+}
+
+TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  for (auto& [name, whole] : meshes::all(4, 3, 3))
+  {
+    meshes::transform(
+      whole, [](const Eigen::RowVector3d& x) { return Eigen::RowVector3d(-x[0], x[1], 2 * x[2]); });
+    const DistributedMesh mesh = distribute(ranks, whole, 1, meshes::seed());
+    const morph::BoundaryFaces faces = morph::boundaryFaces(whole, monitor);
+    EXPECT_EQ(ranks.sum(static_cast<Index>(mesh.outerFaces().cells.size())),
+      static_cast<Index>(faces.cells.size()))
+      << name;
+    for (Index node : mesh.outerNodes().nodes)
+    {
+      EXPECT_TRUE(std::binary_search(faces.nodes.begin(), faces.nodes.end(), mesh.nodeId(node)))
+        << name;
+    }
+    const morph::ConnectedComponents bodies = morph::connectedComponents(whole);
+    EXPECT_EQ(mesh.bodies().count, bodies.count) << name;
+    const std::vector<std::int8_t> signs = morph::cellSigns(whole, bodies);
+    for (Index c = 0; c < mesh.mesh().numberOfCells(); ++c)
+    {
+      EXPECT_EQ(mesh.orientation()[c], signs[mesh.cellId(c)]) << name;
+    }
+    EXPECT_NEAR(mesh.size(), meshes::size(whole.points), 1e-12);
+
+    const morph::Quality quality = morph::measureQuality(whole, whole.points, signs, {}, monitor);
+    const morph::Quality reduced = morph::distributed::reduce(ranks,
+      morph::measureQuality(
+        mesh.mesh(), mesh.mesh().points, mesh.orientation(), mesh.isGhost(), monitor),
+      mesh.cellIds());
+    EXPECT_EQ(reduced.minimum, quality.minimum) << name;
+    EXPECT_NEAR(reduced.mean, quality.mean, 1e-12) << name;
+    EXPECT_EQ(reduced.measured, quality.measured) << name;
+    EXPECT_EQ(reduced.inverted, quality.inverted) << name;
+    EXPECT_EQ(reduced.worstCell, quality.worstCell) << name;
+  }
+}
+
+TEST(DistributedMesh, MakesIdsByPosition)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  const Mesh whole = meshes::tets(4, 3, 3);
+  Piece piece = pieces::pieceOf(
+    whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank());
+  const std::vector<std::int64_t> ids = piece.nodeIds;
+  piece.nodeIds.clear();
+  piece.cellIds.clear();
+  morph::distributed::requireNodeIds(ranks, piece);
+  morph::distributed::requireCellIds(ranks, piece);
+  // Made and given ids tell the same nodes apart.
+  using Pair = std::array<std::int64_t, 2>;
+  std::vector<Pair> pairs;
+  for (std::size_t n = 0; n < ids.size(); ++n)
+  {
+    pairs.push_back({ piece.nodeIds[n], ids[n] });
+  }
+  pairs = ranks.gather(pairs);
+  const std::set<Pair> distinct(pairs.begin(), pairs.end());
+  EXPECT_EQ(static_cast<Index>(distinct.size()), whole.numberOfNodes());
+  EXPECT_EQ(distinct.rbegin()->front(), whole.numberOfNodes() - 1);
+  std::vector<std::int64_t> cells = ranks.gather(piece.cellIds);
+  std::sort(cells.begin(), cells.end());
+  EXPECT_EQ(static_cast<Index>(cells.size()), whole.numberOfCells());
+  EXPECT_EQ(cells.back(), whole.numberOfCells() - 1);
+}
+
+TEST(DistributedMesh, RefusesIdsThatDoNotFit)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  const Mesh whole = meshes::hexes(3, 3, 3);
+  if (ranks.count() < 2)
+  {
+    GTEST_SKIP() << "needs several ranks";
+  }
+  const std::vector<int> owners = pieces::randomOwners(whole, ranks.count(), 5);
+  const auto build = [&](const std::function<void(Piece&)>& spoil)
+  {
+    Piece piece = pieces::pieceOf(whole, owners, ranks.rank());
+    spoil(piece);
+    return pieces::messageOf(
+      [&]
+      {
+        morph::distributed::requireNodeIds(ranks, piece);
+        DistributedMesh(ranks, piece, 1, monitor);
+      });
+  };
+  const bool isLast = ranks.rank() == ranks.count() - 1;
+  EXPECT_NE(build(
+              [&](Piece& piece)
+              {
+                if (isLast)
+                {
+                  piece.mesh.points.col(0).array() += 0.5;
+                }
+              })
+              .find("different positions"),
+    std::string::npos);
+  EXPECT_NE(build(
+              [&](Piece& piece)
+              {
+                if (isLast)
+                {
+                  piece.nodeIds[0] = piece.nodeIds[1];
+                }
+              })
+              .find("same global point id"),
+    std::string::npos);
+  EXPECT_NE(build(
+              [&](Piece& piece)
+              {
+                if (isLast)
+                {
+                  piece.nodeIds.clear();
+                }
+              })
+              .find("Global point ids are on"),
+    std::string::npos);
+  EXPECT_NE(build(
+              [&](Piece& piece)
+              {
+                // Two inner nodes, which all ranks have.
+                for (std::size_t n = 0; n < piece.nodeIds.size(); ++n)
+                {
+                  if (piece.nodeIds[n] == 22)
+                  {
+                    piece.mesh.points.row(static_cast<Index>(n)) = whole.points.row(21);
+                  }
+                }
+                piece.nodeIds.clear();
+              })
+              .find("positions do not tell"),
+    std::string::npos);
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/Methods.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/SimplexNaturalNeighbor.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Mesh/Topology.h"
+#include "Meshes.h"
+#include "Pieces.h"
+#include "Support/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Monitor;
+using morph::Morpher;
+using morph::Points;
+using morph::distributed::DistributedMesh;
+using morph::distributed::Method;
+using morph::distributed::Ranks;
+
+std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
+{
+  std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> all;
+  auto fem = std::make_unique<morph::FemWarp>();
+  fem->setTolerance(1e-13);
+  all.emplace_back("FEMWARP", std::move(fem));
+  auto barrier = std::make_unique<morph::LogBarrierWarp>();
+  barrier->setTolerance(1e-13);
+  all.emplace_back("LBWARP", std::move(barrier));
+  all.emplace_back("weighted residual", std::make_unique<morph::WeightedResidual>());
+  all.emplace_back("simplex-linear", std::make_unique<morph::SimplexLinear>());
+  all.emplace_back("natural neighbor", std::make_unique<morph::SimplexNaturalNeighbor>());
+  return all;
+}
+
+Points bend(const Points& x)
+{
+  Points moved = x;
+  moved.col(1).array() += 0.2 * (x.col(0).array()).sin();
+  moved.col(2).array() += 0.1 * x.col(0).array() * x.col(1).array();
+  return moved;
+}
+
+Points affine(const Points& x)
+{
+  Eigen::Matrix3d map;
+  map << 1.2, 0.3, 0, -0.2, 0.9, 0.1, 0.1, 0, 1.1;
+  return (x * map).rowwise() + Eigen::RowVector3d(0.5, -1, 2);
+}
+
+/// Moves the boundary of `whole` by `motion` on all ranks; returns the largest distance from the
+/// serial method's mesh, or from the motion of all nodes.
+double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher> serial,
+  Points (*motion)(const Points&), bool isAffine)
+{
+  Monitor monitor;
+  const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes;
+  const Points target = motion(whole.points);
+  Points expected = target;
+  if (!isAffine)
+  {
+    serial->prepare(whole, morph::partitionNodes(whole, outer), monitor);
+    serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
+  }
+  const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(serial));
+  const DistributedMesh mesh(ranks,
+    pieces::pieceOf(
+      whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank()),
+    method->layers(), monitor);
+  std::vector<Index> prescribed;
+  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    if (std::binary_search(outer.begin(), outer.end(), mesh.nodeId(n)))
+    {
+      prescribed.push_back(n);
+    }
+  }
+  method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+  Points moved;
+  method->evaluate(target(mesh.idsOfNodes(prescribed), morph::allColumns), moved, monitor);
+  double largest = 0;
+  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    largest = std::max(largest, (moved.row(n) - expected.row(mesh.nodeId(n))).norm());
+  }
+  return ranks.maximum(largest) / meshes::size(whole.points);
+}
+}
+
+TEST(DistributedMethods, AgreeWithTheSerialOnes)
+{
+  const Ranks ranks = pieces::world();
+  for (auto& [name, whole] : meshes::all(4, 3, 3))
+  {
+    meshes::jitterInterior(whole, 0.1, 7);
+    for (auto& [method, serial] : methods())
+    {
+      EXPECT_LT(difference(ranks, whole, std::move(serial), bend, false), 1e-9)
+        << method << ", " << name;
+    }
+  }
+}
+
+TEST(DistributedMethods, ReproduceAffineMotions)
+{
+  const Ranks ranks = pieces::world();
+  for (auto& [name, whole] : meshes::all(4, 3, 3))
+  {
+    for (auto& [method, serial] : methods())
+    {
+      EXPECT_LT(difference(ranks, whole, std::move(serial), affine, true), 1e-10)
+        << method << ", " << name;
+    }
+  }
+}
+
+TEST(DistributedMethods, NameABodyWithoutAPrescribedNode)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  Mesh whole = meshes::hexes(2, 2, 2);
+  const Mesh other = meshes::hexes(2, 1, 1);
+  const Index before = whole.numberOfNodes();
+  for (Index c = 0; c < other.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(other.cell(c), other.cell(c) + 8);
+    for (Index& node : nodes)
+    {
+      node += before;
+    }
+    meshes::add(whole, morph::Hexahedron, nodes);
+  }
+  whole.points.conservativeResize(before + other.numberOfNodes(), 3);
+  whole.points.bottomRows(other.numberOfNodes()) = other.points.array() + 10;
+  const DistributedMesh mesh(ranks,
+    pieces::pieceOf(whole, pieces::randomOwners(whole, ranks.count(), 3), ranks.rank()), 1,
+    monitor);
+  std::vector<Index> prescribed;
+  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    if (mesh.nodeId(n) < 9)
+    {
+      prescribed.push_back(n);
+    }
+  }
+  const auto method = morph::distributed::makeMethod(std::make_unique<morph::FemWarp>());
+  const std::string message = pieces::messageOf(
+    [&] { method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor); });
+  EXPECT_NE(
+    message.find("(2 cells, the first is cell 8) has no prescribed node"), std::string::npos)
+    << message;
+}

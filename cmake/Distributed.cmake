@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Meshes distributed over MPI ranks: Filters/Distributed, where VTK has MPI and hypre is there.
+# Include after find_package(ParaView) or find_package(VTK). Sets morph_has_mpi.
+set(MESHMORPHING_USE_MPI AUTO CACHE STRING
+  "Morph meshes on several MPI ranks: AUTO (where VTK has MPI and hypre is found), ON or OFF")
+set_property(CACHE MESHMORPHING_USE_MPI PROPERTY STRINGS AUTO ON OFF)
+
+set(morph_has_mpi OFF)
+if (MESHMORPHING_USE_MPI)
+  set(missing)
+  if (NOT TARGET VTK::ParallelMPI)
+    list(APPEND missing "VTK's module ParallelMPI")
+  endif ()
+  # VTK's own headers have found the same MPI.
+  find_package(MPI QUIET COMPONENTS C)
+  if (NOT TARGET MPI::MPI_C)
+    list(APPEND missing "MPI")
+  endif ()
+  find_path(HYPRE_INCLUDE_DIR HYPRE_IJ_mv.h PATH_SUFFIXES hypre)
+  find_library(HYPRE_LIBRARY HYPRE)
+  mark_as_advanced(HYPRE_INCLUDE_DIR HYPRE_LIBRARY)
+  if (NOT HYPRE_INCLUDE_DIR OR NOT HYPRE_LIBRARY)
+    list(APPEND missing "hypre (libhypre-dev)")
+  endif ()
+  if (NOT missing)
+    set(morph_has_mpi ON)
+    add_library(morph_hypre INTERFACE)
+    target_include_directories(morph_hypre SYSTEM INTERFACE "${HYPRE_INCLUDE_DIR}")
+    target_link_libraries(morph_hypre INTERFACE "${HYPRE_LIBRARY}" MPI::MPI_C)
+  elseif (NOT MESHMORPHING_USE_MPI STREQUAL "AUTO")
+    list(JOIN missing ", " missing)
+    message(FATAL_ERROR "MESHMORPHING_USE_MPI is ON, and these are missing: ${missing}.")
+  endif ()
+endif ()
+message(STATUS "Meshes distributed over MPI ranks: ${morph_has_mpi}")
