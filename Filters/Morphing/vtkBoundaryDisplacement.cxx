@@ -222,8 +222,7 @@ int vtkBoundaryDisplacement::RequestInformation(
     auto* input = vtkPointSet::SafeDownCast(data);
     if (input && input->GetNumberOfCells() > 0)
     {
-      this->Internals->Classify(
-        this,
+      this->Internals->Classify(this,
         filters::Input::RequireGridOrPolyData(input, "The input", this->Internals->Checked),
         monitor);
     }

@@ -156,6 +156,30 @@ TEST(RadialBasis, IsExactAtAllSites)
   }
 }
 
+TEST(RadialBasis, IsExactAtStronglyGradedSites)
+{
+  // Edges from 4e-6 to 0.5 of the size.
+  Mesh mesh = meshes::hexes(8, 8, 8);
+  meshes::transform(mesh, [](const Row& x)
+    { return Row(std::pow(x[0] / 8, 6), std::pow(x[1] / 8, 6), std::pow(x[2] / 8, 6)); });
+  NodePartition partition = motions::outerPartition(mesh);
+  const Points places = meshes::rows(mesh.points, partition.prescribed);
+  mesh = withNodes(mesh, partition, places);
+  for (const Kind kernel : { Kind::Triharmonic, Kind::ThinPlate, Kind::WendlandC2 })
+  {
+    const Points moved = morphed(mesh, partition, { kernel });
+    EXPECT_LT(difference(moved.bottomRows(places.rows()), motions::mapped(places, bend)), 1e-9)
+      << static_cast<int>(kernel);
+  }
+  meshes::ThreadedMonitor monitor;
+  RadialBasis method;
+  method.prepare(mesh, partition, monitor);
+  Points moved;
+  method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+  const Points expected = motions::mapped(mesh.points, motions::affine);
+  EXPECT_LT(difference(moved, expected), 1e-10 * meshes::size(expected));
+}
+
 TEST(RadialBasis, FewerCentresLeaveResidualsThatAreReported)
 {
   const Mesh mesh = shapes::boxWithHole(24, 4, 6);
