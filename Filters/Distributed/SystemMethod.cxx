@@ -207,7 +207,7 @@ SystemMethod::Rows FemWarp::assemble(const std::vector<Index>& columns, Monitor&
   ranks.together(
     [&]
     {
-      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, monitor);
+      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, {}, monitor);
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -245,8 +245,10 @@ SystemMethod::Rows LogBarrierWarp::assemble(const std::vector<Index>& columns, M
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
-  ranks.together([&]
-    { system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor); });
+  ranks.together(
+    [&] {
+      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, {}, monitor);
+    });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
   if (!empty.empty())

@@ -43,13 +43,14 @@ vtkMTimeType timeOf(vtkObject* object)
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
   this->ResetResults();
 }
 
 vtkBoundaryDisplacement::~vtkBoundaryDisplacement()
 {
   this->SetMovingArray(nullptr);
+  this->SetLayersArray(nullptr);
   this->SetDisplacementArray(nullptr);
   this->SetSurfaceIdArray(nullptr);
 }
@@ -163,6 +164,44 @@ vtkAbstractTransform* vtkBoundaryDisplacement::GetTransform()
   return this->Internals->Transform;
 }
 
+void vtkBoundaryDisplacement::SetZoneSelectionConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(3, output);
+}
+
+void vtkBoundaryDisplacement::SetZoneSelectionData(vtkSelection* selection)
+{
+  this->SetInputDataObject(3, selection);
+}
+
+void vtkBoundaryDisplacement::SetZoneRegion(vtkImplicitFunction* region)
+{
+  if (this->Internals->ZoneRegion != region)
+  {
+    this->Internals->ZoneRegion = region;
+    this->Modified();
+  }
+}
+
+vtkImplicitFunction* vtkBoundaryDisplacement::GetZoneRegion()
+{
+  return this->Internals->ZoneRegion;
+}
+
+void vtkBoundaryDisplacement::SetRigidTransform(vtkAbstractTransform* transform)
+{
+  if (this->Internals->RigidTransform != transform)
+  {
+    this->Internals->RigidTransform = transform;
+    this->Modified();
+  }
+}
+
+vtkAbstractTransform* vtkBoundaryDisplacement::GetRigidTransform()
+{
+  return this->Internals->RigidTransform;
+}
+
 vtkStringArray* vtkBoundaryDisplacement::GetPatchSizes()
 {
   return this->Internals->PatchSizes;
@@ -195,13 +234,19 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
   {
     time = std::max(time, timeOf(this->Internals->Region));
   }
+  if (this->ZoneRegionType != ZONE_NONE)
+  {
+    time = std::max(time, timeOf(this->Internals->ZoneRegion));
+  }
+  time = std::max(time, timeOf(this->Internals->RigidTransform));
   return time;
 }
 
 int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkSelection" : "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+    port == 1 || port == 3 ? "vtkSelection" : "vtkDataObject");
   if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -241,6 +286,7 @@ int vtkBoundaryDisplacement::RequestData(
   vtkDataObject* data = vtkDataObject::GetData(inputVector[0]);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* given = vtkDataObject::GetData(inputVector[2]);
+  vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
   filters::Monitor monitor(this, this->NumberOfThreads);
@@ -260,7 +306,7 @@ int vtkBoundaryDisplacement::RequestData(
         throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
                            "from an STL file for instance.");
       }
-      this->Internals->Displace(this, input, selection, target, output, monitor);
+      this->Internals->Displace(this, input, selection, target, zone, output, monitor);
     }
   };
   const auto clear = [&]
@@ -279,6 +325,7 @@ int vtkBoundaryDisplacement::RequestData(
 void vtkBoundaryDisplacement::ResetResults()
 {
   this->MovingPoints = this->HeldPoints = this->FollowingPoints = this->FreePoints = 0;
+  this->ZonePoints = this->LayerPoints = 0;
 }
 
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
@@ -293,6 +340,14 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   list("HeldPatches", this->Internals->HeldPatches);
   list("SlidingPatches", this->Internals->SlidingPatches);
   list("FreePatches", this->Internals->FreePatches);
+  list("FrozenZones", this->Internals->FrozenZones);
+  list("RigidZones", this->Internals->RigidZones);
+  os << indent << "ZoneRegion: " << this->Internals->ZoneRegion.Get() << "\n";
+  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
+  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
+  os << indent << "RigidTransform: " << this->Internals->RigidTransform.Get() << "\n";
+  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
+  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "Motion: " << this->Motion << "\n";
   os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
@@ -328,6 +383,8 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "HeldPoints: " << this->HeldPoints << "\n";
   os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
   os << indent << "FreePoints: " << this->FreePoints << "\n";
+  os << indent << "ZonePoints: " << this->ZonePoints << "\n";
+  os << indent << "LayerPoints: " << this->LayerPoints << "\n";
   os << indent << "ClassifyCount: " << this->GetClassifyCount() << "\n";
   os << indent << "ChooseCount: " << this->ChooseCount << "\n";
   os << indent << "PrepareCount: " << this->GetPrepareCount() << "\n";
@@ -337,6 +394,8 @@ morphNameSetMacro(vtkBoundaryDisplacement, Patch, Patches);
 morphNameSetMacro(vtkBoundaryDisplacement, HeldPatch, HeldPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, SlidingPatch, SlidingPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, FreePatch, FreePatches);
+morphNameSetMacro(vtkBoundaryDisplacement, FrozenZone, FrozenZones);
+morphNameSetMacro(vtkBoundaryDisplacement, RigidZone, RigidZones);
 morphSetNumberMacro(vtkBoundaryDisplacement, Distance);
 morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor);
 morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange);

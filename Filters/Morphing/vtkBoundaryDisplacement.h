@@ -22,11 +22,13 @@
  * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
  * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
  * move all of their nodes that are on the boundary. Port 2, optional, takes the target of
- * MOTION_TARGET (vtkPolyData, an STL file for instance).
+ * MOTION_TARGET (vtkPolyData, an STL file for instance). Port 3, optional, takes the selection of
+ * a zone.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:
- * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades;
+ * - `Role` (signed char, active scalars): 0 stays, 1 moves, 2 is held, 3 follows or fades,
+ *   4 is free, 5 is of a zone, 6 of a layer;
  * - `BoundaryDisplacement` (active vectors): the point as written minus its RestPosition.
  * No motion gives the input's points bit for bit.
  *
@@ -168,6 +170,83 @@ public:
   void SetFreePatchStatus(const char* name, int status);
   void AddFreePatch(const char* name) { this->SetFreePatchStatus(name, 1); }
   void RemoveAllFreePatches();
+  ///@}
+
+  ///@{
+  /**
+   * Zones: parts of the mesh, inner nodes too, that a morph leaves as they are. Frozen zones stay
+   * where they are; rigid ones each move as one body. A name is that of a point array or cell array
+   * of the input, which marks nodes or cells by values other than 0, or of a block. A zone wins
+   * over what moves; a node of several is in the first, frozen ones before rigid ones. The input
+   * has to be the volume mesh. The output then has the inner nodes, too, as points without cells, with
+   * Role 5, so that every morph filter prescribes them. Default: none.
+   */
+  void SetFrozenZoneStatus(const char* name, int status);
+  void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }
+  void RemoveAllFrozenZones();
+  void SetRigidZoneStatus(const char* name, int status);
+  void AddRigidZone(const char* name) { this->SetRigidZoneStatus(name, 1); }
+  void RemoveAllRigidZones();
+  ///@}
+
+  enum ZoneType
+  {
+    ZONE_NONE = 0,
+    ZONE_FROZEN = 1,
+    ZONE_RIGID = 2
+  };
+  ///@{
+  /**
+   * One more zone: the nodes where an implicit function, a box for instance, is zero or less.
+   * Default: null, ZONE_NONE.
+   */
+  void SetZoneRegion(vtkImplicitFunction* region);
+  vtkImplicitFunction* GetZoneRegion();
+  vtkSetClampMacro(ZoneRegionType, int, ZONE_NONE, ZONE_RIGID);
+  vtkGetMacro(ZoneRegionType, int);
+  ///@}
+
+  ///@{
+  /**
+   * One more zone: the selected points or cells (port 3) of the input. Default ZONE_NONE.
+   */
+  void SetZoneSelectionConnection(vtkAlgorithmOutput* output);
+  void SetZoneSelectionData(vtkSelection* selection);
+  vtkSetClampMacro(ZoneSelectionType, int, ZONE_NONE, ZONE_RIGID);
+  vtkGetMacro(ZoneSelectionType, int);
+  ///@}
+
+  ///@{
+  /**
+   * The motion of all rigid zones, times ScaleFactor. Null: each zone takes the rigid motion that
+   * fits, by least squares, its nodes on the mesh's boundary as they move. Where these are none, or
+   * on a line, it fits the zone's edge as FEMWARP would move it, for which this filter solves once.
+   * Default: null.
+   */
+  void SetRigidTransform(vtkAbstractTransform* transform);
+  vtkAbstractTransform* GetRigidTransform();
+  ///@}
+
+  ///@{
+  /**
+   * The most layers of hexahedra, and of wedges on triangles, that are kept on faces that move.
+   * Their nodes follow the wall's displacement and local rotation, so that heights and angles to
+   * the wall stay; a morph prescribes them (Role 6). Layers are found from the wall outwards: they
+   * end at cells of other shapes, at other layers and before the opposite boundary. Nodes of layers
+   * on other surfaces move in the tangent plane of these. An error where no layer is found. Default
+   * 0, range [0, VTK_INT_MAX].
+   */
+  vtkSetClampMacro(KeepLayers, int, 0, VTK_INT_MAX);
+  vtkGetMacro(KeepLayers, int);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a cell array of the input: layers have only cells where it is not zero. Empty or
+   * "None": all. Default: none.
+   */
+  vtkSetStringMacro(LayersArray);
+  vtkGetStringMacro(LayersArray);
   ///@}
 
   /**
@@ -524,6 +603,8 @@ public:
   vtkGetMacro(HeldPoints, vtkIdType);
   vtkGetMacro(FollowingPoints, vtkIdType);
   vtkGetMacro(FreePoints, vtkIdType);
+  vtkGetMacro(ZonePoints, vtkIdType);
+  vtkGetMacro(LayerPoints, vtkIdType);
   ///@}
 
   ///@{
@@ -550,6 +631,7 @@ private:
   vtkBoundaryDisplacement(const vtkBoundaryDisplacement&) = delete;
   void operator=(const vtkBoundaryDisplacement&) = delete;
 
+  friend class vtkMorphMesh; // tells it the blocks of its mesh
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
@@ -558,6 +640,10 @@ private:
 
   int Moving = MOVE_EVERYTHING;
   char* MovingArray = nullptr;
+  int ZoneRegionType = ZONE_NONE;
+  int ZoneSelectionType = ZONE_NONE;
+  int KeepLayers = 0;
+  char* LayersArray = nullptr;
   int Motion = MOTION_TRANSFORM;
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;
@@ -588,6 +674,8 @@ private:
   vtkIdType HeldPoints;
   vtkIdType FollowingPoints;
   vtkIdType FreePoints;
+  vtkIdType ZonePoints;
+  vtkIdType LayerPoints;
   int ChooseCount = 0;
 };
 

@@ -51,11 +51,12 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 vtkStandardNewMacro(vtkCompareMorphMethods);
 
 morphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
-  morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
-    morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
-      morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
+  morphSetNumberMacro(vtkCompareMorphMethods, StiffnessExponent, 0.0, 4.0)
+    morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
+      morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
+        morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
 
-        struct vtkCompareMorphMethods::vtkInternals
+          struct vtkCompareMorphMethods::vtkInternals
 {
   filters::Ports Ports;
   filters::Steps Steps;
@@ -238,6 +239,11 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
   filter->SetMatchTolerance(this->MatchTolerance);
   filter->SetHoldUnnamedBoundary(this->HoldUnnamedBoundary);
   filter->SetNumberOfThreads(this->NumberOfThreads);
+  if (auto* stiff = vtkStiffnessMorph::SafeDownCast(filter))
+  {
+    stiff->SetStiffness(this->Stiffness);
+    stiff->SetStiffnessExponent(this->StiffnessExponent);
+  }
 }
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
@@ -351,6 +357,8 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Relative: " << this->Relative << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Percentile: " << this->Percentile << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
   os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
   os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";

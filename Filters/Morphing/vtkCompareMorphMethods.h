@@ -138,6 +138,17 @@ public:
 
   ///@{
   /**
+   * The stiffness of the cells for FEMWARP and LBWARP: see vtkStiffnessMorph. Defaults
+   * STIFFNESS_UNIFORM, 1.
+   */
+  vtkSetClampMacro(Stiffness, int, 0, 2);
+  vtkGetMacro(Stiffness, int);
+  virtual void SetStiffnessExponent(double value);
+  vtkGetMacro(StiffnessExponent, double);
+  ///@}
+
+  ///@{
+  /**
    * The options of vtkMorphAlgorithm with the same names and defaults. A ScaleFactor over 1
    * extrapolates the boundary's motion.
    */
@@ -202,6 +213,8 @@ private:
   bool FEMWARP = true;
   bool LBWARP = true;
   bool InversionFree = true;
+  int Stiffness = 0;
+  double StiffnessExponent = 1;
   bool Absolute = true;
   bool Relative = false;
   int NumberOfSteps = 5;

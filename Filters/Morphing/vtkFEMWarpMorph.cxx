@@ -17,7 +17,14 @@ vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
 {
-  return std::make_unique<morph::FemWarp>();
+  auto morpher = std::make_unique<morph::FemWarp>();
+  this->GiveStiffness(*morpher);
+  return morpher;
+}
+
+std::string vtkFEMWarpMorph::PrepareOptions()
+{
+  return this->StiffnessOptions();
 }
 
 void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)

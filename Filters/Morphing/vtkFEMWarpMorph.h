@@ -22,19 +22,19 @@
  * finite element-based algorithm for warping triangular and tetrahedral meshes", BIT 50 (2010)
  * 863-884.
  *
- * @sa vtkMorphAlgorithm vtkExtractMorphBoundary
+ * @sa vtkStiffnessMorph vtkMorphAlgorithm vtkExtractMorphBoundary
  */
 #ifndef vtkFEMWarpMorph_h
 #define vtkFEMWarpMorph_h
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
-#include "vtkMorphAlgorithm.h"
+#include "vtkStiffnessMorph.h"
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkFEMWarpMorph : public vtkMorphAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkFEMWarpMorph : public vtkStiffnessMorph
 {
 public:
   static vtkFEMWarpMorph* New();
-  vtkTypeMacro(vtkFEMWarpMorph, vtkMorphAlgorithm);
+  vtkTypeMacro(vtkFEMWarpMorph, vtkStiffnessMorph);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -51,6 +51,7 @@ protected:
   ~vtkFEMWarpMorph() override;
 
   std::unique_ptr<morph::Morpher> CreateMorpher() override;
+  std::string PrepareOptions() override;
   void SetEvaluateOptions(morph::Morpher& morpher) override;
   std::string EvaluateOptions() override;
 

@@ -21,12 +21,13 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
   morpher->setOutsideHull(this->OutsideHull == OUTSIDE_HULL_RELAX
                             ? morph::LogBarrierWarp::OutsideHull::Relax
                             : morph::LogBarrierWarp::OutsideHull::Error);
+  this->GiveStiffness(*morpher);
   return morpher;
 }
 
 std::string vtkLBWarpMorph::PrepareOptions()
 {
-  return this->OutsideHull == OUTSIDE_HULL_RELAX ? "Relax" : "Error";
+  return (this->OutsideHull == OUTSIDE_HULL_RELAX ? "Relax " : "Error ") + this->StiffnessOptions();
 }
 
 void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)

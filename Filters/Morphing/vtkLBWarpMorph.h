@@ -22,19 +22,19 @@
  * Salinger, T. S. Coffey, "A comparison of mesh morphing methods for 3D shape optimization", Proc.
  * 20th Int. Meshing Roundtable (2011) 293-311.
  *
- * @sa vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
+ * @sa vtkStiffnessMorph vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
  */
 #ifndef vtkLBWarpMorph_h
 #define vtkLBWarpMorph_h
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
-#include "vtkMorphAlgorithm.h"
+#include "vtkStiffnessMorph.h"
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkLBWarpMorph : public vtkMorphAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkLBWarpMorph : public vtkStiffnessMorph
 {
 public:
   static vtkLBWarpMorph* New();
-  vtkTypeMacro(vtkLBWarpMorph, vtkMorphAlgorithm);
+  vtkTypeMacro(vtkLBWarpMorph, vtkStiffnessMorph);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

@@ -63,7 +63,7 @@ public:
   {
     return this->Filter->Quality == QUALITY_ALL || this->Filter->Validity >= VALIDITY_SUB_STEP;
   }
-  filters::Session::Options Options(vtkUnstructuredGrid* grid) const;
+  filters::Session::Options Options(vtkUnstructuredGrid* grid, vtkDataObject* boundary) const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
@@ -245,9 +245,11 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
   this->Session.GetKept().WriteUndeformedSurface(output, surface);
 }
 
-filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(vtkUnstructuredGrid* grid) const
+filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(
+  vtkUnstructuredGrid* grid, vtkDataObject* boundary) const
 {
   vtkMorphAlgorithm* filter = this->Filter;
+  filter->TakeInputs(grid, boundary);
   filters::Session::Options options;
   options.Method = filter->GetClassName();
   options.Matching.BoundaryIdArray = filters::Input::ArrayName(filter->BoundaryIdArray);
@@ -279,7 +281,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Session.SetFeatureLines(this->Filter->FeatureLines);
   this->Session.ReportMirroredBodies(monitor);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
-  const filters::Session::Options options = this->Options(grid);
+  const filters::Session::Options options = this->Options(grid, displaced);
   const std::shared_ptr<const filters::StepResult> result =
     this->IsSeries() ? this->MorphSeries(displaced, options, monitor)
                      : this->Session.Morph(displaced, fraction, options, monitor);
@@ -309,7 +311,8 @@ void vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* grid,
   {
     this->Distributed = std::make_unique<filters::OnRanks::Morphing>(this->Results);
   }
-  filters::Session::Options options = this->Options(grid);
+  filters::Session::Options options;
+  filters::Ranks::Together([&] { options = this->Options(grid, boundary); });
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   this->Distributed->Run({ grid, boundary, fraction, this->Filter->OutputPointsPrecision,
                            { options.MeasureAll, this->Filter->Certify },
@@ -364,7 +367,8 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
   }
-  kept.Session.Transpose(rest, boundary, gradient, kept.Options(rest), boundaryGradient, monitor);
+  kept.Session.Transpose(
+    rest, boundary, gradient, kept.Options(rest, boundary), boundaryGradient, monitor);
 }
 
 double vtkMorphAlgorithm::GetNumber(const char* name) const

@@ -518,6 +518,15 @@ protected:
   ~vtkMorphAlgorithm() override;
 
   /**
+   * Reads what a method takes from its inputs beside points and cells, before PrepareOptions() and
+   * CreateMorpher() are called for them. Throws morph::Error.
+   */
+  virtual void TakeInputs(
+    vtkUnstructuredGrid* vtkNotUsed(rest), vtkDataObject* vtkNotUsed(boundary))
+  {
+  }
+
+  /**
    * A new core object for the method, with the options that its prepare() reads.
    */
   virtual std::unique_ptr<morph::Morpher> CreateMorpher() = 0;

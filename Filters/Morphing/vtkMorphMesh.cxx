@@ -75,7 +75,7 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
 vtkMorphMesh::vtkMorphMesh()
   : Internals(new vtkInternals(this))
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
@@ -85,6 +85,9 @@ vtkMorphMesh::~vtkMorphMesh()
   this->SetMovingArray(nullptr);
   this->SetDisplacementArray(nullptr);
   this->SetSurfaceIdArray(nullptr);
+  this->SetLayersArray(nullptr);
+  this->SetStiffnessArray(nullptr);
+  this->SetWallArray(nullptr);
 }
 
 void vtkMorphMesh::SetSelectionConnection(vtkAlgorithmOutput* output)
@@ -203,6 +206,54 @@ vtkAbstractTransform* vtkMorphMesh::GetTransform()
   return this->Internals->Transform;
 }
 
+void vtkMorphMesh::SetZoneSelectionConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(3, output);
+}
+
+void vtkMorphMesh::SetZoneSelectionData(vtkSelection* selection)
+{
+  this->SetInputDataObject(3, selection);
+}
+
+void vtkMorphMesh::SetZoneRegion(vtkImplicitFunction* region)
+{
+  if (this->Internals->ZoneRegion != region)
+  {
+    this->Internals->ZoneRegion = region;
+    this->Modified();
+  }
+}
+
+vtkImplicitFunction* vtkMorphMesh::GetZoneRegion()
+{
+  return this->Internals->ZoneRegion;
+}
+
+void vtkMorphMesh::SetRigidTransform(vtkAbstractTransform* transform)
+{
+  if (this->Internals->RigidTransform != transform)
+  {
+    this->Internals->RigidTransform = transform;
+    this->Modified();
+  }
+}
+
+vtkAbstractTransform* vtkMorphMesh::GetRigidTransform()
+{
+  return this->Internals->RigidTransform;
+}
+
+vtkIdType vtkMorphMesh::GetZonePoints() const
+{
+  return this->Internals->Displacement->GetZonePoints();
+}
+
+vtkIdType vtkMorphMesh::GetLayerPoints() const
+{
+  return this->Internals->Displacement->GetLayerPoints();
+}
+
 void vtkMorphMesh::SetMethod(int method)
 {
   const int known = std::min(std::max(method, int(METHOD_FEMWARP)), int(METHOD_RADIAL_BASIS));
@@ -243,6 +294,14 @@ vtkMTimeType vtkMorphMesh::GetMTime()
   {
     time = std::max(time, own.Region->GetMTime());
   }
+  if (this->ZoneRegionType != ZONE_NONE && own.ZoneRegion)
+  {
+    time = std::max(time, own.ZoneRegion->GetMTime());
+  }
+  if (own.RigidTransform)
+  {
+    time = std::max(time, own.RigidTransform->GetMTime());
+  }
   return time;
 }
 
@@ -256,7 +315,8 @@ vtkTypeBool vtkMorphMesh::ProcessRequest(
 int vtkMorphMesh::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkSelection" : "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+    port == 1 || port == 3 ? "vtkSelection" : "vtkDataObject");
   if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -299,6 +359,7 @@ int vtkMorphMesh::RequestData(
   vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
+  vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
   vtkUnstructuredGrid* output = own.Blocks.Output(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
@@ -321,6 +382,7 @@ int vtkMorphMesh::RequestData(
     }
     own.TakeGrid(grid);
     own.TakeTarget(target);
+    own.TakeZone(zone);
     partial = own.Run(own.OfGrid(selection), filters::Ports::Asked(request, outputVector), output,
       badCells, surface, monitor);
   };
@@ -404,6 +466,20 @@ void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
   list("FixedSurfaces", this->Internals->FixedSurfaces);
   list("SlidingSurfaces", this->Internals->SlidingSurfaces);
   list("FreeSurfaces", this->Internals->FreeSurfaces);
+  list("FrozenZones", this->Internals->FrozenZones);
+  list("RigidZones", this->Internals->RigidZones);
+  list("SoftZones", this->Internals->SoftZones);
+  os << indent << "ZoneRegion: " << this->Internals->ZoneRegion.Get() << "\n";
+  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
+  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
+  os << indent << "RigidTransform: " << this->Internals->RigidTransform.Get() << "\n";
+  os << indent << "SoftStiffness: " << this->SoftStiffness << "\n";
+  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
+  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
+  os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
+  os << indent << "WallArray: " << text(this->WallArray) << "\n";
   os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   os << indent << "Displacement: " << this->Displacement << "\n";
@@ -449,6 +525,11 @@ morphNameSetMacro(vtkMorphMesh, Surface, Surfaces);
 morphNameSetMacro(vtkMorphMesh, FixedSurface, FixedSurfaces);
 morphNameSetMacro(vtkMorphMesh, SlidingSurface, SlidingSurfaces);
 morphNameSetMacro(vtkMorphMesh, FreeSurface, FreeSurfaces);
+morphNameSetMacro(vtkMorphMesh, FrozenZone, FrozenZones);
+morphNameSetMacro(vtkMorphMesh, RigidZone, RigidZones);
+morphNameSetMacro(vtkMorphMesh, SoftZone, SoftZones);
+morphSetNumberMacro(vtkMorphMesh, SoftStiffness, 1e-6, 1.0);
+morphSetNumberMacro(vtkMorphMesh, StiffnessExponent, 0.0, 4.0);
 morphSetNumberMacro(vtkMorphMesh, RestTime);
 morphSetNumberMacro(vtkMorphMesh, Distance);
 morphSetNumberMacro(vtkMorphMesh, ScaleFactor);

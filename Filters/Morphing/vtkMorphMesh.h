@@ -152,6 +152,95 @@ public:
   void RemoveAllFreeSurfaces();
   ///@}
 
+  ///@{
+  /**
+   * Zones: parts of the mesh, inner nodes too, that stay (frozen), each move as one body (rigid),
+   * or give way more than the rest (soft), by the name of a point array, a cell array or a block. See
+   * vtkBoundaryDisplacement. The stiffness of soft cells is multiplied by SoftStiffness; with
+   * methods other than FEMWARP and LBWARP, soft zones are an error. Default: none.
+   */
+  void SetFrozenZoneStatus(const char* name, int status);
+  void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }
+  void RemoveAllFrozenZones();
+  void SetRigidZoneStatus(const char* name, int status);
+  void AddRigidZone(const char* name) { this->SetRigidZoneStatus(name, 1); }
+  void RemoveAllRigidZones();
+  void SetSoftZoneStatus(const char* name, int status);
+  void AddSoftZone(const char* name) { this->SetSoftZoneStatus(name, 1); }
+  void RemoveAllSoftZones();
+  ///@}
+
+  enum ZoneType
+  {
+    ZONE_NONE = 0,
+    ZONE_FROZEN = 1,
+    ZONE_RIGID = 2,
+    ZONE_SOFT = 3
+  };
+  ///@{
+  /**
+   * One more zone: the nodes where an implicit function, a box for instance, is zero or less, and
+   * the cells that have no others. Default: null, ZONE_NONE.
+   */
+  void SetZoneRegion(vtkImplicitFunction* region);
+  vtkImplicitFunction* GetZoneRegion();
+  vtkSetClampMacro(ZoneRegionType, int, ZONE_NONE, ZONE_SOFT);
+  vtkGetMacro(ZoneRegionType, int);
+  ///@}
+
+  ///@{
+  /**
+   * One more zone: the selected points or cells (port 3) of the input. Default ZONE_NONE.
+   */
+  void SetZoneSelectionConnection(vtkAlgorithmOutput* output);
+  void SetZoneSelectionData(vtkSelection* selection);
+  vtkSetClampMacro(ZoneSelectionType, int, ZONE_NONE, ZONE_SOFT);
+  vtkGetMacro(ZoneSelectionType, int);
+  ///@}
+
+  ///@{
+  /**
+   * The motion of all rigid zones, times ScaleFactor; null: the motion of their boundary. See
+   * vtkBoundaryDisplacement. Default: null.
+   */
+  void SetRigidTransform(vtkAbstractTransform* transform);
+  vtkAbstractTransform* GetRigidTransform();
+  ///@}
+
+  ///@{
+  /**
+   * The factor of the stiffness of soft zones. Default 0.01, range [1e-6, 1].
+   */
+  virtual void SetSoftStiffness(double value);
+  vtkGetMacro(SoftStiffness, double);
+  ///@}
+
+  ///@{
+  /**
+   * The layers of cells that are kept on faces that move: see vtkBoundaryDisplacement. Defaults 0,
+   * none.
+   */
+  vtkSetClampMacro(KeepLayers, int, 0, VTK_INT_MAX);
+  vtkGetMacro(KeepLayers, int);
+  vtkSetStringMacro(LayersArray);
+  vtkGetStringMacro(LayersArray);
+  ///@}
+
+  ///@{
+  /**
+   * The stiffness of the cells for FEMWARP and LBWARP: see vtkStiffnessMorph. Other methods have
+   * none, and a warning says so. Defaults STIFFNESS_UNIFORM, 1, none, none.
+   */
+  vtkSetClampMacro(Stiffness, int, 0, 2);
+  vtkGetMacro(Stiffness, int);
+  virtual void SetStiffnessExponent(double value);
+  vtkGetMacro(StiffnessExponent, double);
+  vtkSetStringMacro(StiffnessArray);
+  vtkGetStringMacro(StiffnessArray);
+  vtkSetStringMacro(WallArray);
+  vtkGetStringMacro(WallArray);
+  ///@}
+
   /**
    * Names of all surfaces and curves, surfaces first, as a list to choose from, with nothing
    * enabled. They are those of the last execution or, after an update of the information, of input
@@ -518,6 +607,8 @@ public:
   int GetPrepareCount() const;
   vtkIdType GetPrescribedPoints() const;
   vtkIdType GetUnmatchedPoints() const;
+  vtkIdType GetZonePoints() const;
+  vtkIdType GetLayerPoints() const;
   int GetSolverIterations() const;
   ///@}
 
@@ -557,6 +648,15 @@ private:
 
   int Moving = MOVE_SURFACES;
   char* MovingArray = nullptr;
+  int ZoneRegionType = ZONE_NONE;
+  int ZoneSelectionType = ZONE_NONE;
+  double SoftStiffness = 0.01;
+  int KeepLayers = 0;
+  char* LayersArray = nullptr;
+  int Stiffness = 0;
+  double StiffnessExponent = 1;
+  char* StiffnessArray = nullptr;
+  char* WallArray = nullptr;
   int Displacement = DISPLACEMENT_TRANSFORM;
   double Vector[3] = { 0, 0, 0 };
   double Distance = 0;

@@ -110,12 +110,13 @@ std::array<double, 3> rotation(const std::string& text)
   return degrees;
 }
 
-int stepCount(const std::string& text)
+int wholeNumber(const char* option, const std::string& text)
 {
-  const double value = number("--steps", text);
+  const double value = number(option, text);
   if (!(value >= 1 && value <= 1000000) || value != static_cast<int>(value))
   {
-    throw UsageError("--steps needs a whole number from 1 to 1000000, not '" + text + "'.");
+    throw UsageError(
+      std::string(option) + " needs a whole number from 1 to 1000000, not '" + text + "'.");
   }
   return static_cast<int>(value);
 }
@@ -139,6 +140,11 @@ void checkMotion(const Arguments& arguments)
       (!motion.fixed.empty() || !motion.sliding.empty() || !motion.free.empty()))
   {
     throw UsageError("--fix, --slide and --free need --move or --target.");
+  }
+  if (motion.moving.empty() && motion.target.empty() &&
+      (!motion.frozen.empty() || !motion.rigid.empty() || motion.keepLayers > 0))
+  {
+    throw UsageError("--freeze, --rigid and --keep-layers need --move or --target.");
   }
   if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
   {
@@ -299,6 +305,15 @@ std::vector<Option> optionsOf(Arguments& result)
       [&](const std::string& value) { result.motion.sliding.push_back(value); } },
     { "--free", "<surface>", "a surface whose nodes are solved with the interior; repeatable",
       [&](const std::string& value) { result.motion.free.push_back(value); } },
+    { "--freeze", "<zone>",
+      "a part of the mesh that stays, inner nodes too: where an array is not 0; repeatable",
+      [&](const std::string& value) { result.motion.frozen.push_back(value); } },
+    { "--rigid", "<zone>", "a part of the mesh that moves as one body; repeatable",
+      [&](const std::string& value) { result.motion.rigid.push_back(value); } },
+    { "--keep-layers", "<number>",
+      "keep up to so many layers of hexahedra or wedges on what moves: heights and angles",
+      [&](const std::string& value)
+      { result.motion.keepLayers = wholeNumber("--keep-layers", value); } },
     { "--target", "<file>",
       "a surface onto which the surfaces of --move go; without --move, those that it belongs to",
       text(result.motion.target) },
@@ -310,7 +325,7 @@ std::vector<Option> optionsOf(Arguments& result)
       flag(result.motion.nodeNumbers) },
     { "--steps", "<number>",
       "write the equal steps of the motion: <output> with -1, -2, ... before its extension",
-      [&](const std::string& value) { result.steps = stepCount(value); } },
+      [&](const std::string& value) { result.steps = wholeNumber("--steps", value); } },
     { "--results", nullptr,
       "write the arrays that the morph adds, too: scaled Jacobian and the like; by default the\n"
       "arrays of <grid> alone",

@@ -169,6 +169,15 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   {
     filter->AddFreePatch(name.c_str());
   }
+  for (const std::string& name : motion.frozen)
+  {
+    filter->AddFrozenZone(name.c_str());
+  }
+  for (const std::string& name : motion.rigid)
+  {
+    filter->AddRigidZone(name.c_str());
+  }
+  filter->SetKeepLayers(motion.keepLayers);
   if (!motion.target.empty())
   {
     filter->SetMotionToTarget();

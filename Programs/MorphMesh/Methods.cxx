@@ -58,6 +58,24 @@ Option tolerance()
     setter<Filter>([](Filter* filter, double value) { filter->SetTolerance(value); }) };
 }
 
+/// The options of the methods that have a stiffness, and the tolerance.
+template <typename Filter>
+std::vector<Option> stiffOptions()
+{
+  return { tolerance<Filter>(),
+    { "Stiffness", { "Uniform", "InverseVolume", "WallDistance" }, 0, 2,
+      setter<Filter>([](Filter* f, double v) { f->SetStiffness(static_cast<int>(v)); }) },
+    { "StiffnessExponent", {}, 0, 4,
+      setter<Filter>([](Filter* f, double v) { f->SetStiffnessExponent(v); }) } };
+}
+
+/// As `options`, with one more.
+std::vector<Option> with(std::vector<Option> options, Option one)
+{
+  options.push_back(std::move(one));
+  return options;
+}
+
 const std::vector<Method>& methods()
 {
   using Free = vtkInversionFreeMorph;
@@ -67,7 +85,7 @@ const std::vector<Method>& methods()
   using Smoothing = vtkSmoothingMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<Method> all = {
-    { "FEMWARP", make<vtkFEMWarpMorph>, { tolerance<vtkFEMWarpMorph>() } },
+    { "FEMWARP", make<vtkFEMWarpMorph>, stiffOptions<vtkFEMWarpMorph>() },
     { "InversionFree", make<Free>,
       { { "InitialGuess",
           { "FEMWARP", "Rest", "LBWARP", "WeightedResidual", "SimplexLinear",
@@ -80,9 +98,9 @@ const std::vector<Method>& methods()
         { "LowMemory", { "Off", "On" }, 0, 1,
           setter<Free>([](Free* f, double v) { f->SetLowMemory(v != 0); }) } } },
     { "LBWARP", make<LBWarp>,
-      { tolerance<LBWarp>(),
+      with(stiffOptions<LBWarp>(),
         { "OutsideHull", { "Error", "Relax" }, 0, 1,
-          setter<LBWarp>([](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) } } },
+          setter<LBWarp>([](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) }) },
     { "RadialBasis", make<Radial>,
       { { "Kernel", { "Triharmonic", "ThinPlate", "WendlandC2" }, 0, 2,
           setter<Radial>([](Radial* f, double v) { f->SetKernel(static_cast<int>(v)); }) },

@@ -14,6 +14,25 @@ namespace meshes
 {
 using namespace morph;
 
+namespace
+{
+/// A method whose cells are not equally stiff.
+template <typename Method>
+std::function<std::unique_ptr<LinearMorpher>()> stiff(CellStiffness::Kind kind, double exponent)
+{
+  return [=]
+  {
+    auto method = std::make_unique<Method>();
+    method->setTolerance(1e-13);
+    CellStiffness stiffness;
+    stiffness.kind = kind;
+    stiffness.exponent = exponent;
+    method->setStiffness(stiffness);
+    return method;
+  };
+}
+}
+
 const std::vector<LinearMethod>& linearMethods()
 {
   static const std::vector<LinearMethod> methods = {
@@ -24,6 +43,8 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
+    { "FemWarpInverseVolume", stiff<FemWarp>(CellStiffness::Kind::InverseVolume, 1) },
+    { "FemWarpWallDistance", stiff<FemWarp>(CellStiffness::Kind::WallDistance, 2) },
     { "LogBarrierWarp",
       []
       {
@@ -31,6 +52,8 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
+    { "LogBarrierWarpInverseVolume", stiff<LogBarrierWarp>(CellStiffness::Kind::InverseVolume, 1) },
+    { "LogBarrierWarpWallDistance", stiff<LogBarrierWarp>(CellStiffness::Kind::WallDistance, 2) },
     { "RadialBasis", [] { return std::make_unique<RadialBasis>(); } },
     { "RadialBasisCompact",
       []

@@ -243,5 +243,63 @@ class BoundaryDisplacementTests(unittest.TestCase):
         np.testing.assert_array_equal(points(by_name), points(by_place))
 
 
+class ZoneTests(unittest.TestCase):
+    """Frozen and rigid zones, layers and stiffness, as a script sets them."""
+
+    def setUp(self):
+        wavelet = simple.Wavelet(WholeExtent=[0, CELLS, 0, CELLS, 0, CELLS])
+        mesh = simple.AppendDatasets(Input=[wavelet])
+        self.mesh = simple.Calculator(Input=mesh, ResultArrayName="middle",
+                                      Function="abs(coordsX-3)<1.5 & abs(coordsY-3)<1.5"
+                                               " & abs(coordsZ-3)<1.5")
+        self.rest = points(self.mesh)
+        self.middle = np.all(np.abs(self.rest - 3) < 1.5, axis=1)
+        self.morph = MorphMesh(Input=self.mesh, Moving="Region",
+                               Displacement="Translate, rotate, scale",
+                               Rotation=[0, 0, 20], Translation=[0, 0, 1])
+        self.morph.Region = "Box"
+        self.morph.Region.Position = [-1, -1, CELLS - 0.5]
+        self.morph.Region.Length = [CELLS + 2, CELLS + 2, 1]
+
+    def test_zones(self):
+        free = points(self.morph)
+        self.assertGreater(np.abs(free - self.rest)[self.middle].max(), 0.1)
+        self.morph.FrozenZones = ["middle"]
+        frozen = points(self.morph)
+        np.testing.assert_array_equal(frozen[self.middle], self.rest[self.middle])
+        self.morph.FrozenZones = []
+        self.morph.RigidZones = ["middle"]
+        rigid = points(self.morph)
+        distance = lambda x: np.linalg.norm(x[self.middle][:, None] - x[self.middle][None], axis=2)
+        np.testing.assert_allclose(distance(rigid), distance(self.rest), atol=1e-5)
+        self.morph.RigidZones = []
+        np.testing.assert_array_equal(points(self.morph), free)
+
+    def test_region(self):
+        self.morph.ZoneRegionType = "Frozen"
+        self.morph.ZoneRegion = "Box"
+        self.morph.ZoneRegion.Position = [1.5, 1.5, 1.5]
+        self.morph.ZoneRegion.Length = [3, 3, 3]
+        np.testing.assert_array_equal(points(self.morph)[self.middle], self.rest[self.middle])
+
+    def test_layers(self):
+        self.morph.KeepLayers = 2
+        moved = points(self.morph)
+        top, below = (np.flatnonzero(np.abs(self.rest[:, 2] - z) < 1e-6) for z in (CELLS, CELLS - 2))
+        inner = lambda ids: ids[np.all(np.abs(self.rest[ids, :2] - 3) < 2.5, axis=1)]
+        lines = moved[inner(top)] - moved[inner(below)]
+        np.testing.assert_allclose(lines, np.tile([0, 0, 2], (len(lines), 1)), atol=1e-5)
+
+    def test_stiffness(self):
+        uniform = points(self.morph)
+        self.morph.Stiffness = "Wall distance"
+        stiff = points(self.morph)
+        self.assertGreater(np.abs(stiff - uniform).max(), 1e-3)
+        boundary = BoundaryDisplacement(Input=self.mesh)
+        method = MorphFEMWARP(Input=self.mesh, Boundary=boundary, Stiffness="Inverse volume")
+        self.assertEqual(method.Stiffness, "Inverse volume")
+        np.testing.assert_array_equal(points(method), self.rest)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -216,6 +216,22 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
         self.fails(1, "FreePatches names 'Wall'", "--free", "Wall", *options)
 
+    def test_zones_and_layers_are_prescribed(self):
+        options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
+        prescribed = []
+        for more in ((), ("--freeze", "GeometryDimension"), ("--rigid", "GeometryDimension"),
+                     ("--keep-layers", "1")):
+            result = run(*more, *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            prescribed.append(int(re.search(r"(\d+) of them prescribed", result.stdout).group(1)))
+        self.assertGreater(prescribed[1], prescribed[0])  # all but vertices, inner nodes too
+        self.assertEqual(prescribed[2], prescribed[1])
+        self.assertGreater(prescribed[3], prescribed[0])
+        self.fails(1, "The zone 'Bolt' is neither", "--freeze", "Bolt", *options)
+        self.fails(2, "need --move or --target", "--freeze", "Bolt", BORE, self.boundary,
+                   self.folder / "out.vtu")
+        self.fails(2, "--keep-layers needs a whole number", "--keep-layers", "0.5", *options)
+
     def test_the_boundary_is_fitted_to_a_target(self):
         # Its own boundary as target: nothing moves, beyond rounding.
         result = run("--target", self.boundary, BORE, self.folder / "out.vtu")

@@ -62,6 +62,70 @@ std::vector<AffineFit> AffineGuess::fits(const Points& prescribed) const
   return result;
 }
 
+void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
+  const CsrMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Points& fitted,
+  Monitor& monitor) const
+{
+  fitted.setZero(x.rows(), 3);
+  fitted.swap(x);
+  const std::vector<AffineFit> fits = this->fits(prescribed);
+  monitor.parallelFor(coupling.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const AffineFit& fit = fits[this->component(i)];
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+        {
+          sum -= entry.value() * (prescribed.row(entry.col()) -
+                                   fit.displacement(points.row(partition.prescribed[entry.col()])));
+        }
+        rhs.row(i) = sum;
+      }
+    });
+}
+
+void AffineGuess::addTranspose(const Points& points, const NodePartition& partition,
+  const std::vector<Index>& rows, const CsrMatrix& coupling, const Points& gradient,
+  const Points& solution, Points& prescribed) const
+{
+  const std::size_t components = this->coupled_.size();
+  // The places at which each component's fit is evaluated, and the gradient there.
+  std::vector<std::vector<Index>> places(components);
+  std::vector<std::vector<Eigen::RowVector3d>> loads(components);
+  for (Index i = 0; i < coupling.rows(); ++i)
+  {
+    const int c = this->component(i);
+    places[c].push_back(rows[i]);
+    loads[c].push_back(gradient.row(i));
+    for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+    {
+      places[c].push_back(partition.prescribed[entry.col()]);
+      loads[c].push_back(entry.value() * solution.row(i));
+    }
+  }
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    Points x(static_cast<Index>(places[c].size()), 3), load = x;
+    for (Index k = 0; k < x.rows(); ++k)
+    {
+      x.row(k) = points.row(places[c][k]);
+      load.row(k) = loads[c][k];
+    }
+    Points some = Points::Zero(static_cast<Index>(this->coupled_[c].size()), 3);
+    if (some.rows() == 0)
+    {
+      continue;
+    }
+    this->leastSquares_[c].fitTranspose(x, load, some);
+    for (Index k = 0; k < some.rows(); ++k)
+    {
+      prescribed.row(this->coupled_[c][k]) += some.row(k);
+    }
+  }
+}
+
 std::size_t AffineGuess::memory() const
 {
   std::size_t bytes = sizeof(int) * this->components_.ofRow.size();

@@ -31,6 +31,20 @@ public:
   /// Returns the fit of each component; `prescribed`: #prescribed x 3 displacements.
   std::vector<AffineFit> fits(const Points& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
+
+  /// For equations that affine motions do not solve, and whose solution is the fit plus the answer
+  /// to the rest. `coupling`, `prescribed`: as above; `rhs`: #rows x 3.
+  ///@{
+  /// Sets `rhs` to -A_B (U_B - F_B), where F is the fit of the row's component. Moves the guess
+  /// `x`, F_I, to `fitted`, to be added to the solution, and leaves zero.
+  void takeOff(const Points& points, const NodePartition& partition, const CsrMatrix& coupling,
+    const Points& prescribed, Points& rhs, Points& x, Points& fitted, Monitor& monitor) const;
+  /// Adds to `prescribed` what the fit has in the adjoint: F_I^T g + F_B^T A_B^T y. `gradient`, g,
+  /// and `solution`, y with A_I y = g: #rows x 3.
+  void addTranspose(const Points& points, const NodePartition& partition,
+    const std::vector<Index>& rows, const CsrMatrix& coupling, const Points& gradient,
+    const Points& solution, Points& prescribed) const;
+  ///@}
   /// Returns the bytes in use.
   std::size_t memory() const;
 

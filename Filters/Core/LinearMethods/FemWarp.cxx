@@ -2,6 +2,7 @@
 #include "LinearMethods/FemWarp.h"
 
 #include "LinearMethods/FemWarpSystem.h"
+#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
@@ -28,7 +29,10 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const ConnectedComponents parts = connectedComponents(rest);
   requirePrescribedBodies(rest, parts, partition);
   this->rows_ = unknownOrdering(rest, partition.free);
-  FemWarpSystem system = femWarpSystem(rest, this->rows_, partition.prescribed, monitor);
+  const std::vector<double> factors =
+    stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
+  this->isUniform_ = factors.empty();
+  FemWarpSystem system = femWarpSystem(rest, this->rows_, partition.prescribed, factors, monitor);
   if (system.hasBadCells)
   {
     const std::string warning =
@@ -64,11 +68,20 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points rhs, x;
+  Points rhs, x, fitted;
   rightHandSideAndGuess(
     this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
+  if (!this->isUniform_)
+  {
+    this->guess_.takeOff(
+      this->restPoints(), this->partition(), this->coupling_, prescribed, rhs, x, fitted, monitor);
+  }
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
+  if (!this->isUniform_)
+  {
+    x += fitted;
+  }
   unpermute(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
@@ -83,6 +96,11 @@ EvaluateReport FemWarp::displaceTranspose(
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
   prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows_, this->coupling_,
+      rhs, solution, prescribed);
+  }
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }
 

@@ -43,7 +43,8 @@ bool isCollapsed(const Mesh& mesh, Index cell)
   return false;
 }
 
-CellMatrices cellMatrices(const Mesh& mesh, FemWarpSystem& system, Monitor& monitor)
+CellMatrices cellMatrices(
+  const Mesh& mesh, const std::vector<double>& factors, FemWarpSystem& system, Monitor& monitor)
 {
   const Index cells = mesh.numberOfCells();
   CellMatrices result;
@@ -73,6 +74,10 @@ CellMatrices cellMatrices(const Mesh& mesh, FemWarpSystem& system, Monitor& moni
         copyCorners(mesh, c, shape, mesh.points, corners[0]);
         sign[c] = static_cast<std::int8_t>(
           elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
+        if (!factors.empty())
+        {
+          result.K.segment(result.start[c], triangleSize(n)) *= factors[c];
+        }
         // The sign of a tetrahedron or pyramid is that of its corners.
         const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
         isBad[c] =
@@ -146,9 +151,10 @@ private:
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
 /// sums do not depend on threads.
 std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& free,
-  const std::vector<Index>& prescribed, FemWarpSystem& system, Monitor& monitor)
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, FemWarpSystem& system,
+  Monitor& monitor)
 {
-  const CellMatrices matrices = cellMatrices(mesh, system, monitor);
+  const CellMatrices matrices = cellMatrices(mesh, factors, system, monitor);
   monitor.check();
   monitor.progress(0.3);
   const Adjacency around = nodeToCells(mesh);
@@ -248,11 +254,11 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& fr
 }
 
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, Monitor& monitor)
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor)
 {
   FemWarpSystem system;
   // Frees the cells' matrices before the rows are joined.
-  std::vector<SplitRows> chunks = gatherRows(mesh, rows, prescribed, system, monitor);
+  std::vector<SplitRows> chunks = gatherRows(mesh, rows, prescribed, factors, system, monitor);
   monitor.check();
   monitor.progress(0.5);
   joinRows(system.interior, static_cast<Index>(rows.size()), chunks, &SplitRows::interior, monitor);

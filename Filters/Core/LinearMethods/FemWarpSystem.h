@@ -22,10 +22,11 @@ struct FemWarpSystem
 };
 
 /// Computes the equations. `rows`: the nodes of the matrix rows, in their order. `prescribed`: all
-/// other corners of the cells around them. Rows are sums over cells in ascending order. Cost: 0.2
+/// other corners of the cells around them. `factors`: the stiffness of the cells, which multiplies
+/// their matrices; none: 1. Rows are sums over cells in ascending order. Cost: 0.2
 /// to 0.4 microseconds a cell.
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, Monitor& monitor);
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor);
 
 /// Ids of cells that are no good reference, ascending.
 struct BadCells

@@ -67,7 +67,8 @@ void append(SplitRows& chunk, int row, int rows, const std::vector<int>& columns
 }
 
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, Monitor& monitor)
+  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
+  Monitor& monitor)
 {
   const Adjacency around = nodeToCells(mesh);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
@@ -79,7 +80,8 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   std::vector<SplitRows> chunks = splitRows(n, monitor,
     [&]
     {
-      return [&, weights = NodeWeights(mesh, around, columns)](Index i, SplitRows& chunk) mutable
+      return [&, weights = NodeWeights(mesh, around, columns, factors)](
+               Index i, SplitRows& chunk) mutable
       {
         const NodeWeights::Kind kind = weights.compute(rows[i], relax);
         tallies[i / SplitRows::ChunkRows].count(rows[i], kind, weights.iterations());

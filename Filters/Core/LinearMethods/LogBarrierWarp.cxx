@@ -2,6 +2,7 @@
 #include "LinearMethods/LogBarrierWarp.h"
 
 #include "LinearMethods/LogBarrierSystem.h"
+#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
@@ -49,8 +50,11 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   requirePrescribedBodies(rest, connectedComponents(rest), partition);
   this->rows_ = unknownOrdering(rest, partition.free);
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
+  const std::vector<double> factors =
+    stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
+  this->isUniform_ = factors.empty();
   LogBarrierSystem system =
-    logBarrierSystem(rest, this->rows_, partition.prescribed, relax, monitor);
+    logBarrierSystem(rest, this->rows_, partition.prescribed, relax, factors, monitor);
   requireWeights(system, relax);
   this->meanWeightIterations_ = system.meanIterations;
   this->mostWeightIterations_ = system.mostIterations;
@@ -90,11 +94,20 @@ EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monit
 EvaluateReport LogBarrierWarp::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points rhs, x;
+  Points rhs, x, fitted;
   rightHandSideAndGuess(
     this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
+  if (!this->isUniform_)
+  {
+    this->guess_.takeOff(
+      this->restPoints(), this->partition(), this->coupling_, prescribed, rhs, x, fitted, monitor);
+  }
   const GeneralSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
+  if (!this->isUniform_)
+  {
+    x += fitted;
+  }
   unpermute(x, this->rows_, this->partition(), free, monitor);
   return this->report(solved, monitor);
 }
@@ -108,6 +121,11 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   const GeneralSolver::Report solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows_, this->coupling_,
+      rhs, solution, prescribed);
+  }
   return this->report(solved, monitor);
 }
 

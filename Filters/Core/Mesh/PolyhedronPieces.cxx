@@ -282,6 +282,7 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
       }
       to = &others;
     }
+    this->cellOfOther_.resize(others.types.size(), c);
   }
   this->means_.resize(row, this->nodes_);
   this->means_.setFromTriplets(means.begin(), means.end());
@@ -302,6 +303,16 @@ Points PolyhedronPieces::extend(const ConstPoints& points) const
 Points PolyhedronPieces::extendTranspose(const ConstPoints& all) const
 {
   return all.topRows(this->nodes_) + this->means_.transpose() * all.bottomRows(this->means_.rows());
+}
+
+std::vector<double> PolyhedronPieces::extend(const std::vector<double>& values) const
+{
+  std::vector<double> all = values;
+  for (const Index cell : this->cellOfOther_)
+  {
+    all.push_back(values[cell]);
+  }
+  return all;
 }
 
 NodePartition PolyhedronPieces::extend(const NodePartition& partition) const

@@ -41,9 +41,13 @@ public:
   /// and come last; the other centres are free. `partition`: of the mesh without centres.
   NodePartition extend(const NodePartition& partition) const;
 
+  /// Returns `values`, one a cell, for each piece: that of the cell it is cut from.
+  std::vector<double> extend(const std::vector<double>& values) const;
+
 private:
   Mesh pieces_;
-  Index nodes_ = 0; ///< without centres
+  std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells
+  Index nodes_ = 0;                ///< without centres
   Index faceCenters_ = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor, Index> means_; ///< #centres x #nodes
 };

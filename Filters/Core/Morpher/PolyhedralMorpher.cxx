@@ -2,6 +2,7 @@
 #include "Morpher/PolyhedralMorpher.h"
 
 #include "Mesh/PolyhedronPieces.h"
+#include "Morpher/CellStiffness.h"
 
 #include <utility>
 
@@ -30,6 +31,14 @@ public:
     if (this->reference_.rows() > 0)
     {
       this->method_->setReference(this->pieces_->extend(this->reference_));
+    }
+    auto* stiff = dynamic_cast<StiffMorpher*>(this->method_.get());
+    if (stiff &&
+        static_cast<Index>(stiff->stiffness().values.size()) == rest.numberOfCells()) // not yet
+    {
+      CellStiffness stiffness = stiff->stiffness();
+      stiffness.values = this->pieces_->extend(stiffness.values);
+      stiff->setStiffness(std::move(stiffness));
     }
     this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(partition), monitor);
   }

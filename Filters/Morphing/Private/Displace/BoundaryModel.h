@@ -25,6 +25,8 @@ public:
   /// and for a surface without polygons, MorphPointId or RestPosition; then nothing is kept.
   void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor);
 
+  /// Of a surface: its points, no cells.
+  const morph::Mesh& Mesh() const { return this->Kept.Mesh; }
   const morph::Points& Points() const { return this->Kept.Mesh.points; } ///< current positions
   /// Undeformed positions: a surface's RestPosition, and a grid's own points.
   const morph::Points& Rest() const

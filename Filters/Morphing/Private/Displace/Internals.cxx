@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
+#include "Private/Data/AffineArrays.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Displace/Motion.h"
@@ -12,6 +13,7 @@
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
@@ -118,6 +120,27 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
   return this->Fit.Targets(this->Model, this->Choice, monitor);
 }
 
+filters::InnerNodes::Options vtkBoundaryDisplacement::vtkInternals::InnerOptions(
+  const vtkBoundaryDisplacement* filter, vtkSelection* zone)
+{
+  filters::InnerNodes::Options options;
+  options.Zones.Frozen = this->FrozenZones;
+  options.Zones.Rigid = this->RigidZones;
+  options.Zones.Region = this->ZoneRegion;
+  options.Zones.RegionKind = filter->ZoneRegionType;
+  options.Zones.SelectionKind = filter->ZoneSelectionType;
+  if (filter->ZoneSelectionType != ZONE_NONE)
+  {
+    options.Zones.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
+  }
+  options.Zones.Extractor = this->Extractor;
+  options.RigidTransform = this->RigidTransform;
+  options.ScaleFactor = filter->ScaleFactor;
+  options.KeepLayers = filter->KeepLayers;
+  options.LayersArray = filters::Input::ArrayName(filter->LayersArray);
+  return options;
+}
+
 void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
   const filters::Surroundings::Result& result, vtkPolyData* output)
 {
@@ -136,8 +159,8 @@ void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
 }
 
 void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkPolyData* output,
-  filters::Monitor& monitor)
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkSelection* zone,
+  vtkPolyData* output, filters::Monitor& monitor)
 {
   try
   {
@@ -185,7 +208,22 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
   motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
-  const morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
+  morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
+  filters::Choice::Result choice = this->Choice;
+  const filters::InnerNodes::Options inner = this->InnerOptions(filter, zone);
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  const bool hasInner = inner.Any() && filter->Moving != MOVE_NOTHING;
+  if (hasInner)
+  {
+    if (!grid)
+    {
+      throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
+                         "volume mesh to this filter.");
+    }
+    this->Inner.Find(
+      grid, this->Model, this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner);
+    this->Inner.Constrain(this->Model, inner, choice, targets);
+  }
 
   filters::Surroundings::Options rest;
   rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
@@ -195,10 +233,14 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
   rest.Radius = filter->FalloffRadius * this->Model.Size();
   monitor.SetRange(target ? 0.7 : 0.5, 0.9);
-  const filters::Surroundings::Result result =
-    this->Spread.Spread(this->Model, this->Choice, targets, rest, monitor);
+  filters::Surroundings::Result result =
+    this->Spread.Spread(this->Model, choice, targets, rest, monitor);
+  if (hasInner)
+  {
+    this->Inner.Place(grid, this->Model, choice, inner, result, monitor);
+  }
   const std::vector<morph::Index> collapsed =
-    filters::Motion::Collapsed(this->Model, this->Choice, result.Moved);
+    filters::Motion::Collapsed(this->Model, choice, result.Moved);
   if (!collapsed.empty())
   {
     monitor.warn(
@@ -208,11 +250,22 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->OutputPointsPrecision, output);
-  this->Fields.Write(
-    this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
+  if (hasInner)
+  {
+    filters::AffineArrays::Remove(output);
+  }
+  else
+  {
+    this->Fields.Write(
+      this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
+  }
   if (target)
   {
     this->WriteDistances(result, output);
+  }
+  if (hasInner)
+  {
+    filters::InnerNodes::Append(grid, this->Model, result, output);
   }
   const auto count = [&result](filters::Surroundings::Role role)
   { return std::count(result.Roles.begin(), result.Roles.end(), role); };
@@ -220,4 +273,6 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   filter->HeldPoints = count(filters::Surroundings::IsHeld);
   filter->FollowingPoints = count(filters::Surroundings::Follows);
   filter->FreePoints = count(filters::Surroundings::IsFree);
+  filter->ZonePoints = count(filters::Surroundings::IsZone);
+  filter->LayerPoints = count(filters::Surroundings::IsLayer);
 }

@@ -11,6 +11,7 @@
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
 #include "Private/Displace/FitToTarget.h"
+#include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/Surroundings.h"
 #include "Private/Pipeline/Monitor.h"
@@ -53,18 +54,20 @@ struct ChoiceKey
 
 struct vtkBoundaryDisplacement::vtkInternals
 {
-  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches;
+  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches, FrozenZones,
+    RigidZones;
   vtkNew<vtkDataArraySelection> PatchList;
   vtkNew<vtkStringArray> PatchSizes;
   vtkNew<vtkDoubleArray> PatchBounds;
   vtkIdType ListedVersion = -1; ///< of Model
-  vtkSmartPointer<vtkImplicitFunction> Region;
-  vtkSmartPointer<vtkAbstractTransform> Transform;
+  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
+  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
 
   morph::filters::Blocks Blocks;
-  morph::filters::Unchanged Checked; ///< the input, where it is a grid
-  morph::filters::BlockSelection Selected;
+  const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
+  morph::filters::Unchanged Checked;                         ///< the input, where it is a grid
+  morph::filters::BlockSelection Selected, ZoneSelected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
   morph::filters::ChoiceKey ChosenFrom;
@@ -72,6 +75,7 @@ struct vtkBoundaryDisplacement::vtkInternals
   morph::filters::Surroundings Spread;
   morph::filters::BoundaryFields Fields;
   morph::filters::FitToTarget Fit;
+  morph::filters::InnerNodes Inner;
   morph::filters::Picker Picker;
 
   /// Forgets the names of the patches.
@@ -86,11 +90,13 @@ struct vtkBoundaryDisplacement::vtkInternals
   /// Finds the boundary and its geometry, and its patches' names.
   void Classify(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
-  /// `target`: of MOTION_TARGET, or null.
+  /// `target`: of MOTION_TARGET, or null; `zone`: the selection of a zone, or null.
   void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, vtkPolyData* output, morph::filters::Monitor& monitor);
+    vtkPolyData* target, vtkSelection* zone, vtkPolyData* output, morph::filters::Monitor& monitor);
 
 private:
+  morph::filters::InnerNodes::Options InnerOptions(
+    const vtkBoundaryDisplacement* filter, vtkSelection* zone);
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
     vtkPolyData* target, morph::filters::Monitor& monitor);

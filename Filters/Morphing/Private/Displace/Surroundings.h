@@ -41,7 +41,9 @@ public:
     Moves = 1,
     IsHeld = 2,
     Follows = 3,
-    IsFree = 4
+    IsFree = 4,
+    IsZone = 5, ///< of a zone, see InnerNodes.h
+    IsLayer = 6
   };
 
   struct Result

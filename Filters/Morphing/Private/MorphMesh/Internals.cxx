@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/MorphMesh/Internals.h"
 
+#include "Private/Data/GridMesh.h"
 #include "Private/Data/Version.h"
+#include "Private/Displace/Internals.h"
 #include "Private/Displace/SurfaceGrid.h"
+#include "Private/Displace/Zones.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/Follower.h"
+#include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "vtkStiffnessMorph.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObjectTree.h>
+#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkPointData.h>
@@ -118,6 +124,19 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     &Filter::AddSlidingPatch);
   pass(this->FreeSurfaces, this->PassedFreeSurfaces, to, &Filter::RemoveAllFreePatches,
     &Filter::AddFreePatch);
+  pass(this->FrozenZones, this->PassedFrozenZones, to, &Filter::RemoveAllFrozenZones,
+    &Filter::AddFrozenZone);
+  pass(this->RigidZones, this->PassedRigidZones, to, &Filter::RemoveAllRigidZones,
+    &Filter::AddRigidZone);
+  const auto prescribed = [](int type) { return type == ZONE_SOFT ? ZONE_NONE : type; };
+  to->SetZoneRegion(this->ZoneRegion);
+  to->SetZoneRegionType(prescribed(from->ZoneRegionType));
+  to->SetZoneSelectionData(this->Zone);
+  to->SetZoneSelectionType(prescribed(from->ZoneSelectionType));
+  to->SetRigidTransform(this->RigidTransform);
+  to->Internals->OuterBlocks = this->Blocks.Merged();
+  to->SetKeepLayers(from->KeepLayers);
+  to->SetLayersArray(from->LayersArray);
   to->SetRegion(this->Region);
   to->SetMovingArray(from->MovingArray);
   to->SetMotion(from->Displacement);
@@ -146,7 +165,46 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
   to->SetNumberOfThreads(from->NumberOfThreads);
 }
 
-void vtkMorphMesh::vtkInternals::ConfigureMorph()
+vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
+{
+  const vtkMorphMesh* from = this->Filter;
+  filters::Zones::Options options;
+  options.Soft = this->SoftZones;
+  options.Region = this->ZoneRegion;
+  options.RegionKind = from->ZoneRegionType;
+  options.Selection = this->Zone;
+  options.Extractor = this->Extractor;
+  options.SelectionKind = from->ZoneSelectionType;
+  if (options.Soft.empty() && options.RegionKind != ZONE_SOFT && options.SelectionKind != ZONE_SOFT)
+  {
+    return nullptr;
+  }
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(this->Rest);
+  vtkNew<vtkDoubleArray> factors;
+  factors->SetNumberOfTuples(this->Rest->GetNumberOfCells());
+  factors->FillValue(1);
+  for (const filters::Zones::Part& part :
+    filters::Zones::Find(filters::Zones::Soft, this->Rest, mesh, this->Blocks.Merged(), options))
+  {
+    for (std::size_t c = 0; c < part.IsCell.size(); ++c)
+    {
+      if (part.IsCell[c])
+      {
+        factors->SetValue(static_cast<vtkIdType>(c), from->SoftStiffness);
+      }
+    }
+  }
+  return factors.Get();
+}
+
+void vtkMorphMesh::vtkInternals::TakeZone(vtkSelection* selection)
+{
+  this->Zone = this->Filter->ZoneSelectionType == ZONE_NONE
+                 ? nullptr
+                 : this->ZoneSelected.OfGrid(this->Blocks, selection, this->Extractor);
+}
+
+void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
 {
   const vtkMorphMesh* from = this->Filter;
   vtkMorphAlgorithm* to = this->Filter->GetMethodFilter();
@@ -162,6 +220,24 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph()
   to->SetStepping(from->Stepping);
   to->SetOutputPointsPrecision(from->OutputPointsPrecision);
   to->SetNumberOfThreads(from->NumberOfThreads);
+  const vtkSmartPointer<vtkDataArray> soft = this->SoftCells();
+  if (auto* stiff = vtkStiffnessMorph::SafeDownCast(to))
+  {
+    stiff->SetStiffness(from->Stiffness);
+    stiff->SetStiffnessExponent(from->StiffnessExponent);
+    stiff->SetStiffnessArray(from->StiffnessArray);
+    stiff->SetWallArray(from->WallArray);
+    stiff->SetStiffnessValues(soft);
+  }
+  else if (soft)
+  {
+    throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP or "
+                       "LBWARP.");
+  }
+  else if (from->Stiffness != 0 || !filters::Input::ArrayName(from->StiffnessArray).empty())
+  {
+    monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP and LBWARP alone.");
+  }
 }
 
 void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
@@ -249,7 +325,7 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
 std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  this->ConfigureMorph();
+  this->ConfigureMorph(monitor);
   const filters::Follower follower(this->Morph, monitor);
   const std::optional<double> time = filters::Ports::AskedTime(asked);
   if (time && this->Filter->NumberOfSteps > 0)

@@ -30,9 +30,10 @@ class vtkPolyData;
 class vtkMorphMesh::vtkInternals
 {
 public:
-  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces;
-  vtkSmartPointer<vtkImplicitFunction> Region;
-  vtkSmartPointer<vtkAbstractTransform> Transform;
+  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces,
+    FrozenZones, RigidZones, SoftZones;
+  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
+  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
   vtkSmartPointer<vtkExtractSelection> Extractor;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
@@ -51,6 +52,8 @@ public:
   void TakeGrid(vtkUnstructuredGrid* grid);
   /// Gives the filter inside the target, a copy for its pipeline; null for none.
   void TakeTarget(vtkDataObject* target);
+  /// Keeps the selection of a zone, as one of the grid; null for none.
+  void TakeZone(vtkSelection* selection);
   /// Lists the surfaces of the mesh, if it is one.
   void List(vtkDataObject* input);
   /// The selection as one of the grid, where it is of blocks.
@@ -77,11 +80,15 @@ private:
   vtkMTimeType TargetTime = 0;
   morph::filters::BlockSelection Selected;
   morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
-    PassedFreeSurfaces;
+    PassedFreeSurfaces, PassedFrozenZones, PassedRigidZones;
+  morph::filters::BlockSelection ZoneSelected;
+  vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);
-  void ConfigureMorph();
+  void ConfigureMorph(morph::Monitor& monitor);
+  /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
+  vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Morpher/Morpher.h"
+
+#include <vector>
+
+namespace morph
+{
+/// How stiff each cell is for a method that treats the mesh as a continuum. Stiff cells keep their
+/// shape at the expense of the others. Only ratios count.
+struct CellStiffness
+{
+  enum class Kind
+  {
+    Uniform,       ///< the method as published
+    InverseVolume, ///< 1 / volume: small cells are stiff
+    /// 1 / distance from `walls`: cells near them are stiff. The distance of a cell is that of its
+    /// centre from the nearest wall node, at least 1e-3 of the mesh's mean distance.
+    WallDistance
+  };
+  Kind kind = Kind::Uniform;
+  double exponent = 1;        ///< power of volume or distance, in [0, 4]
+  std::vector<Index> walls;   ///< node ids; none: all prescribed nodes
+  std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
+};
+
+/// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
+/// and it has an adjoint, whatever the stiffness.
+class StiffMorpher : public LinearMorpher
+{
+public:
+  /// Call it before prepare(), which throws Error for values or walls that do not fit the mesh.
+  /// Default Uniform.
+  void setStiffness(CellStiffness stiffness);
+  const CellStiffness& stiffness() const { return this->stiffness_; }
+
+private:
+  CellStiffness stiffness_;
+};
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/Zones.h"
+
+#include "Private/Blocks/MergedBlocks.h"
+#include "Private/Displace/Selection.h"
+#include "Support/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImplicitFunction.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+using Zones::Part;
+using Flags = std::vector<std::uint8_t>;
+
+/// Flags of the tuples with a component other than 0; a NaN marks nothing.
+Flags marked(vtkDataArray* array)
+{
+  Flags flags(array->GetNumberOfTuples(), 0);
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int j = 0; j < array->GetNumberOfComponents(); ++j)
+    {
+      const double value = array->GetComponent(i, j);
+      flags[i] = flags[i] || value < 0 || value > 0;
+    }
+  }
+  return flags;
+}
+
+void takeNodes(const morph::Mesh& mesh, Flags isNode, Part& part)
+{
+  part.IsNode = std::move(isNode);
+  part.IsCell.assign(mesh.numberOfCells(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    part.IsCell[c] = std::all_of(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c),
+      [&](Index node) { return part.IsNode[node] != 0; });
+  }
+}
+
+void takeCells(const morph::Mesh& mesh, Flags isCell, Part& part)
+{
+  part.IsCell = std::move(isCell);
+  part.IsNode.assign(mesh.numberOfNodes(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 0; part.IsCell[c] && k < mesh.cellSize(c); ++k)
+    {
+      part.IsNode[mesh.cell(c)[k]] = 1;
+    }
+  }
+}
+
+/// Fills `part` from the block of that name. Returns false where there is none.
+bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
+{
+  if (!blocks)
+  {
+    return false;
+  }
+  Flags isCell(mesh.numberOfCells(), 0);
+  bool found = false;
+  for (std::size_t b = 0; b < blocks->All.size(); ++b)
+  {
+    const MergedBlocks::Block& block = blocks->All[b];
+    if (block.IsMesh && (block.Name == part.Name || block.Name == "Block '" + part.Name + "'"))
+    {
+      found = true;
+      for (Index c = 0; c < mesh.numberOfCells(); ++c)
+      {
+        isCell[c] = isCell[c] || blocks->BlockOfCell[c] == static_cast<Index>(b);
+      }
+    }
+  }
+  if (found)
+  {
+    takeCells(mesh, std::move(isCell), part);
+  }
+  return found;
+}
+
+void takeNamed(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
+{
+  vtkDataArray* ofPoints = grid->GetPointData()->GetArray(part.Name.c_str());
+  vtkDataArray* ofCells = grid->GetCellData()->GetArray(part.Name.c_str());
+  if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
+  {
+    takeCells(mesh, marked(ofCells), part);
+  }
+  else if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
+  {
+    takeNodes(mesh, marked(ofPoints), part);
+  }
+  else if (!takeBlock(mesh, blocks, part))
+  {
+    throw Error("The zone '" + part.Name +
+                "' is neither a point array, a cell array nor a block of the input. A zone is "
+                "where an array is not zero, or a block.");
+  }
+}
+
+void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part)
+{
+  if (!region)
+  {
+    throw Error("No region is given for the zone: set ZoneRegion, a box for instance.");
+  }
+  Flags isNode(mesh.numberOfNodes(), 0);
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    isNode[n] = region->FunctionValue(mesh.points(n, 0), mesh.points(n, 1), mesh.points(n, 2)) <= 0;
+  }
+  takeNodes(mesh, std::move(isNode), part);
+}
+}
+
+namespace Zones
+{
+std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const MergedBlocks* blocks, const Options& options)
+{
+  std::vector<Part> parts;
+  const auto take = [&](const std::string& name, const auto& fill)
+  {
+    Part& part = parts.emplace_back();
+    part.Name = name;
+    fill(part);
+    if (std::none_of(part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; }))
+    {
+      throw Error("The zone '" + name + "' has no node of the mesh.");
+    }
+  };
+  const NameSet::Names& names = kind == Frozen  ? options.Frozen
+                                : kind == Rigid ? options.Rigid
+                                                : options.Soft;
+  for (const std::string& name : names)
+  {
+    take(name, [&](Part& part) { takeNamed(grid, mesh, blocks, part); });
+  }
+  if (options.RegionKind == kind)
+  {
+    take("ZoneRegion", [&](Part& part) { takeRegion(mesh, options.Region, part); });
+  }
+  if (options.SelectionKind == kind)
+  {
+    take("ZoneSelection",
+      [&](Part& part)
+      {
+        Selection::Inside inside = Selection::Evaluate(grid, options.Selection, options.Extractor);
+        inside.ByPoints ? takeNodes(mesh, std::move(inside.Flags), part)
+                        : takeCells(mesh, std::move(inside.Flags), part);
+      });
+  }
+  return parts;
+}
+}
+}

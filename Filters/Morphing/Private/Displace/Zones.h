@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Private/Pipeline/NameSet.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkExtractSelection;
+class vtkImplicitFunction;
+class vtkSelection;
+class vtkUnstructuredGrid;
+
+namespace morph::filters
+{
+struct MergedBlocks;
+}
+
+/// Parts of a mesh, inner nodes too, whose motion is prescribed.
+namespace morph::filters::Zones
+{
+/// vtkBoundaryDisplacement::ZoneType
+enum Kind
+{
+  None,
+  Frozen,
+  Rigid,
+  Soft
+};
+
+struct Options
+{
+  NameSet::Names Frozen, Rigid, Soft; ///< point arrays, cell arrays or blocks
+  vtkImplicitFunction* Region = nullptr;
+  int RegionKind = None;
+  vtkSelection* Selection = nullptr;
+  vtkExtractSelection* Extractor = nullptr;
+  int SelectionKind = None;
+
+  /// Whether a node is prescribed by some zone.
+  bool Any() const
+  {
+    const auto prescribes = [](int kind) { return kind == Zones::Frozen || kind == Zones::Rigid; };
+    return !this->Frozen.empty() || !this->Rigid.empty() || prescribes(this->RegionKind) ||
+           prescribes(this->SelectionKind);
+  }
+};
+
+/// What a zone has of a mesh.
+struct Part
+{
+  std::string Name;                 ///< for messages
+  std::vector<std::uint8_t> IsNode; ///< #nodes: the zone's, and those of its cells
+  std::vector<std::uint8_t> IsCell; ///< #cells: the zone's, or those whose nodes all are
+};
+
+/// Finds the zones of that kind, in the order of their names, then those of region and selection.
+/// An array marks by values other than 0. `mesh`: of `grid`; `blocks`: that it was merged from, or
+/// null. Throws morph::Error for a name that is neither array nor block, a region or selection that
+/// is not given, and a zone without a node. Cost: a pass over the mesh for each.
+std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const MergedBlocks* blocks, const Options& options);
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkStiffnessMorph.h"
+
+#include "Morpher/CellStiffness.h"
+#include "Private/Data/Surface.h"
+#include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Property.h"
+#include "Support/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace filters = morph::filters;
+
+/// The stiffness of the last inputs. Its version changes with the content.
+class vtkStiffnessMorph::vtkTaken
+{
+public:
+  morph::CellStiffness Stiffness;
+  vtkIdType Version = 0;
+};
+
+namespace
+{
+using Indices = std::vector<morph::Index>;
+
+/// An array of one number a point or cell.
+vtkDataArray* require(
+  vtkDataSetAttributes* data, const std::string& name, vtkIdType count, const char* property)
+{
+  vtkDataArray* array = data->GetArray(name.c_str());
+  if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
+  {
+    throw morph::Error(
+      std::string(property) + " names '" + name + "', which is " +
+      (array ? "not as long as the mesh, or has more than one component."
+             : (std::string(property) == "WallArray" ? "no point array of the mesh."
+                                                     : "no cell array of the mesh.")));
+  }
+  return array;
+}
+
+/// The nodes that a displaced boundary moves, as its filter says; none where it does not.
+Indices movingNodes(vtkDataObject* boundary, vtkIdType nodes)
+{
+  Indices moving;
+  auto* points = vtkPointSet::SafeDownCast(boundary);
+  vtkDataArray* ids = points ? points->GetPointData()->GetArray(filters::Surface::IdName) : nullptr;
+  vtkDataArray* roles = points ? points->GetPointData()->GetArray("Role") : nullptr;
+  for (vtkIdType i = 0; ids && roles && i < roles->GetNumberOfTuples(); ++i)
+  {
+    const double id = ids->GetComponent(i, 0);
+    if (roles->GetComponent(i, 0) == 1 && id >= 0 && id < static_cast<double>(nodes))
+    {
+      moving.push_back(static_cast<morph::Index>(id));
+    }
+  }
+  return moving;
+}
+
+void multiply(vtkDataArray* by, vtkIdType cells, std::vector<double>& values)
+{
+  if (by->GetNumberOfTuples() != cells || by->GetNumberOfComponents() != 1)
+  {
+    throw morph::Error("The values of the stiffness are not as many as the mesh has cells.");
+  }
+  values.resize(cells, 1);
+  for (vtkIdType c = 0; c < cells; ++c)
+  {
+    values[c] *= by->GetComponent(c, 0);
+  }
+}
+}
+
+morphSetNumberMacro(vtkStiffnessMorph, StiffnessExponent, 0.0, 4.0)
+
+  vtkStiffnessMorph::vtkStiffnessMorph()
+  : Taken(new vtkTaken)
+{
+}
+
+vtkStiffnessMorph::~vtkStiffnessMorph()
+{
+  this->SetStiffnessArray(nullptr);
+  this->SetWallArray(nullptr);
+}
+
+void vtkStiffnessMorph::SetStiffnessValues(vtkDataArray* values)
+{
+  if (this->StiffnessValues != values)
+  {
+    this->StiffnessValues = values;
+    this->Modified();
+  }
+}
+
+void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* boundary)
+{
+  morph::CellStiffness next;
+  next.kind = static_cast<morph::CellStiffness::Kind>(this->Stiffness);
+  next.exponent = this->StiffnessExponent;
+  const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
+  const std::string name = filters::Input::ArrayName(this->StiffnessArray);
+  if (cells == 0 && !name.empty())
+  {
+    next.values = {
+      1
+    }; // a rank without cells has no arrays, and refuses a stiffness as the others
+  }
+  else if (!name.empty())
+  {
+    multiply(require(rest->GetCellData(), name, cells, "StiffnessArray"), cells, next.values);
+  }
+  if (this->StiffnessValues)
+  {
+    multiply(this->StiffnessValues, cells, next.values);
+  }
+  if (this->Stiffness == STIFFNESS_WALL_DISTANCE)
+  {
+    const std::string walls = filters::Input::ArrayName(this->WallArray);
+    if (walls.empty() || cells == 0)
+    {
+      next.walls = movingNodes(boundary, nodes);
+    }
+    else
+    {
+      vtkDataArray* marks = require(rest->GetPointData(), walls, nodes, "WallArray");
+      for (vtkIdType i = 0; i < nodes; ++i)
+      {
+        if (marks->GetComponent(i, 0) < 0 || marks->GetComponent(i, 0) > 0)
+        {
+          next.walls.push_back(i);
+        }
+      }
+      if (next.walls.empty())
+      {
+        throw morph::Error("WallArray names '" + walls + "', which is zero at all nodes.");
+      }
+    }
+  }
+  vtkTaken& taken = *this->Taken;
+  if (next.kind != taken.Stiffness.kind || next.exponent != taken.Stiffness.exponent ||
+      next.walls != taken.Stiffness.walls || next.values != taken.Stiffness.values)
+  {
+    taken.Stiffness = std::move(next);
+    ++taken.Version;
+  }
+}
+
+void vtkStiffnessMorph::GiveStiffness(morph::StiffMorpher& morpher) const
+{
+  morpher.setStiffness(this->Taken->Stiffness);
+}
+
+std::string vtkStiffnessMorph::StiffnessOptions() const
+{
+  return "stiffness " + std::to_string(this->Taken->Version);
+}
+
+void vtkStiffnessMorph::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
+  os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
+  os << indent << "WallArray: " << text(this->WallArray) << "\n";
+  os << indent << "StiffnessValues: " << this->StiffnessValues.Get() << "\n";
+}

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Zones of vtkBoundaryDisplacement and vtkMorphMesh: frozen, rigid and soft.
+#include "BlockGrids.h"
+#include "DisplacedBoundaries.h"
+
+#include "Geometry/RigidFit.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
+#include "vtkLBWarpMorph.h"
+#include "vtkMorphMesh.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
+#include "vtkSmoothingMorph.h"
+#include "vtkWeightedResidualMorph.h"
+
+#include <vtkBox.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkTransform.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using grids::Row;
+using morph::Index;
+using morph::Points;
+
+namespace
+{
+constexpr int N = 6; // cells a side
+
+/// Nodes of the middle, none on the boundary: a cube of two cells a side.
+bool isMiddle(const Row& x)
+{
+  return ((x.array() - N / 2.).abs() < 1.5).all();
+}
+
+/// A jittered cube whose nodes and cells of the middle are marked by the arrays `Nodes` and
+/// `Cells`.
+vtkSmartPointer<vtkUnstructuredGrid> marked()
+{
+  auto grid = grids::hexes(N);
+  vtkNew<vtkDoubleArray> nodes, cells;
+  nodes->SetName("Nodes");
+  cells->SetName("Cells");
+  const Points points = grids::points(grid);
+  for (Index n = 0; n < points.rows(); ++n)
+  {
+    nodes->InsertNextValue(isMiddle(points.row(n)));
+  }
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    double bounds[6];
+    grid->GetCellBounds(c, bounds);
+    const Row centre(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+    cells->InsertNextValue(isMiddle(centre / 2));
+  }
+  grid->GetPointData()->AddArray(nodes);
+  grid->GetCellData()->AddArray(cells);
+  return grid;
+}
+
+/// Turns and stretches the top, the rest of the boundary follows.
+vtkSmartPointer<vtkBoundaryDisplacement> twisted(vtkDataObject* grid)
+{
+  auto filter = displaced::make(grid);
+  filter->SetMovingToRegion();
+  vtkNew<vtkBox> top;
+  top->SetBounds(-1, N + 1, -1, N + 1, N - 1e-6, N + 1);
+  filter->SetRegion(top);
+  filter->SetMotionToPlacement();
+  filter->SetRotation(0, 0, 25);
+  filter->SetTranslation(0.3, 0, 0.8);
+  return filter;
+}
+
+Points morphed(
+  vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid, vtkBoundaryDisplacement* displacement)
+{
+  grids::Listener listener(method);
+  method->SetInputData(grid);
+  method->SetBoundaryConnection(displacement->GetOutputPort());
+  method->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
+  method->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  return grids::points(method->GetOutput());
+}
+
+std::vector<Index> middleNodes(vtkUnstructuredGrid* grid)
+{
+  return displaced::nodesWhere(grid, isMiddle);
+}
+
+/// The largest distance of the rows `ids` from the rigid motion that fits them best.
+double offRigid(const Points& rest, const Points& moved, const std::vector<Index>& ids)
+{
+  const Points from = rest(ids, morph::allColumns), to = moved(ids, morph::allColumns);
+  const morph::RigidMotion motion = morph::fitRigidMotion(from, to);
+  double off = 0;
+  for (Index i = 0; i < from.rows(); ++i)
+  {
+    off = std::max(off, (motion(from.row(i)) - to.row(i)).norm());
+  }
+  return off;
+}
+}
+
+TEST(Zones, FrozenAndRigidOnesKeepTheirShapeUnderEveryMethod)
+{
+  auto grid = marked();
+  const Points rest = grids::points(grid);
+  const std::vector<Index> middle = middleNodes(grid);
+  ASSERT_EQ(middle.size(), 27u);
+  const vtkSmartPointer<vtkMorphAlgorithm> methods[] = { vtkSmartPointer<vtkFEMWarpMorph>::New(),
+    vtkSmartPointer<vtkLBWarpMorph>::New(), vtkSmartPointer<vtkWeightedResidualMorph>::New(),
+    vtkSmartPointer<vtkSimplexLinearMorph>::New(),
+    vtkSmartPointer<vtkSimplexNaturalNeighborMorph>::New(),
+    vtkSmartPointer<vtkSmoothingMorph>::New(), vtkSmartPointer<vtkInversionFreeMorph>::New() };
+  for (const auto& method : methods)
+  {
+    SCOPED_TRACE(method->GetClassName());
+    auto displacement = twisted(grid);
+    const Points without = morphed(method, grid, displacement);
+    EXPECT_GT(offRigid(rest, without, middle), 0.01);
+    displacement->AddFrozenZone("Nodes");
+    const Points frozen = morphed(method, grid, displacement);
+    EXPECT_EQ(frozen(middle, morph::allColumns), rest(middle, morph::allColumns));
+    displacement->RemoveAllFrozenZones();
+    displacement->AddRigidZone("Cells");
+    const Points rigid = morphed(method, grid, displacement);
+    EXPECT_LT(offRigid(rest, rigid, middle), 1e-12);
+    EXPECT_GT((rigid(middle, morph::allColumns) - rest(middle, morph::allColumns)).norm(), 0.5);
+    // The boundary moves as before.
+    const std::vector<Index> top =
+      displaced::nodesWhere(grid, [](const Row& x) { return x[2] > N - 1e-6; });
+    EXPECT_EQ(rigid(top, morph::allColumns), without(top, morph::allColumns));
+  }
+}
+
+TEST(Zones, AnInnerOneFollowsFemWarpsMeanMotion)
+{
+  auto grid = marked();
+  const Points rest = grids::points(grid);
+  vtkNew<vtkFEMWarpMorph> method;
+  auto displacement = twisted(grid);
+  const Points without = morphed(method, grid, displacement);
+  displacement->AddRigidZone("Cells");
+  const Points with = morphed(method, grid, displacement);
+  // All but the node in the middle are on the zone's edge.
+  std::vector<Index> edge = middleNodes(grid);
+  edge.erase(std::remove_if(edge.begin(), edge.end(),
+               [&](Index n) { return ((rest.row(n).array() - N / 2.).abs() < 0.5).all(); }),
+    edge.end());
+  ASSERT_EQ(edge.size(), 26u);
+  const morph::RigidMotion expected =
+    morph::fitRigidMotion(rest(edge, morph::allColumns), without(edge, morph::allColumns));
+  for (const Index n : edge)
+  {
+    EXPECT_LT((expected(rest.row(n)) - with.row(n)).norm(), 1e-8);
+  }
+}
+
+TEST(Zones, OneOnTheBoundaryTakesTheMotionOfItsNodesThere)
+{
+  auto grid = grids::hexes(N);
+  const Points rest = grids::points(grid);
+  auto displacement = twisted(grid);
+  vtkNew<vtkBox> box; // two layers of cells below the top
+  box->SetBounds(-1, N + 1, -1, N + 1, N - 2.4, N + 1);
+  displacement->SetZoneRegion(box);
+  displacement->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_RIGID);
+  displacement->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
+  displacement->SetMovingToEverything(); // so all its outer nodes tell the motion
+  vtkNew<vtkFEMWarpMorph> method;
+  const Points moved = morphed(method, grid, displacement);
+  const std::vector<Index> zone =
+    displaced::nodesWhere(grid, [](const Row& x) { return x[2] > N - 2.4; });
+  EXPECT_LT(offRigid(rest, moved, zone), 1e-12);
+  EXPECT_EQ(displacement->GetZonePoints(), static_cast<vtkIdType>(zone.size()));
+  // The placement itself is rigid, so that nothing changes against a morph without the zone.
+  displacement->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_NONE);
+  EXPECT_LT((morphed(method, grid, displacement) - moved).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(Zones, ATransformMovesRigidOnes)
+{
+  auto grid = marked();
+  const Points rest = grids::points(grid);
+  auto displacement = twisted(grid);
+  displacement->AddRigidZone("Nodes");
+  vtkNew<vtkTransform> shift;
+  shift->Translate(0.2, -0.1, 0.3);
+  displacement->SetRigidTransform(shift);
+  displacement->SetScaleFactor(0.5);
+  vtkNew<vtkFEMWarpMorph> method;
+  const Points moved = morphed(method, grid, displacement);
+  for (const Index n : middleNodes(grid))
+  {
+    EXPECT_LT((moved.row(n) - rest.row(n) - Row(0.1, -0.05, 0.15)).norm(), 1e-14);
+  }
+  shift->Translate(1, 0, 0); // a change inside is one of the filter
+  EXPECT_GT((morphed(method, grid, displacement) - moved).norm(), 0.1);
+}
+
+TEST(Zones, SelectionsAndBlocksAreZonesToo)
+{
+  auto grid = marked();
+  const Points rest = grids::points(grid);
+  const std::vector<Index> middle = middleNodes(grid);
+  vtkNew<vtkFEMWarpMorph> method;
+  auto byArray = twisted(grid);
+  byArray->AddFrozenZone("Nodes");
+  const Points expected = morphed(method, grid, byArray);
+  auto bySelection = twisted(grid);
+  bySelection->SetZoneSelectionData(displaced::indices(vtkSelectionNode::POINT, middle));
+  bySelection->SetZoneSelectionType(vtkBoundaryDisplacement::ZONE_FROZEN);
+  EXPECT_EQ(morphed(method, grid, bySelection), expected);
+
+  // Two blocks: the middle's cells, and the others.
+  vtkDataArray* cells = grid->GetCellData()->GetArray("Cells");
+  ASSERT_EQ(cells->GetNumberOfTuples(), N * N * N);
+  const blocks::Pieces pieces = blocks::cut(
+    grid, 2, [](const Row& x) { return isMiddle(x) ? 1 : 0; }, true);
+  auto tree = blocks::collection({ pieces[0], pieces[0], pieces[1] });
+  (void)tree;
+  auto multi = blocks::multiBlock(pieces);
+  vtkNew<vtkMorphMesh> mesh;
+  mesh->SetInputDataObject(multi);
+  mesh->SetMoving(vtkMorphMesh::MOVE_REGION);
+  mesh->SetRegion(byArray->GetRegion());
+  mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_PLACEMENT);
+  mesh->SetRotation(0, 0, 25);
+  mesh->SetTranslation(0.3, 0, 0.8);
+  mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
+  mesh->AddFrozenZone("B");
+  grids::Listener listener(mesh);
+  mesh->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  EXPECT_EQ(mesh->GetZonePoints(), 27);
+  for (const auto& [node, x] : blocks::pointsByNumber(mesh->GetOutputDataObject(0)))
+  {
+    EXPECT_LT((x - expected.row(node)).norm(), 1e-8) << node;
+  }
+}
+
+TEST(Zones, SoftOnesGiveWay)
+{
+  auto grid = marked();
+  const Points rest = grids::points(grid);
+  vtkNew<vtkMorphMesh> mesh;
+  mesh->SetInputData(grid);
+  mesh->SetMoving(vtkMorphMesh::MOVE_EVERYTHING);
+  // A motion without an affine part, which all cells would share.
+  vtkNew<vtkDoubleArray> bulge;
+  bulge->SetName("Bulge");
+  bulge->SetNumberOfComponents(3);
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    const Row x = rest.row(n) / N - Row::Constant(0.5);
+    bulge->InsertNextTuple3(0, 0, 0.5 * std::cos(6 * x[0]) * std::cos(6 * x[1]) * (x[2] > 0));
+  }
+  grid->GetPointData()->AddArray(bulge);
+  mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
+  mesh->SetDisplacementArray("Bulge");
+  mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
+  const auto strain = [&]
+  {
+    mesh->Update();
+    const Points moved = grids::points(mesh->GetOutput());
+    return offRigid(rest, moved, middleNodes(grid));
+  };
+  const double before = strain();
+  mesh->AddSoftZone("Cells");
+  mesh->SetSoftStiffness(1e-3);
+  EXPECT_GT(strain(), 1.1 * before);
+  mesh->SetSoftStiffness(1);
+  EXPECT_NEAR(strain(), before, 1e-7);
+
+  mesh->SetMethod(vtkMorphMesh::METHOD_SIMPLEX_LINEAR);
+  grids::Listener listener(mesh);
+  mesh->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("no soft zones"), std::string::npos) << listener.Errors[0];
+}
+
+TEST(Zones, ErrorsNameWhatIsWrong)
+{
+  auto grid = marked();
+  const auto errorOf = [&](vtkBoundaryDisplacement* filter)
+  {
+    grids::Listener listener(filter);
+    filter->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    return listener.Errors.size() == 1 ? listener.Errors[0] : std::string();
+  };
+  auto unknown = twisted(grid);
+  unknown->AddFrozenZone("Bolt");
+  EXPECT_NE(errorOf(unknown).find("The zone 'Bolt' is neither"), std::string::npos);
+  auto empty = twisted(grid);
+  vtkNew<vtkBox> far;
+  far->SetBounds(100, 101, 0, 1, 0, 1);
+  empty->SetZoneRegion(far);
+  empty->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_FROZEN);
+  EXPECT_NE(errorOf(empty).find("has no node"), std::string::npos);
+  auto none = twisted(grid);
+  none->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_RIGID);
+  EXPECT_NE(errorOf(none).find("set ZoneRegion"), std::string::npos);
+  auto surface = twisted(grids::boundary(grid, [](const Row& x) { return x; }));
+  surface->AddFrozenZone("Nodes");
+  EXPECT_NE(errorOf(surface).find("the input is a surface"), std::string::npos);
+}
+
+TEST(Zones, InnerPointsHaveAllArrays)
+{
+  auto grid = marked();
+  auto filter = twisted(grid);
+  filter->AddFrozenZone("Nodes");
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  const vtkIdType outer = (N + 1) * (N + 1) * (N + 1) - (N - 1) * (N - 1) * (N - 1);
+  ASSERT_EQ(output->GetNumberOfPoints(), outer + 27);
+  const Points rest = displaced::restPositions(output), moved = grids::points(output);
+  for (int a = 0; a < output->GetPointData()->GetNumberOfArrays(); ++a)
+  {
+    EXPECT_EQ(
+      output->GetPointData()->GetAbstractArray(a)->GetNumberOfTuples(), output->GetNumberOfPoints())
+      << output->GetPointData()->GetArrayName(a);
+  }
+  vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+  vtkDataArray* numbers = output->GetPointData()->GetArray("Number");
+  for (vtkIdType i = outer; i < output->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(displaced::role(output, i), 5);
+    EXPECT_EQ(ids->GetComponent(i, 0), numbers->GetComponent(i, 0));
+    EXPECT_EQ(rest.row(i), Row(grid->GetPoint(static_cast<vtkIdType>(ids->GetComponent(i, 0)))));
+    EXPECT_EQ(rest.row(i), moved.row(i));
+  }
+  // A second filter behind it keeps them.
+  auto second = twisted(output);
+  vtkNew<vtkFEMWarpMorph> method;
+  const Points twice = morphed(method, grid, second);
+  const std::vector<Index> middle = middleNodes(grid);
+  EXPECT_EQ(twice(middle, morph::allColumns), grids::points(grid)(middle, morph::allColumns));
+}
