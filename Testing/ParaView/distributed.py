@@ -277,6 +277,7 @@ class Distributed(unittest.TestCase):
              "tolerance": 1e-10, "shape": VTK_TETRA},
             {"name": "weighted", "method": "MorphWeightedResidual", "motion": BEND},
             {"name": "linear", "method": "MorphSimplexLinear", "motion": BEND},
+            {"name": "radial", "method": "MorphRadialBasis", "motion": BEND},
             {"name": "natural", "method": "MorphSimplexNaturalNeighbor", "motion": BEND,
              "shape": VTK_TETRA},
         ]
