@@ -5,13 +5,14 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() {
   cat <<END
-Usage: other-debian.sh SUITE [test|demo|shell] [OPTION...]
+Usage: other-debian.sh SUITE [test|demo|package|shell] [OPTION...]
        other-debian.sh SUITE --clean
 Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
 root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
 the project's sources into it, and runs there
   test    Utilities/test.sh (default; without the sanitizers and the Debian package)
   demo    Utilities/demo.sh
+  package Utilities/package.sh; then the package is installed, tried and removed
   shell   bash, in the copy of the project
 with the options that follow. The root file system and its builds, some gigabytes, are kept for the
 next run; --clean removes them. Needs root, or mmdebstrap's unshare mode.
@@ -35,7 +36,7 @@ if [ "${1:-}" = --clean ]; then
 fi
 command=${1:-test}
 if [ $# -gt 0 ]; then shift; fi
-case "$command" in test | demo | shell) ;; *) usage >&2; exit 2 ;; esac
+case "$command" in test | demo | package | shell) ;; *) usage >&2; exit 2 ;; esac
 unavailable() { echo "other-debian.sh: $suite is not available: $1" >&2; exit 77; }
 
 # The registry of this machine's own Debian holds the other suites too.
@@ -122,5 +123,13 @@ copy_sources
 case "$command" in
   test) inside Utilities/test.sh --no-asan --no-package "$@" ;;
   demo) inside Utilities/demo.sh "$@" ;;
+  package)
+    # shellcheck disable=SC2016 # expanded inside
+    inside bash -euc '
+      Utilities/install-packages.sh
+      package=$(Utilities/package.sh "$@")
+      Testing/Install/package.sh "$package"
+    ' bash "$@"
+    ;;
   shell) if [ $# -gt 0 ]; then inside "$@"; else inside bash; fi ;;
 esac

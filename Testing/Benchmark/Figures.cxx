@@ -9,6 +9,8 @@
 #include "Timing.h"
 
 #include "LinearMethods/FemWarp.h"
+#include "Morpher/AffineModes.h"
+#include "Morpher/Blend.h"
 
 #include <unistd.h>
 
@@ -38,6 +40,7 @@ public:
   void peakMemory(const Problem& problem);
   void cube(const Problem& problem);
   void longBrick(const Problem& problem);
+  void modes(const Problem& problem);
   void series(const std::vector<Problem>& problems);
 
 private:
@@ -236,6 +239,73 @@ void Run::series(const std::vector<Problem>& problems)
     Target::atMost(1.2));
   this->add(problems.back(), "exponent of warm time" + tail, logLogSlope(nodes, warm), "");
 }
+
+/// The median seconds of several calls after the first.
+template <typename Call>
+double secondsOf(const Call& call)
+{
+  call();
+  std::vector<double> seconds;
+  for (int i = 0; i < 21; ++i)
+  {
+    const Stopwatch watch;
+    call();
+    seconds.push_back(watch.seconds());
+  }
+  return median(seconds);
+}
+
+/// A drag once the fields of its motion are there: an affine motion that fades, and three saved
+/// shapes.
+void Run::modes(const Problem& problem)
+{
+  say("modes, " + problem.name);
+  const auto monitor = makeMonitor(this->cores_);
+  morph::FemWarp femWarp;
+  femWarp.setTolerance(Tolerance);
+  femWarp.prepare(problem.mesh, problem.partition, *monitor);
+  const std::vector<morph::Index>& ids = problem.partition.prescribed;
+  const morph::Points rest = problem.mesh.points(ids, morph::allColumns);
+  const double low = rest.col(AxisZ).minCoeff(), high = rest.col(AxisZ).maxCoeff();
+  morph::AffineFields fields(rest.rows(), 4);
+  for (morph::Index i = 0; i < rest.rows(); ++i)
+  {
+    const double weight = std::max(0., 2 * (rest(i, AxisZ) - low) / (high - low) - 1);
+    fields.row(i) << weight, weight * rest.row(i);
+  }
+  morph::AffineMotion motion;
+  motion << .1, .05, -.02, 0, .2, .02, .05, 0, -.1, 0, 0, .1;
+  const morph::Points targets = rest + fields * motion.transpose();
+  morph::Points direct, moved;
+  femWarp.evaluate(targets, direct, *monitor);
+  morph::AffineModes handle;
+  handle.prepare(femWarp, fields, *monitor);
+  this->settleDown();
+  const double dragged =
+    secondsOf([&] { handle.evaluate(femWarp, motion, targets, moved, *monitor); });
+  this->checkAgainst(problem, "affine handle's difference from the method", direct, moved);
+  this->add(problem, "affine handle's evaluation" + withThreads(this->cores_), dragged, "s",
+    Target::atMost(2e-3));
+
+  std::vector<morph::Points> displacements;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    displacements.emplace_back(morph::Points::Zero(rest.rows(), 3));
+    displacements.back().col(axis) = fields.col(0);
+  }
+  const std::vector<morph::Points> shapes = femWarp.basis(displacements, *monitor);
+  const std::vector<morph::WeightedMode> weighted = { { &shapes[0], .3 }, { &shapes[1], -.2 },
+    { &shapes[2], .1 } };
+  this->settleDown();
+  const double blended =
+    secondsOf([&] { morph::blend(problem.mesh.points, weighted, moved, *monitor); });
+  const double bytes = 5 * 24. * static_cast<double>(problem.mesh.numberOfNodes());
+  this->settleDown();
+  const Bandwidth measured = measureBandwidth(static_cast<std::size_t>(bytes), *monitor);
+  this->add(problem, "blend of 3 shapes" + withThreads(this->cores_), blended, "s");
+  this->add(problem, "blend / (its bytes / bandwidth of its working set)",
+    blended / (bytes / measured.best()), "", Target::atMost(1.5));
+}
 }
 
 Report measureFigures(const Options& options, bool& correct)
@@ -250,6 +320,7 @@ Report measureFigures(const Options& options, bool& correct)
   const Problem cube = twistedBrick(side, side, side, AxisZ);
   run.peakMemory(cube); // forks, so before there are threads
   run.cube(cube);
+  run.modes(cube);
   std::vector<Problem> bricks;
   for (int length = shortest; length <= longest; length += step)
   {

@@ -48,6 +48,8 @@ def printed(filter_proxy, name):
     assert match, f"{name} is not in:\n{text}"
     return match.group(1)
 
+#: Limits of memory, which have no end, and tolerances, which span decades.
+WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "PatchBounds", "PickedSurfaces",
                "ValidWeights")
@@ -180,6 +182,13 @@ class Properties(unittest.TestCase):
             for p in xml.findall("DoubleVectorProperty[@name='ScaleFactor']"):
                 domain = p.find("DoubleRangeDomain")
                 self.assertEqual((domain.get("min"), domain.get("max")), ("0", "1"))
+            # ParaView gives a number a slider where its domain has both ends.
+            for p in properties(xml):
+                domain = p.find("DoubleRangeDomain")
+                if p.get("panel_widget") or p.get("name") in WITHOUT_SLIDER or domain is None:
+                    continue
+                with self.subTest(proxy=xml.get("name"), property=p.get("name")):
+                    self.assertLess(float(domain.get("min")), float(domain.get("max")))
             for p in xml.findall("DoubleVectorProperty[@name='MatchTolerance']"):
                 self.assertEqual(p.find("DoubleRangeDomain").get("max"), "1")
             for p in xml.findall("IntVectorProperty[@name='NumberOfSteps']"):

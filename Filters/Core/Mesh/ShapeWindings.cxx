@@ -25,7 +25,7 @@ struct Group
   int relative = 0; ///< to the body's first group; 0: not known
 };
 
-/// A face, and the direction in which its cell's node list runs round it.
+/// A face, and the direction in which its cell's node list runs around it.
 struct Winding
 {
   std::array<Index, 4> nodes; ///< ascending, the first -1 in a triangle
