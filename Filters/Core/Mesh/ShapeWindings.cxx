@@ -158,10 +158,11 @@ private:
   {
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
-      const CellShape& shape = *cellShape(this->mesh_.types[c]);
-      if (isMeasured(shape))
+      // Scaled Jacobian meets types that the core does not know.
+      const CellShape* shape = cellShape(this->mesh_.types[c]);
+      if (shape && isMeasured(*shape))
       {
-        body(c, shape);
+        body(c, *shape);
       }
     }
   }
