@@ -22,7 +22,11 @@ void startHypre()
 {
   static const bool started = []
   {
+#if HYPRE_RELEASE_NUMBER >= 22900
+    HYPRE_Initialize();
+#else
     HYPRE_Init();
+#endif
     return true;
   }();
   static_cast<void>(started);

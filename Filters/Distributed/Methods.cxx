@@ -5,6 +5,7 @@
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/RadialBasis.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
@@ -37,7 +38,8 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
     method->takeEvaluateOptions(*serial);
     return method;
   }
-  if (dynamic_cast<const WeightedResidual*>(serial.get()) ||
+  if (dynamic_cast<const RadialBasis*>(serial.get()) ||
+      dynamic_cast<const WeightedResidual*>(serial.get()) ||
       dynamic_cast<const SimplexLinear*>(serial.get()) ||
       dynamic_cast<const SimplexNaturalNeighbor*>(serial.get()))
   {

@@ -124,10 +124,14 @@ Index Ranks::sumBefore(Index value) const
   return this->rank_ == 0 ? 0 : before;
 }
 
-int Ranks::messageSize(std::size_t items) const
+void Ranks::requireMessageSize(std::size_t items) const
 {
-  // Not an Error: the other ranks are about to communicate.
-  return static_cast<int>(std::min<std::size_t>(items, std::numeric_limits<int>::max()));
+  const Index longest = this->maximum(static_cast<Index>(items));
+  if (longest > std::numeric_limits<int>::max())
+  {
+    throw Error(
+      "A message of " + std::to_string(longest) + " items is too long for MPI. Use more ranks.");
+  }
 }
 
 std::vector<int> Ranks::exchangeSizes(const std::vector<int>& sent) const
@@ -171,12 +175,12 @@ void Ranks::exchangeNeighbors(const std::vector<int>& targets,
   MPI_Request* request = requests.data();
   for (std::size_t i = 0; i < sources.size(); ++i)
   {
-    MPI_Irecv(into[i].data(), this->messageSize(into[i].size()), MPI_DOUBLE, sources[i], Tag,
+    MPI_Irecv(into[i].data(), static_cast<int>(into[i].size()), MPI_DOUBLE, sources[i], Tag,
       this->communicator_, request++);
   }
   for (std::size_t i = 0; i < targets.size(); ++i)
   {
-    MPI_Isend(from[i].data(), this->messageSize(from[i].size()), MPI_DOUBLE, targets[i], Tag,
+    MPI_Isend(from[i].data(), static_cast<int>(from[i].size()), MPI_DOUBLE, targets[i], Tag,
       this->communicator_, request++);
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
@@ -42,17 +43,21 @@ public:
   /// Returns the sum over the ranks before this one.
   Index sumBefore(Index value) const;
 
-  /// Sends `to[r]` to each rank r, and returns what each rank sent here.
+  /// Sends `to[r]` to each rank r, and returns what each rank sent here. Throws Error on all ranks
+  /// where a list has more than 2^31 - 1 items.
   template <typename Item>
   std::vector<std::vector<Item>> exchange(const std::vector<std::vector<Item>>& to) const
   {
     static_assert(std::is_trivially_copyable_v<Item>);
     std::vector<int> sent(this->count_), received;
     std::vector<const void*> from(this->count_);
+    std::size_t longest = 0;
     for (int r = 0; r < this->count_; ++r)
     {
-      sent[r] = this->messageSize(to[r].size());
+      longest = std::max(longest, to[r].size());
+      sent[r] = static_cast<int>(to[r].size());
     }
+    this->requireMessageSize(longest);
     received = this->exchangeSizes(sent);
     std::vector<std::vector<Item>> result(this->count_);
     std::vector<void*> into(this->count_);
@@ -86,7 +91,7 @@ public:
     std::vector<std::vector<double>>& into) const;
 
 private:
-  int messageSize(std::size_t items) const;
+  void requireMessageSize(std::size_t items) const;
   std::vector<int> exchangeSizes(const std::vector<int>& sent) const;
   void exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,
     const std::vector<const void*>& from, const std::vector<int>& received,

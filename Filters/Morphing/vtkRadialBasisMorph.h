@@ -9,9 +9,8 @@
  * and bodies need not be connected: those without a prescribed node follow the field as well.
  *
  * Up to 4,000 distinct prescribed nodes, each is a center, in one dense system. Of more, 2,000
- * spread evenly are centers. The others correct by compact kernels what these leave, so that the
- * result is exact at all of them. Memory is linear in the nodes either way: a matrix of prescribed
- * by interior nodes is never stored. Moving costs one kernel a center and interior node.
+ * spread evenly are centers. Compact kernels correct what these leave at the others, so that the
+ * result is exact at all of them. A matrix of prescribed by interior nodes is never stored. Moving costs one kernel a center and interior node.
  *
  * It is an error if all prescribed nodes lie in one plane, or if rounding makes the system
  * singular. Memory: 128 MB for 4,000 centers, 32 MB for 2,000, and some 100 bytes a node.

@@ -174,8 +174,7 @@ void BoxAboutCenter::place()
   else
   {
     QMetaObject::invokeMethod(this->Box, "placeWidget"); // around the input
-    if (this->Moving &&
-        vtkSMUncheckedPropertyHelper(this->Moving).GetAsInt() == this->MovingRegion)
+    if (this->Moving && vtkSMUncheckedPropertyHelper(this->Moving).GetAsInt() == this->MovingRegion)
     {
       // The box of the region is around the input, too.
       double six[6];

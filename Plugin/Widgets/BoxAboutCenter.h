@@ -47,7 +47,7 @@ private:
   vtkSMProperty *List, *Sizes, *Bounds, *Moving;
   int MovingList = 0;    ///< of Moving
   int MovingRegion = -1; ///< of Moving
-  Triple Middle{};    ///< of the box before it is moved
+  Triple Middle{};       ///< of the box before it is moved
   Numbers Before{};
 
   vtkSMProperty* named(vtkPVXMLElement* hint, const char* role) const;

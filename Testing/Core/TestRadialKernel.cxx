@@ -173,21 +173,27 @@ TEST(CompactCorrection, MeetsTheResidualsAtItsSitesAndVanishesAtOthers)
   const Points points = randomPoints(300, random);
   meshes::ThreadedMonitor monitor(2);
   const FarthestPoints far = farthestPoints(points, monitor);
-  const Points sites = meshes::rows(points, { far.order.begin() + 50, far.order.end() });
-  const Points others = meshes::rows(points, { far.order.begin(), far.order.begin() + 50 });
-  const std::vector<double> radii(far.distances.begin() + 50, far.distances.end());
-  const Points residuals = randomPoints(250, random);
-  Points coefficients = residuals, values;
+  const Points sites = meshes::rows(points, far.order);
+  Points residuals = randomPoints(300, random), values = Points::Zero(300, 3);
+  residuals.topRows(50).setZero();
   CompactCorrection correction;
-  correction.prepare(sites, radii, sites, monitor);
-  correction.solve(coefficients);
-  correction.atTargets().multiply(coefficients, values, monitor);
-  EXPECT_LT(motions::difference(values, residuals), 1e-13);
-  const Points gradient = randomPoints(250, random);
-  Points transposed = gradient;
-  correction.solveTranspose(transposed);
-  EXPECT_NEAR((gradient.array() * coefficients.array()).sum(),
+  correction.prepare(sites, far.distances, 50, sites, monitor);
+  EXPECT_GE(correction.numberOfLevels(), 2);
+  correction.addTo(values, residuals, monitor);
+  EXPECT_LT(motions::difference(values, residuals), 1e-12);
+
+  const Points targets = randomPoints(200, random), gradient = randomPoints(200, random);
+  correction.prepare(sites, far.distances, 50, targets, monitor);
+  Points moved = Points::Zero(200, 3);
+  correction.addTo(moved, residuals, monitor);
+  const Points transposed = correction.transposed(gradient, monitor);
+  EXPECT_TRUE(transposed.topRows(50).isZero(0));
+  EXPECT_NEAR((gradient.array() * moved.array()).sum(),
     (transposed.array() * residuals.array()).sum(), 1e-11);
-  correction.prepare(sites, radii, others, monitor);
-  EXPECT_EQ(correction.atTargets().entries(), 0);
+
+  correction.prepare(sites, far.distances, 300, targets, monitor);
+  EXPECT_EQ(correction.numberOfLevels(), 0);
+  moved.setOnes();
+  correction.addTo(moved, Points::Zero(300, 3), monitor);
+  EXPECT_TRUE(moved.isOnes(0));
 }

@@ -2,6 +2,7 @@
 #include "Distributed/Methods.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/RadialBasis.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
@@ -38,6 +39,10 @@ std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
   all.emplace_back("weighted residual", std::make_unique<morph::WeightedResidual>());
   all.emplace_back("simplex-linear", std::make_unique<morph::SimplexLinear>());
   all.emplace_back("natural neighbor", std::make_unique<morph::SimplexNaturalNeighbor>());
+  all.emplace_back("radial basis", std::make_unique<morph::RadialBasis>());
+  auto few = std::make_unique<morph::RadialBasis>();
+  few->setNumberOfCentres(20);
+  all.emplace_back("radial basis, 20 centres", std::move(few));
   return all;
 }
 

@@ -10,6 +10,8 @@ import unittest
 
 from paraview import simple
 
+import ranks
+
 
 def free_port():
     with socket.socket() as probe:
@@ -18,10 +20,12 @@ def free_port():
 
 
 class ClientServer(unittest.TestCase):
+    COMMAND = ["pvserver"]
+
     def setUp(self):
         port = free_port()
-        self.server = subprocess.Popen(["pvserver", f"--server-port={port}"],
-                                       stdout=subprocess.DEVNULL)
+        self.server = subprocess.Popen(self.COMMAND + [f"--server-port={port}"],
+                                       env=ranks.environment(), stdout=subprocess.DEVNULL)
         self.addCleanup(self.server.wait, 30)
         self.addCleanup(self.server.terminate)
         deadline = time.monotonic() + 60
@@ -54,6 +58,12 @@ class ClientServer(unittest.TestCase):
             self.assertAlmostEqual(morph.GetDataInformation().GetBounds()[2 * axis + 1], 6, 9)
         self.assertEqual(morph.InvertedCells, 0)
         self.assertAlmostEqual(morph.MinScaledJacobian, 1, 9)
+
+
+@unittest.skipUnless(os.environ.get("MESHMORPHING_HAS_MPI") == "1", "this build has no MPI")
+class ClientServerOnTwoRanks(ClientServer):
+    """The wavelet gives each rank a piece."""
+    COMMAND = ranks.command(2, "pvserver")
 
 
 if __name__ == "__main__":

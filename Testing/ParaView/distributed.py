@@ -7,22 +7,22 @@ The same file is the job that the ranks run: mpiexec -n N pvbatch distributed.py
 """
 import json
 import os
-import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import numpy
 from paraview import servermanager, simple
-from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, RedistributeDataSet,
-                             Transform, XMLPartitionedUnstructuredGridReader,
+from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, PassArrays,
+                             RedistributeDataSet, Transform, XMLPartitionedUnstructuredGridReader,
                              XMLUnstructuredGridReader)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader,
                                  vtkXMLUnstructuredGridWriter)
+
+import ranks as ranks_of_mpi
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -115,6 +115,10 @@ def boundary_of(grid, case):
         moved.Transform.Rotate = [10, 20, 30]
         moved.Transform.Translate = [0.1, -0.2, 0.3]
         return moved
+    if case.get("by_position"):
+        moves = Calculator(Input=extracted, ResultArrayName="Move",
+                           Function="(" + case["motion"] + ") - coords")
+        return PassArrays(Input=moves, PointDataArrays=["Move"])
     return Calculator(Input=extracted, CoordinateResults=1, Function=case["motion"])
 
 
@@ -153,17 +157,6 @@ def job(folder):
     print("DONE", flush=True)
 
 
-def run(ranks, folder):
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    result = subprocess.run(
-        [shutil.which("mpiexec"), "--oversubscribe", "-n", str(ranks), shutil.which("pvbatch"),
-         os.path.abspath(__file__), folder],
-        env=environment, capture_output=True, text=True, timeout=300)
-    return result.stdout + result.stderr
-
-
 def pieces(folder, name, ranks, kind="vtu"):
     """The files that the ranks wrote, in their order."""
     reader = {"vtu": vtkXMLUnstructuredGridReader, "vtp": vtkXMLPolyDataReader}[kind]
@@ -196,7 +189,6 @@ class Distributed(unittest.TestCase):
         positions = vtk_to_numpy(expected.GetPoints().GetData())
         size = numpy.linalg.norm(points.max(0) - points.min(0))
         tolerance = size * case.get("tolerance", 1e-8)
-        by_place = {tuple(p): i for i, p in enumerate(points)}
         seen = numpy.zeros(len(points), bool)
         measured = 0
         for piece in pieces(folder, case["name"], ranks):
@@ -207,8 +199,7 @@ class Distributed(unittest.TestCase):
             if piece.GetPointData().GetGlobalIds() and not case.get("made_ids"):
                 ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
             else:
-                ids = numpy.array([by_place[min(by_place, key=lambda q, p=p: sum(
-                    (a - b)**2 for a, b in zip(p, q)))] for p in rest])
+                ids = ((rest[:, None] - points[None])**2).sum(2).argmin(1)
             self.assertLess(numpy.abs(rest - points[ids]).max(), 1e-12, case["name"])
             self.assertLess(numpy.abs(moved - positions[ids]).max(), tolerance, case["name"])
             seen[ids] = True
@@ -272,6 +263,10 @@ class Distributed(unittest.TestCase):
              "ghosts": 2, "shape": VTK_TETRA},
             {"name": "elsewhere", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
              "boundary_elsewhere": True},
+            {"name": "by_position", "method": "MorphFEMWARP", "motion": BEND, "by_position": True,
+             "options": {"Tolerance": 1e-12, "DisplacementArray": "Move"}},
+            {"name": "mesh_on_one", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
+             "boundary_elsewhere": True, "owner": 0},
             {"name": "folds", "method": "MorphFEMWARP", "options": solver, "motion": FOLD,
              "warns": True},
             {"name": "empty_rank", "method": "MorphFEMWARP", "options": solver, "motion": BEND,
@@ -282,6 +277,7 @@ class Distributed(unittest.TestCase):
              "tolerance": 1e-10, "shape": VTK_TETRA},
             {"name": "weighted", "method": "MorphWeightedResidual", "motion": BEND},
             {"name": "linear", "method": "MorphSimplexLinear", "motion": BEND},
+            {"name": "radial", "method": "MorphRadialBasis", "motion": BEND},
             {"name": "natural", "method": "MorphSimplexNaturalNeighbor", "motion": BEND,
              "shape": VTK_TETRA},
         ]
@@ -290,13 +286,15 @@ class Distributed(unittest.TestCase):
                 shape = case.get("shape", VTK_HEXAHEDRON)
                 points, cells = hexes if shape == VTK_HEXAHEDRON else tets
                 owner = rng.integers(0, ranks - 1 if case.get("empty") else ranks, len(cells))
+                if "owner" in case:
+                    owner[:] = case["owner"]
                 if case.get("empty") and ranks > 2:
                     owner[owner == 1] = ranks - 1
                 case["file"] = write_pieces(folder, case["name"], points, cells, shape, owner,
                                             ranks, not case.get("made_ids"))
             with open(os.path.join(folder, "cases.json"), "w", encoding="utf-8") as file:
                 json.dump(cases, file)
-            output = run(ranks, folder)
+            output = ranks_of_mpi.run(ranks, __file__, folder)
             self.assertNotIn("ERR|", output)
             self.assertIn("DONE", output)
             for case in cases:

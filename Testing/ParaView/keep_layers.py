@@ -100,8 +100,10 @@ class KeepLayersTests(unittest.TestCase):
         morph = MorphMesh(Input=source, Displacement="Translate, rotate, scale", Validity="None",
                           Rotation=[0, 0, np.degrees(ANGLE)], Surroundings="Stay")
         morph.UpdatePipeline()
-        names = morph.SurfaceList[::2]
-        bounds = np.array(morph.SurfaceBounds).reshape(-1, 6)
+        output = morph.GetClientSideObject()
+        names = [output.GetSurfaceList().GetArrayName(i)
+                 for i in range(output.GetSurfaceList().GetNumberOfArrays())]
+        bounds = vtk_to_numpy(output.GetSurfaceBounds())
         span = bounds[:, 1] - bounds[:, 0]
         flat = bounds[:, 5] - bounds[:, 4] < 0.1
         surfaces = np.array([name.startswith("Surface") for name in names])

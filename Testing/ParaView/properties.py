@@ -117,7 +117,7 @@ class Properties(unittest.TestCase):
         create = globals()[xml.get("label").replace(" ", "")]
         # A selection and a table are optional, and none of the other properties depends on them.
         return create(**{name: self.inputs[name] for name in names
-                         if name not in ("Selection", "Table")})
+                         if name not in ("Selection", "ZoneSelection", "Table")})
 
     def test_every_proxy_has_texts_and_a_place_in_the_menu(self):
         self.assertGreaterEqual(len(proxies()), 3)

@@ -7,8 +7,6 @@ The same file is the job that the ranks run:
 mpiexec -n 2 pvbatch two_ranks.py CASE FILE
 """
 import os
-import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,6 +14,8 @@ import unittest
 from paraview import simple
 from paraview.simple import (AppendDatasets, LoadPlugin, PointDatatoCellData, ProgrammableFilter,
                              Transform, Wavelet, XMLUnstructuredGridReader)
+
+import ranks
 
 HAS_MPI = os.environ.get("MESHMORPHING_HAS_MPI") == "1"
 
@@ -73,20 +73,12 @@ if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 1:
 
 class TwoRanks(unittest.TestCase):
     def run_ranks(self, case):
-        # This process is an MPI process of its own, and says so in its environment.
-        environment = {name: value for name, value in os.environ.items()
-                       if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
-        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "grid.vtu")
             grid = distributed(None)
             # Debian's expat cannot read raw appended data back.
             simple.SaveData(path, proxy=grid, DataMode="Binary")
-            result = subprocess.run(
-                [shutil.which("mpiexec"), "--oversubscribe", "-n", "2", shutil.which("pvbatch"),
-                 os.path.abspath(__file__), case, path],
-                env=environment, capture_output=True, text=True, timeout=120)
-        return result.stdout + result.stderr
+            return ranks.run(2, __file__, case, path, timeout=120)
 
     @unittest.skipIf(HAS_MPI, "this build morphs meshes on several ranks")
     def test_without_mpi_cells_on_both_ranks_are_one_error_each_filter(self):

@@ -3,6 +3,9 @@
 
 #include "Geometry/NearestNodes.h"
 #include "Interpolation/RadialKernel.h"
+#include "Support/Error.h"
+
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +16,8 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 256;
-constexpr double Negligible = 1e-40; // at the radius, and up to rounding within
+constexpr double Reach = 2.5; // radius over the distance of a level's sites
+constexpr double Ratio = 0.5; // of a level's distance to that of the level before
 
 /// A target within a kernel's radius.
 struct Entry
@@ -29,10 +33,8 @@ struct Block
   std::vector<Index> ends; ///< of each site's entries
 };
 
-/// #targets x #sites: the kernels at the targets with numbers above `above` of each site.
-template <typename Above>
-WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::vector<double>& radii,
-  const Above& above, Monitor& monitor)
+/// #targets x #sites: the kernels of one radius around the sites, at the targets.
+WeightMatrix kernelsAt(const Points& targets, const Points& sites, double radius, Monitor& monitor)
 {
   WeightMatrix matrix;
   if (targets.rows() == 0 || sites.rows() == 0)
@@ -41,6 +43,7 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::ve
     return matrix;
   }
   const NearestNodes nodes(targets);
+  const RadialKernel kernel{ RadialKernel::Kind::WendlandC2, radius };
   const Index n = sites.rows(), blocks = (n + BlockLength - 1) / BlockLength;
   std::vector<Block> found(blocks);
   monitor.check();
@@ -52,13 +55,11 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::ve
       {
         for (Index i = b * BlockLength; i < std::min(n, (b + 1) * BlockLength); ++i)
         {
-          const RadialKernel kernel{ RadialKernel::Kind::WendlandC2, radii[i] };
-          nodes.within(sites.row(i), radii[i], near);
+          nodes.within(sites.row(i), radius, near);
           for (std::int32_t target : near)
           {
-            const double weight =
-              target > above(i) ? kernel((targets.row(target) - sites.row(i)).squaredNorm()) : 0;
-            if (weight > Negligible)
+            const double weight = kernel((targets.row(target) - sites.row(i)).squaredNorm());
+            if (weight > 0)
             {
               found[b].entries.push_back({ target, weight });
             }
@@ -94,40 +95,120 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, const std::ve
   }
   return matrix;
 }
-}
 
-void CompactCorrection::prepare(
-  const Points& sites, const std::vector<double>& radii, const Points& targets, Monitor& monitor)
+/// Of a symmetric matrix; its rows, with ascending columns, are taken as columns.
+Eigen::SparseMatrix<double> lowerTriangle(const WeightMatrix& matrix)
 {
-  this->atSites_ = kernelsAt(
-    sites, sites, radii, [](Index i) { return i; }, monitor);
-  this->atTargets_ = kernelsAt(
-    targets, sites, radii, [](Index) { return Index(-1); }, monitor);
-}
-
-void CompactCorrection::solve(Points& residuals) const
-{
-  for (Index i = 0; i < residuals.rows(); ++i)
+  Eigen::SparseMatrix<double> lower(matrix.rows(), matrix.columns());
+  lower.reserve(matrix.entries() / 2 + matrix.rows());
+  for (Index j = 0; j < matrix.rows(); ++j)
   {
-    const std::int32_t* column = this->atSites_.column(i);
-    const double* weight = this->atSites_.weight(i);
-    for (Index e = 0; e < this->atSites_.entries(i); ++e)
+    lower.startVec(j);
+    for (Index e = 0; e < matrix.entries(j); ++e)
     {
-      residuals.row(i) -= weight[e] * residuals.row(column[e]);
+      if (matrix.column(j)[e] >= j)
+      {
+        lower.insertBack(matrix.column(j)[e], j) = matrix.weight(j)[e];
+      }
     }
+  }
+  lower.finalize();
+  return lower;
+}
+}
+
+/// The sites from 0 to `size`.
+struct CompactCorrection::Level
+{
+  Index size = 0;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor; ///< of the kernels at the sites
+  WeightMatrix atLater;                                     ///< the kernels at the other sites
+  WeightMatrix atTargets;
+};
+
+CompactCorrection::CompactCorrection() = default;
+CompactCorrection::~CompactCorrection() = default;
+CompactCorrection::CompactCorrection(CompactCorrection&&) noexcept = default;
+CompactCorrection& CompactCorrection::operator=(CompactCorrection&&) noexcept = default;
+
+void CompactCorrection::prepare(const Points& sites, const std::vector<double>& distances,
+  Index exact, const Points& targets, Monitor& monitor)
+{
+  this->sites_ = sites.rows();
+  this->exact_ = exact;
+  this->levels_.clear();
+  for (Index begin = exact, end = begin; begin < this->sites_; begin = end)
+  {
+    while (end < this->sites_ && distances[end] > Ratio * distances[begin])
+    {
+      ++end;
+    }
+    monitor.check();
+    auto level = std::make_unique<Level>();
+    level->size = end;
+    const double radius = Reach * distances[end - 1];
+    const Points own = sites.topRows(end);
+    const Eigen::SparseMatrix<double> lower = lowerTriangle(kernelsAt(own, own, radius, monitor));
+    level->factor.compute(lower);
+    if (level->factor.info() != Eigen::Success)
+    {
+      throw Error(Error::Kind::Singular,
+        "The compact kernels at " + std::to_string(end) +
+          " prescribed places are singular to rounding: merge prescribed nodes that nearly "
+          "coincide.");
+    }
+    level->atLater = kernelsAt(sites.bottomRows(this->sites_ - end), own, radius, monitor);
+    level->atTargets = kernelsAt(targets, own, radius, monitor);
+    this->levels_.push_back(std::move(level));
+    monitor.progress(static_cast<double>(end) / static_cast<double>(this->sites_));
   }
 }
 
-void CompactCorrection::solveTranspose(Points& coefficients) const
+Index CompactCorrection::numberOfLevels() const
 {
-  for (Index i = coefficients.rows() - 1; i >= 0; --i)
+  return static_cast<Index>(this->levels_.size());
+}
+
+void CompactCorrection::addTo(Points& values, Points residuals, Monitor& monitor) const
+{
+  Points part;
+  for (const auto& level : this->levels_)
   {
-    const std::int32_t* column = this->atSites_.column(i);
-    const double* weight = this->atSites_.weight(i);
-    for (Index e = 0; e < this->atSites_.entries(i); ++e)
-    {
-      coefficients.row(column[e]) -= weight[e] * coefficients.row(i);
-    }
+    monitor.check();
+    const Points coefficients = level->factor.solve(residuals.topRows(level->size));
+    level->atLater.multiply(coefficients, part, monitor);
+    residuals.topRows(level->size).setZero();
+    residuals.bottomRows(part.rows()) -= part;
+    level->atTargets.multiply(coefficients, part, monitor);
+    values += part;
   }
+}
+
+Points CompactCorrection::transposed(const Points& gradient, Monitor& monitor) const
+{
+  Points result = Points::Zero(this->sites_, 3);
+  for (auto it = this->levels_.rbegin(); it != this->levels_.rend(); ++it)
+  {
+    monitor.check();
+    const Level& level = **it;
+    Points ofCoefficients, ofLater;
+    level.atTargets.multiplyTranspose(gradient, ofCoefficients, monitor);
+    level.atLater.multiplyTranspose(result.bottomRows(this->sites_ - level.size), ofLater, monitor);
+    ofCoefficients -= ofLater;
+    result.topRows(level.size) = level.factor.solve(ofCoefficients);
+  }
+  result.topRows(this->exact_).setZero();
+  return result;
+}
+
+std::size_t CompactCorrection::memory() const
+{
+  std::size_t bytes = 0;
+  for (const auto& level : this->levels_)
+  {
+    bytes += level->atLater.memory() + level->atTargets.memory() +
+             12 * static_cast<std::size_t>(level->factor.matrixL().nestedExpression().nonZeros());
+  }
+  return bytes;
 }
 }

@@ -5,39 +5,47 @@
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <memory>
 #include <vector>
 
 namespace morph
 {
-/// Interpolates residuals by compact kernels, without a system to solve. Site i has Wendland's C2
-/// kernel with radius r_i, its distance from the nearest site before it. So its kernel vanishes at
-/// all sites before it, and coefficients follow one after the other: a sparse triangular matrix.
+/// Interpolates residuals by compact kernels of ever smaller radius. Sites are in farthest-point
+/// order, so the first n of them cover all evenly. A level has the sites up to some number, and
+/// Wendland's C2 kernel, whose radius is 2.5 times their distance. It interpolates what the levels
+/// before have left, at all its sites. The last level has all sites: the sum is exact there.
 ///
-/// Source: L. Kedward, C. B. Allen, T. C. S. Rendall, "Efficient and exact mesh deformation using
-/// multiscale RBF interpolation", Journal of Computational Physics 345 (2017) 732-751; H. Wendland,
-/// "Piecewise polynomial, positive definite and compactly supported radial functions of minimal
-/// degree", Advances in Computational Mathematics 4 (1995) 389-396.
+/// Source: M. S. Floater, A. Iske, "Multistep scattered data interpolation using compactly
+/// supported radial basis functions", Journal of Computational and Applied Mathematics 73 (1996)
+/// 65-78; H. Wendland, "Piecewise polynomial, positive definite and compactly supported radial
+/// functions of minimal degree", Advances in Computational Mathematics 4 (1995) 389-396.
 class CompactCorrection
 {
 public:
-  /// `sites`, #sites x 3, and `radii`, of each: in farthest-point order (FarthestPoints.h), without
-  /// the sites that need no correction. `targets`: #targets x 3. Cost and memory: 12 bytes a pair
-  /// of a kernel and a target or later site in it, and searches in a k-d tree.
-  void prepare(
-    const Points& sites, const std::vector<double>& radii, const Points& targets, Monitor& monitor);
+  CompactCorrection();
+  ~CompactCorrection();
+  CompactCorrection(CompactCorrection&&) noexcept;
+  CompactCorrection& operator=(CompactCorrection&&) noexcept;
 
-  Index numberOfSites() const { return this->atSites_.columns(); }
-  /// Turns residuals, #sites x 3, into the kernels' coefficients, in place.
-  void solve(Points& residuals) const;
-  /// The adjoint of solve(), in place.
-  void solveTranspose(Points& coefficients) const;
-  /// #targets x #sites: the kernels at the targets.
-  const WeightMatrix& atTargets() const { return this->atTargets_; }
+  /// `sites`, #sites x 3, and `distances`, of each: in farthest-point order (FarthestPoints.h). The
+  /// first `exact` have no residual. `targets`: #targets x 3. Cost and memory: some 20 neighbors of
+  /// a site and target a level, and a sparse Cholesky factor a level.
+  void prepare(const Points& sites, const std::vector<double>& distances, Index exact,
+    const Points& targets, Monitor& monitor);
+
+  /// Returns the levels; 0 without residuals.
+  Index numberOfLevels() const;
+  /// Adds the interpolant to `values`, #targets x 3. `residuals`: #sites x 3; of the first `exact`
+  /// it takes 0 for granted.
+  void addTo(Points& values, Points residuals, Monitor& monitor) const;
+  /// The adjoint of addTo(): returns #sites x 3, of the first `exact` 0. `gradient`: #targets x 3.
+  Points transposed(const Points& gradient, Monitor& monitor) const;
   /// Returns the bytes in use.
-  std::size_t memory() const { return this->atSites_.memory() + this->atTargets_.memory(); }
+  std::size_t memory() const;
 
 private:
-  WeightMatrix atSites_; ///< #sites x #sites, strictly lower: the kernels at later sites
-  WeightMatrix atTargets_;
+  struct Level;
+  Index sites_ = 0, exact_ = 0;
+  std::vector<std::unique_ptr<Level>> levels_;
 };
 }

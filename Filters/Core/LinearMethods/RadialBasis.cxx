@@ -79,14 +79,14 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
   {
     ++centres;
   }
-  this->centreSites_.assign(far.order.begin(), far.order.begin() + centres);
-  this->otherSites_.assign(far.order.begin() + centres, far.order.end());
-  this->otherPlaces_ = places(this->otherSites_, allColumns);
+  const Points ordered = places(far.order, allColumns);
+  this->order_ = far.order;
+  this->otherPlaces_ = ordered.bottomRows(n - centres);
   monitor.progress(0.1);
 
   ProgressRange factorizing(monitor, 0.1, 0.8);
   if (!this->interpolant_.prepare(
-        { this->kind_, this->supportRadius_ }, places(this->centreSites_, allColumns), factorizing))
+        { this->kind_, this->supportRadius_ }, ordered.topRows(centres), factorizing))
   {
     std::ostringstream text;
     text << "The system of " << centres << " radial basis functions is singular to rounding; "
@@ -95,8 +95,7 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
     throw Error(Error::Kind::Singular, text.str());
   }
   ProgressRange correcting(monitor, 0.8, 1);
-  this->correction_.prepare(this->otherPlaces_,
-    { far.distances.begin() + centres, far.distances.end() }, this->freePlaces_, correcting);
+  this->correction_.prepare(ordered, far.distances, centres, this->freePlaces_, correcting);
   this->largestResidual_ = 0;
 }
 
@@ -115,23 +114,17 @@ EvaluateReport RadialBasis::report(double residual) const
 
 EvaluateReport RadialBasis::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points values = this->sites_.average(prescribed);
+  const Points values = this->sites_.average(prescribed)(this->order_, allColumns);
   monitor.check();
-  const auto coefficients = this->interpolant_.solve(values(this->centreSites_, allColumns));
-  Points residuals;
-  this->interpolant_.evaluate(coefficients, this->otherPlaces_, residuals, monitor);
-  residuals = values(this->otherSites_, allColumns) - residuals;
-  const double largest = residuals.rows() > 0 ? residuals.rowwise().norm().maxCoeff() : 0;
+  const auto coefficients = this->interpolant_.solve(values.topRows(this->centres()));
+  Points residuals = Points::Zero(values.rows(), 3), atOthers;
+  this->interpolant_.evaluate(coefficients, this->otherPlaces_, atOthers, monitor);
+  residuals.bottomRows(this->correctedSites()) =
+    values.bottomRows(this->correctedSites()) - atOthers;
+  const double largest = residuals.rowwise().norm().maxCoeff();
   this->largestResidual_ = largest;
-  this->correction_.solve(residuals);
-
   this->interpolant_.evaluate(coefficients, this->freePlaces_, free, monitor);
-  if (residuals.rows() > 0)
-  {
-    Points correction;
-    this->correction_.atTargets().multiply(residuals, correction, monitor);
-    free += correction;
-  }
+  this->correction_.addTo(free, std::move(residuals), monitor);
   return this->report(largest);
 }
 
@@ -140,19 +133,15 @@ EvaluateReport RadialBasis::displaceTranspose(
 {
   monitor.check();
   auto gradient = this->interpolant_.evaluateTranspose(this->freePlaces_, free, monitor);
-  Points result = Points::Zero(this->sites_.size(), 3);
-  if (this->correctedSites() > 0)
-  {
-    Points residuals;
-    this->correction_.atTargets().multiplyTranspose(free, residuals, monitor);
-    this->correction_.solveTranspose(residuals);
-    result(this->otherSites_, allColumns) = residuals;
-    const auto ofResiduals =
-      this->interpolant_.evaluateTranspose(this->otherPlaces_, residuals, monitor);
-    gradient.ofKernels -= ofResiduals.ofKernels;
-    gradient.ofPolynomial -= ofResiduals.ofPolynomial;
-  }
-  result(this->centreSites_, allColumns) = this->interpolant_.solveTranspose(gradient);
+  Points ordered = this->correction_.transposed(free, monitor);
+  const Points ofResiduals = ordered.bottomRows(this->correctedSites());
+  const auto ofOthers =
+    this->interpolant_.evaluateTranspose(this->otherPlaces_, ofResiduals, monitor);
+  gradient.ofKernels -= ofOthers.ofKernels;
+  gradient.ofPolynomial -= ofOthers.ofPolynomial;
+  ordered.topRows(this->centres()) = this->interpolant_.solveTranspose(gradient);
+  Points result(this->sites_.size(), 3);
+  result(this->order_, allColumns) = ordered;
   this->sites_.scatterTranspose(result, prescribed);
   return this->report(0);
 }
@@ -160,9 +149,10 @@ EvaluateReport RadialBasis::displaceTranspose(
 std::vector<Index> RadialBasis::centreNodes() const
 {
   std::vector<Index> nodes;
-  for (const Index site : this->centreSites_)
+  for (Index i = 0; i < this->centres(); ++i)
   {
-    nodes.push_back(this->partition().prescribed[*this->sites_.prescribed().begin(site)]);
+    const Index first = *this->sites_.prescribed().begin(this->order_[i]);
+    nodes.push_back(this->partition().prescribed[first]);
   }
   return nodes;
 }
@@ -171,6 +161,6 @@ std::size_t RadialBasis::memory() const
 {
   return this->sites_.memory() + this->interpolant_.memory() + this->correction_.memory() +
          sizeof(double) * (this->otherPlaces_.size() + this->freePlaces_.size()) +
-         sizeof(Index) * (this->centreSites_.size() + this->otherSites_.size());
+         sizeof(Index) * this->order_.size();
 }
 }

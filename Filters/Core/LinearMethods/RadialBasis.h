@@ -20,9 +20,10 @@ namespace morph
 /// "RBF morphing techniques for simulation-based design optimization", Engineering with Computers
 /// 30 (2014) 161-174.
 ///
-/// Of more sites, 2,000 in farthest-point order are centres. The others correct the residual that
-/// these leave by compact kernels (CompactCorrection), so the result is exact at all sites. Memory
-/// is linear in sites and nodes, and no matrix of sites by nodes is stored. Source: L. Kedward, C.
+/// Of more sites, 2,000 in farthest-point order are centres. Compact kernels of a few scales
+/// correct the residual that these leave at the others (CompactCorrection), so the result is exact
+/// at all sites. No matrix of sites by nodes is stored: memory is linear in nodes, and nearly in
+/// sites. Source: L. Kedward, C.
 /// B. Allen, T. C. S. Rendall, Journal of Computational Physics 345 (2017) 732-751.
 ///
 /// Sites nearer than 1e-5 of the extent to others are always corrected by compact kernels: as
@@ -57,7 +58,7 @@ public:
   /// Returns the centres that the last prepare() chose, and the sites it left for correction.
   ///@{
   Index centres() const { return this->interpolant_.centres().rows(); }
-  Index correctedSites() const { return this->correction_.numberOfSites(); }
+  Index correctedSites() const { return this->sites_.size() - this->centres(); }
   ///@}
   /// Returns for each centre a prescribed node there, in farthest-point order.
   std::vector<Index> centreNodes() const;
@@ -89,9 +90,9 @@ private:
   InterpolationSites sites_;
   Eigen::RowVector3d origin_;
   double extent_ = 1;
-  std::vector<Index> centreSites_, otherSites_;
-  Points otherPlaces_; ///< scaled, of otherSites_
-  Points freePlaces_;  ///< scaled, #free x 3
+  std::vector<Index> order_; ///< all sites, in farthest-point order: the centres first
+  Points otherPlaces_;       ///< scaled, of the sites that are no centres
+  Points freePlaces_;        ///< scaled, #free x 3
   RadialInterpolant interpolant_;
   CompactCorrection correction_;
   mutable std::atomic<double> largestResidual_{ 0 };

@@ -61,6 +61,15 @@ void takeCells(const morph::Mesh& mesh, Flags isCell, Part& part)
   }
 }
 
+/// Whether messages name the block of that name, or of the last part of its path, in this way.
+bool isNamed(const std::string& block, const std::string& name)
+{
+  const std::string end = "/" + name + "'";
+  return block == name || block == "Block '" + name + "'" ||
+         (block.size() > end.size() &&
+           block.compare(block.size() - end.size(), end.size(), end) == 0);
+}
+
 /// Fills `part` from the block of that name. Returns false where there is none.
 bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
 {
@@ -73,7 +82,7 @@ bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
   for (std::size_t b = 0; b < blocks->All.size(); ++b)
   {
     const MergedBlocks::Block& block = blocks->All[b];
-    if (block.IsMesh && (block.Name == part.Name || block.Name == "Block '" + part.Name + "'"))
+    if (block.IsMesh && isNamed(block.Name, part.Name))
     {
       found = true;
       for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -104,9 +113,15 @@ void takeNamed(
   }
   else if (!takeBlock(mesh, blocks, part))
   {
+    std::string names;
+    for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+    {
+      names += blocks->All[b].IsMesh ? (names.empty() ? "" : ", ") + blocks->All[b].Name : "";
+    }
     throw Error("The zone '" + part.Name +
-                "' is neither a point array, a cell array nor a block of the input. A zone is "
-                "where an array is not zero, or a block.");
+                "' is neither a point array, a cell array nor a block of the input" +
+                (names.empty() ? "" : ", whose blocks are " + names) +
+                ". A zone is where an array is not zero, or a block.");
   }
 }
 

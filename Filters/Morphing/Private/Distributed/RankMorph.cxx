@@ -102,7 +102,7 @@ public:
   morph::Index RequireFeasible(const BoundaryMatch::Result& match,
     const morph::NodePartition& partition, const Session::Options& options);
   void Write(const Task& task, const Session::Options& options, const morph::Points& moved,
-    const morph::NodePartition& partition, morph::Monitor& monitor);
+    morph::Monitor& monitor);
   std::string Worst(const morph::Quality& mine, morph::Index bad, const morph::Points& moved) const;
 };
 
@@ -214,7 +214,7 @@ std::string Morphing::Internals::Worst(
 }
 
 void Morphing::Internals::Write(const Task& task, const Session::Options& options,
-  const morph::Points& moved, const morph::NodePartition&, morph::Monitor& monitor)
+  const morph::Points& moved, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
   const morph::Mesh& piece = this->Mesh.Piece();
@@ -356,7 +356,7 @@ void Morphing::Run(const Task& task, const Session::Options& options, morph::Mon
   const morph::EvaluateReport report = own.Prepared->evaluate(match.Targets, moved, evaluating);
   results.SetNumber("EvaluateSeconds", ranks.maximum(secondsSince(start)));
   morph::ProgressRange writing(monitor, 0.75, 1);
-  own.Write(task, options, moved, partition, writing);
+  own.Write(task, options, moved, writing);
 
   morph::Index prescribed = 0;
   for (morph::Index node : match.Ids)

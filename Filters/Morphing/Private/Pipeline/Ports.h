@@ -104,7 +104,7 @@ private:
   vtkAlgorithm* Filter;
   filters::Time Time;
   Blocks Mesh;
-  Unchanged Checked; ///< the mesh, as one grid
+  Unchanged Checked;                                        ///< the mesh, as one grid
   mutable std::vector<vtkSmartPointer<vtkDataObject>> Made; ///< by AsOne()
 };
 }

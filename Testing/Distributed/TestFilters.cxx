@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The filters as a VTK application on MPI ranks uses them: vtkMPIController is the global
+// controller, and each rank gives its piece.
+#include "Meshes.h"
+#include "Pieces.h"
+#include "TestGrids.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkFEMWarpMorph.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSmoothingMorph.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using morph::distributed::Ranks;
+
+/// This rank's cells of a block, with global ids.
+vtkSmartPointer<vtkUnstructuredGrid> piece(const Ranks& ranks)
+{
+  const morph::Mesh whole = meshes::hexes(6, 5, 4);
+  const auto mine = pieces::pieceOf(
+    whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank());
+  vtkSmartPointer<vtkUnstructuredGrid> grid = grids::make(mine.mesh);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalIds");
+  for (const std::int64_t id : mine.nodeIds)
+  {
+    ids->InsertNextValue(id);
+  }
+  grid->GetPointData()->SetGlobalIds(ids);
+  return grid;
+}
+}
+
+TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
+{
+  const Ranks ranks = pieces::world();
+  const auto grid = piece(ranks);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  grids::Listener listener(filter);
+  filter->Update();
+  filter->SetBoundaryData(grids::boundary(grid, grids::affine));
+  filter->Update();
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_TRUE(listener.Errors.empty());
+  for (const double value : { filter->GetMinScaledJacobian(), filter->GetMeanScaledJacobian(),
+         static_cast<double>(filter->GetWorstCellId()),
+         static_cast<double>(filter->GetPrescribedPoints()),
+         static_cast<double>(filter->GetSolverIterations()) })
+  {
+    EXPECT_EQ(ranks.minimum(value), ranks.maximum(value));
+  }
+  EXPECT_EQ(filter->GetPrescribedPoints(), 7 * 6 * 5 - 5 * 4 * 3);
+  EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
+              .cwiseAbs()
+              .maxCoeff(),
+    1e-9);
+}
+
+TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
+{
+  const Ranks ranks = pieces::world();
+  const auto grid = piece(ranks);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  if (ranks.rank() == ranks.count() - 1)
+  {
+    filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  }
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), grid->GetNumberOfPoints());
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+}
+
+TEST(DistributedFilters, NameThemselvesWhereTheyNeedOneRank)
+{
+  const Ranks ranks = pieces::world();
+  const auto grid = piece(ranks);
+  const auto boundary = grids::boundary(grid, grids::affine);
+  vtkNew<vtkSmoothingMorph> smoothing;
+  smoothing->SetInputData(grid);
+  smoothing->SetBoundaryData(boundary);
+  grids::Listener listener(smoothing);
+  smoothing->Update();
+  EXPECT_EQ(listener.Errors.size(), ranks.count() > 1 && ranks.rank() == 0 ? 1u : 0u);
+  if (!listener.Errors.empty())
+  {
+    EXPECT_NE(listener.Errors[0].find("vtkSmoothingMorph needs one MPI rank"), std::string::npos);
+  }
+  vtkNew<vtkFEMWarpMorph> steps;
+  steps->SetInputData(grid);
+  steps->SetBoundaryData(boundary);
+  steps->SetNumberOfSteps(2);
+  steps->SetSteppingToRelative();
+  grids::Listener ofSteps(steps);
+  steps->Update();
+  EXPECT_EQ(ofSteps.Errors.size(), ranks.count() > 1 && ranks.rank() == 0 ? 1u : 0u);
+  if (!ofSteps.Errors.empty())
+  {
+    EXPECT_NE(ofSteps.Errors[0].find("Stepping Relative of vtkFEMWarpMorph needs one MPI rank"),
+      std::string::npos);
+  }
+}

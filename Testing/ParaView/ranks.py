@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Starts ParaView's programs on MPI ranks."""
+import os
+import shutil
+import subprocess
+
+
+def environment():
+    """That of a process that starts ranks."""
+    # This process is an MPI process of its own, and says so in its environment.
+    result = {name: value for name, value in os.environ.items()
+              if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
+    result.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return result
+
+
+def command(ranks, program, *arguments):
+    return [shutil.which("mpiexec"), "--oversubscribe", "-n", str(ranks), shutil.which(program),
+            *arguments]
+
+
+def run(ranks, script, *arguments, timeout=300):
+    """Runs a script by pvbatch; returns what it printed on all ranks."""
+    result = subprocess.run(command(ranks, "pvbatch", os.path.abspath(script), *arguments),
+                            env=environment(), capture_output=True, text=True, timeout=timeout)
+    return result.stdout + result.stderr
