@@ -45,11 +45,11 @@
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
- * MinScaledJacobian, MeanScaledJacobian, WorstMeanScaledJacobian, BoundaryMinimum,
- * InvertedCells, DegenerateCells, WorstCellId, BoundaryInvertedCells, MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations,
- * MorphStatus and LargestValidStep. The same numbers have getters after an execution. Mid-side,
- * face and body nodes of quadratic cells that are not prescribed keep their place in the cell.
- * Cells of lower dimension pass through.
+ * MinScaledJacobian, MeanScaledJacobian, WorstMeanScaledJacobian, BoundaryMinimum, InvertedCells,
+ * DegenerateCells, WorstCellId, BoundaryInvertedCells, MirroredBodies, PrepareSeconds,
+ * EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers have
+ * getters after an execution. Mid-side, face and body nodes of quadratic cells that are not
+ * prescribed keep their place in the cell. Cells of lower dimension pass through.
  *
  * Output 1 holds the inverted and degenerate cells of output 0 (ScaledJacobian of 0 or less) with
  * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are

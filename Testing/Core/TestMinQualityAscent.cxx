@@ -21,10 +21,15 @@ const motions::Row Spoilt(2, 4, 6);
 
 Mesh spoiltMesh()
 {
-  Mesh mesh = meshes::hexes(9, 9, 6);
-  meshes::jitterInterior(mesh, 0.3, meshes::seed());
+  const Mesh lattice = meshes::hexes(20, 8, 6);
+  Mesh mesh = lattice;
+  meshes::jitterInterior(mesh, 0.2, meshes::seed());
   for (Index node = 0; node < mesh.numberOfNodes(); ++node)
   {
+    if ((lattice.points.row(node) - Spoilt).norm() < 2.5)
+    {
+      mesh.points.row(node) = lattice.points.row(node); // the place itself stays valid
+    }
     if ((mesh.points.row(node) - Spoilt).norm() < 1e-9)
     {
       mesh.points.row(node) += motions::Row(0.49, 0.49, 0);
@@ -33,13 +38,13 @@ Mesh spoiltMesh()
   return mesh;
 }
 
-/// The minimum over cells that are not near that node.
+/// The minimum over cells far from that node, which no ring around it reaches.
 double minimumElsewhere(const Mesh& mesh, const MovableQuality::Result& quality)
 {
   double least = 1;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if ((mesh.points.row(mesh.cell(c)[0]) - Spoilt).norm() > 4)
+    if ((mesh.points.row(mesh.cell(c)[0]) - Spoilt).norm() > 9)
     {
       least = std::min(least, quality.scaledJacobian[c]);
     }

@@ -100,8 +100,8 @@ public:
 private:
   using Nodes = Vector[MostNodesOfVolume];
 
-  /// Moves the movable nodes of the cells towards the means of the corners that they lie between, by
-  /// the least of four parts that leaves the fewest cells around inverted.
+  /// Moves the movable nodes of the cells towards the means of the corners that they lie between.
+  /// It is the least of four parts of the way that leaves the fewest cells around inverted.
   void straighten(const std::vector<Index>& cells)
   {
     std::map<Index, Eigen::RowVector3d> straight;
