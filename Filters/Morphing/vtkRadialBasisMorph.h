@@ -10,10 +10,11 @@
  *
  * Up to 4,000 distinct prescribed nodes, each is a center, in one dense system. Of more, 2,000
  * spread evenly are centers. Compact kernels correct what these leave at the others, so that the
- * result is exact at all of them. A matrix of prescribed by interior nodes is never stored. Moving costs one kernel a center and interior node.
+ * result is exact at all of them. A matrix of prescribed by interior nodes is never stored. Moving
+ * costs one kernel a center and interior node.
  *
  * It is an error if all prescribed nodes lie in one plane, or if rounding makes the system
- * singular. Memory: 128 MB for 4,000 centers, 32 MB for 2,000, and some 100 bytes a node.
+ * singular. Memory: 128 MB for 4,000 centers, 32 MB for 2,000, and about 0.4 kB a node.
  *
  * D. Sieger, S. Menzel, M. Botsch, "RBF morphing techniques for simulation-based design
  * optimization", Engineering with Computers 30 (2014) 161-174; L. Kedward, C. B. Allen, T. C. S.
