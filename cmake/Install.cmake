@@ -41,7 +41,15 @@ set_target_properties(morph_core PROPERTIES EXPORT_NAME Core)
 target_include_directories(morph_core
   PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 set_target_properties(morph_io PROPERTIES EXPORT_NAME SolverFiles)
-install(TARGETS morph_core morph_io
+set(archives morph_core morph_io)
+set(morph_parallel_component)
+if (morph_has_mpi AND MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
+  # The static libraries of the filters need it; a shared one has it inside.
+  set_target_properties(morph_distributed PROPERTIES EXPORT_NAME Distributed)
+  list(APPEND archives morph_distributed)
+  set(morph_parallel_component ParallelMPI)
+endif ()
+install(TARGETS ${archives}
   EXPORT  MeshMorphing
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT sdk)
 
