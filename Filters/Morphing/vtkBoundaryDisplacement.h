@@ -178,8 +178,8 @@ public:
    * where they are; rigid ones each move as one body. A name is that of a point array or cell array
    * of the input, which marks nodes or cells by values other than 0, or of a block. A zone wins
    * over what moves; a node of several is in the first, frozen ones before rigid ones. The input
-   * has to be the volume mesh. The output then has the inner nodes, too, as points without cells, with
-   * Role 5, so that every morph filter prescribes them. Default: none.
+   * has to be the volume mesh. The output then has the inner nodes, too, as points without cells,
+   * with Role 5, so that every morph filter prescribes them. Default: none.
    */
   void SetFrozenZoneStatus(const char* name, int status);
   void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }

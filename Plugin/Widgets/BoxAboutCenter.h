@@ -17,9 +17,9 @@ class vtkSMProxy;
 ///
 /// The box is placed around the surfaces that are ticked, so that it turns about their centre when
 /// it is dragged. Where a region moves, whose own box may be around the whole input as well, it is
-/// a bit larger than the input. When a rotation or a scale is typed, the translation is changed with it, so that
-/// the centre stays where it is. The filter's property Center is the centre where AutoCenter is
-/// off.
+/// a bit larger than the input. When a rotation or a scale is typed, the translation is changed
+/// with it, so that the centre stays where it is. The filter's property Center is the centre where
+/// AutoCenter is off.
 class BoxAboutCenter : public QObject
 {
   Q_OBJECT

@@ -145,7 +145,7 @@ struct Share
   std::uint64_t useful = 0; ///< with free nodes and without an error
 };
 
-/// Each filter is to have 2.5 % of all cases, and 60 % are to be useful.
+/// Each filter is to have 2 % of all cases, and 60 % are to be useful.
 bool printShares(const std::map<std::string, Share>& shares, bool isChecked)
 {
   Share all;
@@ -157,7 +157,7 @@ bool printShares(const std::map<std::string, Share>& shares, bool isChecked)
   }
   for (const auto& [name, share] : shares)
   {
-    const bool isEnough = 40 * share.cases >= all.cases;
+    const bool isEnough = 50 * share.cases >= all.cases;
     std::cout << "  " << name << ": " << share.cases << " cases, "
               << 100 * share.useful / share.cases << " % with free nodes and without an error"
               << (isEnough ? "" : ", too few cases") << "\n";

@@ -285,7 +285,8 @@ class ZoneTests(unittest.TestCase):
     def test_layers(self):
         self.morph.KeepLayers = 2
         moved = points(self.morph)
-        top, below = (np.flatnonzero(np.abs(self.rest[:, 2] - z) < 1e-6) for z in (CELLS, CELLS - 2))
+        top, below = (np.flatnonzero(np.abs(self.rest[:, 2] - z) < 1e-6)
+                      for z in (CELLS, CELLS - 2))
         inner = lambda ids: ids[np.all(np.abs(self.rest[ids, :2] - 3) < 2.5, axis=1)]
         lines = moved[inner(top)] - moved[inner(below)]
         np.testing.assert_allclose(lines, np.tile([0, 0, 2], (len(lines), 1)), atol=1e-5)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces that are picked in the view: select cells, press *Add selected surfaces*, and the names
-are ticked. In ParaView's window the morphed mesh has the numbers of pvpython, and clicks are counted as in window_tasks.py. A script finds the
-same names by the properties that the button sets.
+are ticked. In ParaView's window the morphed mesh has the numbers of pvpython, and clicks are
+counted as in window_tasks.py. A script finds the same names by the properties that the button sets.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
          pvpython window_pick.py

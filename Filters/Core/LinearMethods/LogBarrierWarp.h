@@ -20,8 +20,9 @@ namespace morph
 /// as a limit (see LogBarrierWeights.h).
 ///
 /// With a stiffness other than Uniform, each weight is multiplied by the mean stiffness of the
-/// cells that both nodes share, and a node's weights are divided by their sum. Affine motions are then no
-/// solution, so that their least-squares fit is taken off first; the hull no longer bounds nodes.
+/// cells that both nodes share, and a node's weights are divided by their sum. Affine motions are
+/// then no solution, so that their least-squares fit is taken off first. The hull no longer bounds
+/// nodes.
 ///
 /// prepare(): one pass over the nodes; keeps about 0.8 kB a node of a hexahedral mesh. evaluate():
 /// 6 to 20 applications of the preconditioner to 1e-10, nearly independent of the mesh's size.
