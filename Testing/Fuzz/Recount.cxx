@@ -192,6 +192,7 @@ std::pair<double, double> volume(
 }
 
 /// For each cell +1, -1, or 0 where nobody can tell: one for the cells of one shape in one body.
+/// In a tangled body of several shapes the volumes alone do not tell; the library compares faces.
 std::vector<int> senses(const Mesh& mesh, const Points& reference)
 {
   std::vector<Index> parent(mesh.numberOfNodes());
@@ -206,7 +207,7 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
   };
   struct Group
   {
-    double sum = 0;
+    double sum = 0, absolute = 0;
     double size = 0; ///< what rounding is measured by
     int cells = 0;
   };
@@ -231,8 +232,25 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
       const auto [signedVolume, size] = volume(cell, mesh, reference, c, unit);
       Group& group = groupOf(c);
       group.sum += signedVolume;
+      group.absolute += std::abs(signedVolume);
       group.size += size;
       ++group.cells;
+    }
+  }
+  struct Body
+  {
+    int shapes = 0;
+    bool isTangled = false;
+  };
+  std::map<Index, Body> bodies;
+  for (const auto& [key, group] : groups)
+  {
+    if (group.cells > 1)
+    {
+      Body& body = bodies[key.first];
+      ++body.shapes;
+      // The library's limit is a half, of volumes that are summed in another way.
+      body.isTangled = body.isTangled || std::abs(group.sum) < 0.6 * group.absolute;
     }
   }
   std::vector<int> result(mesh.numberOfCells(), 0);
@@ -241,7 +259,9 @@ std::vector<int> senses(const Mesh& mesh, const Points& reference)
     if (isVolume(mesh, c))
     {
       const Group& group = groupOf(c);
-      const bool isClear = std::abs(group.sum) > 1e-12 * group.size && group.cells > 1;
+      const Body& body = bodies[root(mesh.cell(c)[0])];
+      const bool isClear = std::abs(group.sum) > 1e-12 * group.size && group.cells > 1 &&
+                           !(body.isTangled && body.shapes > 1);
       result[c] = !isClear ? 0 : group.sum > 0 ? 1 : -1;
     }
   }
