@@ -104,7 +104,7 @@ class States(unittest.TestCase):
         self.assertEqual(changed, set(OPTIONS))
         empty = {place for place, found in made.items()
                  if not found or max(map(len, found.values())) == 0}
-        # The motion folds cells, which are the second outputs; these two methods have none.
+        # The motion folds cells, which are the second outputs; these three have none.
         self.assertLessEqual(empty, {("MorphInversionFree", 1), ("MorphRadialBasis", 1),
                                      ("MorphSmoothing", 1)})
         with tempfile.TemporaryDirectory() as folder:
