@@ -95,9 +95,21 @@ MovableQuality::Bounds MovableQuality::bounds(const Points& points) const
     this->cornersOf(cell.id, points, x);
     const std::uint8_t type = this->mesh_.types[cell.id];
     result.movable = std::min(result.movable, scaledJacobianBound(type, x, cell.prescribed));
+  }
+  result.fixed = this->fixedMinimum(points);
+  return result;
+}
+
+double MovableQuality::fixedMinimum(const Points& points) const
+{
+  double result = std::numeric_limits<double>::infinity();
+  for (const Cell& cell : this->held_)
+  {
     if (cell.fixed != 0)
     {
-      result.fixed = std::min(result.fixed, morph::scaledJacobian(type, x, cell.fixed));
+      double x[8][3];
+      this->cornersOf(cell.id, points, x);
+      result = std::min(result, morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.fixed));
     }
   }
   return result;

@@ -108,6 +108,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   {
     this->Method.reset();
     this->Modes.clear();
+    this->Samples.reset();
     this->Partition = {};
     this->Steps.Clear();
   }
@@ -277,9 +278,12 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
-    const double minimum = morph::MovableQuality(from, this->Kept.Orientation(), partition.free)
-                             .bounds(result.Moved)
-                             .fixed;
+    if (!this->Samples)
+    {
+      this->Samples = std::make_unique<morph::MovableQuality>(
+        this->Kept.Mesh(), this->Kept.Orientation(), this->Partition.free);
+    }
+    const double minimum = this->Samples->fixedMinimum(result.Moved);
     result.BoundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
@@ -328,6 +332,7 @@ const morph::NodePartition& Session::PartitionOf(const std::vector<morph::Index>
 {
   if (this->Partition.prescribed.empty() || this->Partition.prescribed != prescribed)
   {
+    this->Samples.reset();
     this->Partition = morph::partitionNodes(this->Kept.Mesh(), prescribed);
   }
   return this->Partition;

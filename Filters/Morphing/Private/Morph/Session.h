@@ -10,6 +10,7 @@
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/Series.h"
+#include "Quality/MovableQuality.h"
 
 #include <vtkType.h>
 
@@ -112,7 +113,8 @@ private:
 
   filters::Results& Results;
   KeptMesh Kept;
-  morph::NodePartition Partition;         ///< of Kept, or empty
+  morph::NodePartition Partition;                 ///< of Kept, or empty
+  std::unique_ptr<morph::MovableQuality> Samples; ///< of Kept and Partition, or null
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   bool MethodIsOfKept = false;            ///< not of a step's points
   std::string MethodOptions;
