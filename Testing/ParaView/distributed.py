@@ -14,7 +14,7 @@ import unittest
 import numpy
 from paraview import servermanager, simple
 from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, PassArrays,
-                             RedistributeDataSet, Transform, XMLPartitionedUnstructuredGridReader,
+                             Transform, XMLPartitionedUnstructuredGridReader,
                              XMLUnstructuredGridReader)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
@@ -138,11 +138,9 @@ def job(folder):
         if case.get("ghosts"):
             grid = GhostCellsGenerator(Input=grid, BuildIfRequired=0,
                                        MinimumNumberOfGhosts=case["ghosts"])
-        if case.get("redistribute"):
-            grid = RedistributeDataSet(Input=grid)
         source = grid
-        if case.get("boundary_elsewhere"):
-            source = RedistributeDataSet(Input=grid)
+        if "elsewhere" in case:
+            source = XMLPartitionedUnstructuredGridReader(FileName=[case["elsewhere"]])
         print("CASE", case["name"], flush=True)
         filter_ = morph(grid, boundary_of(source, case), case)
         filter_.UpdatePipeline()
@@ -292,6 +290,10 @@ class Distributed(unittest.TestCase):
                     owner[owner == 1] = ranks - 1
                 case["file"] = write_pieces(folder, case["name"], points, cells, shape, owner,
                                             ranks, not case.get("made_ids"))
+                if case.get("boundary_elsewhere"):
+                    case["elsewhere"] = write_pieces(
+                        folder, case["name"] + "_source", points, cells, shape,
+                        rng.integers(0, ranks, len(cells)), ranks, True)
             with open(os.path.join(folder, "cases.json"), "w", encoding="utf-8") as file:
                 json.dump(cases, file)
             output = ranks_of_mpi.run(ranks, __file__, folder)
