@@ -194,6 +194,50 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   }
 }
 
+void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
+  const Points& targets, const Surroundings::Options& options, Surroundings::Result& result,
+  morph::Monitor& monitor)
+{
+  const auto isPlaced = [&result](Index node)
+  {
+    return result.Roles[node] == Surroundings::IsZone ||
+           result.Roles[node] == Surroundings::IsLayer;
+  };
+  std::map<Index, Eigen::RowVector3d> moving;
+  for (const Index node : model.Faces().nodes)
+  {
+    if (isPlaced(node) && !std::binary_search(choice.Held.begin(), choice.Held.end(), node))
+    {
+      moving[node] = result.Moved.row(node);
+    }
+  }
+  if (moving.empty())
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+  {
+    moving[choice.Moving[i]] = targets.row(static_cast<Index>(i));
+  }
+  Choice::Result all = choice;
+  all.Moving.clear();
+  Points places(static_cast<Index>(moving.size()), 3);
+  for (const auto& [node, to] : moving)
+  {
+    places.row(static_cast<Index>(all.Moving.size())) = to;
+    all.Moving.push_back(node);
+  }
+  const Surroundings::Result around = this->Around.Spread(model, all, places, options, monitor);
+  for (const Index node : model.Faces().nodes)
+  {
+    if (!isPlaced(node))
+    {
+      result.Moved.row(node) = around.Moved.row(node);
+      result.Roles[node] = around.Roles[node];
+    }
+  }
+}
+
 void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   const Choice::Result& choice, const Options& options, Surroundings::Result& result)
 {

@@ -44,6 +44,11 @@ public:
   /// constrained.
   void Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice::Result& choice,
     const Options& options, Surroundings::Result& result, morph::Monitor& monitor);
+  /// Moves the rest of the boundary again, since surfaces around layers and zones follow their outer
+  /// nodes, too. After Place(), which made `result`. `targets`: of choice.Moving.
+  void SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
+    const morph::Points& targets, const Surroundings::Options& options,
+    Surroundings::Result& result, morph::Monitor& monitor);
   /// Adds the inner nodes to the output, points without cells, with all arrays. `output`: the
   /// displaced boundary; `input`: the grid.
   static void Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
@@ -63,6 +68,7 @@ private:
   morph::Points Guess(
     const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor);
 
+  Surroundings Around; ///< of what Place() moves
   std::vector<morph::Index> FrozenNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;

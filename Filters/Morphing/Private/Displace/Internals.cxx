@@ -238,6 +238,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   if (hasInner)
   {
     this->Inner.Place(grid, this->Model, choice, inner, result, monitor);
+    this->Inner.SpreadAround(this->Model, choice, targets, rest, result, monitor);
   }
   const std::vector<morph::Index> collapsed =
     filters::Motion::Collapsed(this->Model, choice, result.Moved);
