@@ -44,8 +44,8 @@ public:
   /// constrained.
   void Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice::Result& choice,
     const Options& options, Surroundings::Result& result, morph::Monitor& monitor);
-  /// Moves the rest of the boundary again, since surfaces around layers and zones follow their outer
-  /// nodes, too. After Place(), which made `result`. `targets`: of choice.Moving.
+  /// Moves the rest of the boundary again, since surfaces around layers and zones follow their
+  /// outer nodes, too. After Place(), which made `result`. `targets`: of choice.Moving.
   void SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
     const morph::Points& targets, const Surroundings::Options& options,
     Surroundings::Result& result, morph::Monitor& monitor);
