@@ -18,9 +18,10 @@
  * an error, and the output is the valid mesh of the largest step that was reached. See
  * vtkMorphAlgorithm.
  *
- * An undeformed mesh with inverted cells is untangled, even without motion; the minimisation then
- * starts from the undeformed mesh. Undeformed cells that are inverted or flat have the ideal shape
- * as target.
+ * An undeformed mesh with inverted cells is untangled, even without motion. The minimisation then
+ * starts from the undeformed mesh, or from the graph-Laplace mesh where that has fewer inverted
+ * cells. Undeformed cells that are inverted or flat have the ideal shape as target. Middle nodes of
+ * quadratic cells move where a cell is inverted between its corners.
  *
  * Preparing is FEMWARP's and simplex-linear's. Where one of their meshes is valid, evaluating takes
  * some passes over the cells, and some hundred over those around the worst ones. Otherwise it takes

@@ -34,7 +34,7 @@
  *
  * After an error there is one message, and output 0 is the undeformed mesh. MorphStatus is then
  * "Failed", and InvertedCells and MinScaledJacobian are -1. The errors and warnings are those of
- * vtkBoundaryDisplacement and vtkMorphAlgorithm. Several MPI processes are an error.
+ * vtkBoundaryDisplacement and vtkMorphAlgorithm. A mesh on several MPI ranks is an error.
  *
  * @sa vtkBoundaryDisplacement vtkMorphAlgorithm vtkFEMWarpMorph
  */
