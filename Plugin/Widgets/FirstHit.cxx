@@ -5,6 +5,8 @@
 
 #include <QAbstractItemModel>
 #include <QApplication>
+#include <QEvent>
+#include <QKeyEvent>
 #include <QListWidget>
 #include <QTimer>
 
@@ -16,20 +18,35 @@ void FirstHit::startup()
 
 void FirstHit::aboutToShow()
 {
-  // The dialog has the event loop then.
-  QTimer::singleShot(0, this,
-    []
+  qApp->installEventFilter(this);
+}
+
+bool FirstHit::eventFilter(QObject* watched, QEvent* event)
+{
+  const QEvent::Type type = event->type();
+  if (type == QEvent::Show && watched->inherits("pqQuickLaunchDialog"))
+  {
+    this->Hits = watched->findChild<QListWidget*>();
+    if (QListWidget* const hits = this->Hits)
     {
-      QWidget* const dialog = QApplication::activeModalWidget();
-      auto* const hits = dialog && dialog->inherits("pqQuickLaunchDialog")
-                           ? dialog->findChild<QListWidget*>()
-                           : nullptr;
-      if (hits)
-      {
-        QObject::connect(hits->model(), &QAbstractItemModel::rowsInserted, hits,
-          [hits] { QTimer::singleShot(0, hits, [hits] { FirstHit::order(hits); }); });
-      }
-    });
+      QObject::connect(hits->model(), &QAbstractItemModel::rowsInserted, hits,
+        [hits] { QTimer::singleShot(0, hits, [hits] { FirstHit::order(hits); }); });
+    }
+  }
+  else if (type == QEvent::Hide && watched->inherits("pqQuickLaunchDialog"))
+  {
+    qApp->removeEventFilter(this);
+  }
+  else if (type == QEvent::KeyPress && this->Hits)
+  {
+    // On a busy machine Enter may come before the timer.
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    if (key == Qt::Key_Return || key == Qt::Key_Enter)
+    {
+      FirstHit::order(this->Hits);
+    }
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 void FirstHit::order(QListWidget* hits)

@@ -2,9 +2,9 @@
 #ifndef FirstHit_h
 #define FirstHit_h
 
+#include <QListWidget>
 #include <QObject>
-
-class QListWidget;
+#include <QPointer>
 
 /// Puts Morph Mesh before the plugin's other filters in ParaView's quick launch (Ctrl+Space), which
 /// orders what it finds by the alphabet: Morph Adjoint would be the first hit of "morph". Entries
@@ -19,11 +19,14 @@ public:
 
   void startup();
   void shutdown() {}
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
 private Q_SLOTS:
   void aboutToShow();
 
 private:
+  QPointer<QListWidget> Hits; ///< of the dialog that is open
+
   static void order(QListWidget* hits);
 };
 
