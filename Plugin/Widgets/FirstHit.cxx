@@ -26,8 +26,9 @@ bool FirstHit::eventFilter(QObject* watched, QEvent* event)
   const QEvent::Type type = event->type();
   if (type == QEvent::Show && watched->inherits("pqQuickLaunchDialog"))
   {
-    this->Hits = watched->findChild<QListWidget*>();
-    if (QListWidget* const hits = this->Hits)
+    // Filters that are available, and those that are not.
+    this->Lists = watched->findChildren<QListWidget*>();
+    for (QListWidget* const hits : this->Lists)
     {
       QObject::connect(hits->model(), &QAbstractItemModel::rowsInserted, hits,
         [hits] { QTimer::singleShot(0, hits, [hits] { FirstHit::order(hits); }); });
@@ -35,15 +36,19 @@ bool FirstHit::eventFilter(QObject* watched, QEvent* event)
   }
   else if (type == QEvent::Hide && watched->inherits("pqQuickLaunchDialog"))
   {
+    this->Lists.clear();
     qApp->removeEventFilter(this);
   }
-  else if (type == QEvent::KeyPress && this->Hits)
+  else if (type == QEvent::KeyPress)
   {
     // On a busy machine Enter may come before the timer.
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_Return || key == Qt::Key_Enter)
     {
-      FirstHit::order(this->Hits);
+      for (QListWidget* const hits : this->Lists)
+      {
+        FirstHit::order(hits);
+      }
     }
   }
   return QObject::eventFilter(watched, event);

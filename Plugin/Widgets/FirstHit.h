@@ -2,9 +2,10 @@
 #ifndef FirstHit_h
 #define FirstHit_h
 
-#include <QListWidget>
+#include <QList>
 #include <QObject>
-#include <QPointer>
+
+class QListWidget;
 
 /// Puts Morph Mesh before the plugin's other filters in ParaView's quick launch (Ctrl+Space), which
 /// orders what it finds by the alphabet: Morph Adjoint would be the first hit of "morph". Entries
@@ -25,7 +26,7 @@ private Q_SLOTS:
   void aboutToShow();
 
 private:
-  QPointer<QListWidget> Hits; ///< of the dialog that is open
+  QList<QListWidget*> Lists; ///< of the dialog that is open
 
   static void order(QListWidget* hits);
 };
