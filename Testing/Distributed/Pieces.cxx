@@ -3,6 +3,7 @@
 
 #include "Support/Error.h"
 
+#include <algorithm>
 #include <random>
 
 namespace pieces
@@ -51,6 +52,28 @@ morph::distributed::Piece pieceOf(const morph::Mesh& mesh, const std::vector<int
   }
   piece.mesh.points = mesh.points(piece.nodeIds, morph::allColumns);
   return piece;
+}
+
+morph::distributed::DistributedMesh distribute(
+  const morph::distributed::Ranks& ranks, const morph::Mesh& whole, int layers, unsigned seed)
+{
+  morph::Monitor monitor;
+  return { ranks, pieceOf(whole, randomOwners(whole, ranks.count(), seed), ranks.rank()), layers,
+    monitor };
+}
+
+std::vector<morph::Index> localNodes(
+  const morph::distributed::DistributedMesh& mesh, const std::vector<morph::Index>& ids)
+{
+  std::vector<morph::Index> nodes;
+  for (morph::Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    if (std::binary_search(ids.begin(), ids.end(), mesh.nodeId(n)))
+    {
+      nodes.push_back(n);
+    }
+  }
+  return nodes;
 }
 
 std::string messageOf(const std::function<void()>& work)

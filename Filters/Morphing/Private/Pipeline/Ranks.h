@@ -12,6 +12,9 @@ namespace morph::filters::Ranks
 /// MESHMORPHING_USE_MPI.
 bool TakePieces();
 
+/// The number of processes. Not collective.
+int Processes();
+
 /// The number of processes that say `yes`.
 int Count(bool yes);
 
