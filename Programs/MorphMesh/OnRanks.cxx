@@ -104,7 +104,7 @@ vtkSmartPointer<vtkPointSet> boundaryOf(const Arguments& arguments, vtkMorphAlgo
   vtkSmartPointer<vtkPointSet> points = readPoints(arguments.boundary);
   vtkDataArray* rest = points->GetPointData()->GetArray("RestPosition");
   if (!arguments.boundaryIdArray.empty() || !arguments.displacementArray.empty() || !rest ||
-      rest->GetNumberOfComponents() != 3)
+      rest->GetNumberOfComponents() < 3)
   {
     return points;
   }
@@ -117,11 +117,14 @@ vtkSmartPointer<vtkPointSet> boundaryOf(const Arguments& arguments, vtkMorphAlgo
   places->SetNumberOfPoints(points->GetNumberOfPoints());
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double x[3], from[3];
+    double x[3];
     points->GetPoint(i, x);
-    rest->GetTuple(i, from);
-    places->SetPoint(i, from);
-    displacement->SetTuple3(i, x[0] - from[0], x[1] - from[1], x[2] - from[2]);
+    for (int j = 0; j < 3; ++j)
+    {
+      displacement->SetComponent(i, j, x[j] - rest->GetComponent(i, j));
+      x[j] = rest->GetComponent(i, j);
+    }
+    places->SetPoint(i, x);
   }
   vtkNew<vtkPolyData> result;
   result->SetPoints(places);

@@ -319,6 +319,12 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
     }
     files.push_back(std::move(file));
   }
+  if (strangers > 0 && part.ranks > 1)
+  {
+    throw Failure("Cannot write " + path + ": " + std::to_string(strangers) +
+                  " points of this rank's pieces are in ghost cells, or no nodes of the volume "
+                  "mesh. Write the pieces without ghost cells, or run on one MPI rank.");
+  }
   if (part.ranks == 1)
   {
     files.push_back({ path, renamedList(original, names) });
