@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reader and writer as VTK filters; Testing/Programs/solver_files.py tests the formats.
+#include "Formats/SolverMesh.h"
+
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCompositeDataSet.h>
@@ -230,6 +232,34 @@ TEST_F(SolverFiles, SetsAsBlocks)
   this->Reader->SetsAsBlocksOff();
   this->Reader->Update();
   EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfCells(), 3);
+}
+
+TEST(PartOfSolverMesh, KeepsPolyhedraAndSets)
+{
+  morph::io::SolverMesh mesh;
+  for (const morph::Index number : { 10, 11, 12, 13, 14 })
+  {
+    mesh.addNode(number, 0.5 * number, 0, 0);
+  }
+  mesh.addCell(VTK_TRIANGLE, { 0, 1, 2 }, -1);
+  mesh.addPolyhedron({ { 1, 3, 2 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 1, 4 } }, 7);
+  mesh.addCell(VTK_TETRA, { 0, 1, 2, 3 }, 8);
+  mesh.set("wall").cells = { 0 };
+  mesh.set("core").cells = { 1, 2 };
+  mesh.set("core").nodes = { 0, 4 };
+
+  const morph::io::SolverMesh part = morph::io::partOf(mesh, { 1, 2, 3, 4 }, { 1 });
+  EXPECT_EQ(part.nodeNumbers, (std::vector<morph::Index>{ 11, 12, 13, 14 }));
+  EXPECT_EQ(part.coordinates[3], 6);
+  EXPECT_EQ(part.cellNumbers, std::vector<morph::Index>{ 7 });
+  EXPECT_EQ(part.connectivity, (std::vector<morph::Index>{ 0, 1, 2, 3 }));
+  EXPECT_EQ(part.faces,
+    (std::vector<morph::Index>{ 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 }));
+  EXPECT_EQ(part.faceOffsets, (std::vector<morph::Index>{ 0, 16 }));
+  ASSERT_EQ(part.sets.size(), 2U);
+  EXPECT_TRUE(part.sets[0].cells.empty());
+  EXPECT_EQ(part.sets[1].cells, std::vector<morph::Index>{ 0 });
+  EXPECT_EQ(part.sets[1].nodes, std::vector<morph::Index>{ 3 });
 }
 
 TEST_F(SolverFiles, BlocksMoveByNameAndAreWrittenAsTheGridIs)
