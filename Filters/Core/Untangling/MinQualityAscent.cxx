@@ -7,6 +7,7 @@
 #include "Optimization/Minimizers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace morph
@@ -25,6 +26,22 @@ constexpr int LowSquarings = 2; // norms that often lower the minimum at first: 
 int stepsOf(int squarings)
 {
   return squarings <= LowSquarings ? 60 : 100;
+}
+
+// A power is of use if a minimum at the goal lowers a corner's share of the norm by this factor.
+constexpr double OfUse = 1.2;
+
+/// Returns the first power's number of squarings. Lower powers cannot tell the goal from the
+/// minimum: they move far nodes and lower the minimum as often as not.
+int firstSquarings(double minimum, double goal)
+{
+  int squarings = FirstSquarings;
+  while (
+    squarings < LastSquarings && std::exp2(squarings) * std::log(goal / minimum) < std::log(OfUse))
+  {
+    ++squarings;
+  }
+  return squarings;
 }
 
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
@@ -88,7 +105,7 @@ int raiseMinimumQuality(
   }
   const Adjacency around = nodeToCells(mesh);
   Points trial = points;
-  int kept = 0, squarings = FirstSquarings;
+  int kept = 0, squarings = firstSquarings(quality.minimum, goal);
   const auto canGain = [&] { return quality.minimum + significantGain(quality.minimum) < goal; };
   for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
