@@ -8,6 +8,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
 
@@ -293,19 +294,35 @@ int vtkBoundaryDisplacement::RequestData(
   const auto displace = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
-    vtkPointSet* input =
-      filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
-    if (!mesh.IsElsewhere)
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    vtkPointSet* input = nullptr;
+    vtkPolyData* target = nullptr;
+    const auto check = [&]
     {
+      if (mesh.IsDistributed)
+      {
+        filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
+      }
+      input =
+        filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
-      vtkPolyData* target =
-        fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
-      if (fits && !target)
+      target = fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
+      if (fits && !target && (mesh.IsDistributed || !mesh.IsElsewhere))
       {
         throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
                            "from an STL file for instance.");
       }
+    };
+    if (mesh.IsDistributed)
+    {
+      filters::Ranks::Together(check);
+      this->Internals->DisplaceOnRanks(this, input, selection, target, zone, output, monitor);
+      return;
+    }
+    check();
+    this->Internals->Whole.reset();
+    if (!mesh.IsElsewhere)
+    {
       this->Internals->Displace(this, input, selection, target, zone, output, monitor);
     }
   };
@@ -315,9 +332,13 @@ int vtkBoundaryDisplacement::RequestData(
     this->ResetResults();
   };
   filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
+  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    vtkWarningMacro(<< warning);
+    if (isTeller)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   return 1;
 }

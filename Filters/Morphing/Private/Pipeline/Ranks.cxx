@@ -28,6 +28,12 @@ bool TakePieces()
   return MORPH_HAS_MPI != 0;
 }
 
+bool IsFirst()
+{
+  auto* c = controller();
+  return !c || c->GetLocalProcessId() == 0;
+}
+
 int Count(bool yes)
 {
   int mine = yes ? 1 : 0;
