@@ -102,7 +102,14 @@ void vtkBoundaryDisplacement::FindPatches(
   vtkInternals& own = *this->Internals;
   try
   {
-    filters::Pick::Find(shown, selection, own.Extractor, own.Blocks, own.Model, names);
+    const bool isPicked = own.Whole && selection && selection->GetNumberOfNodes() > 0;
+    filters::Pick::Find(
+      shown, isPicked ? nullptr : selection, own.Extractor, own.Blocks, own.Model, names);
+    if (isPicked)
+    {
+      throw morph::Error("The mesh is on several MPI ranks, each of which shows a part. Choose "
+                         "surfaces by their names.");
+    }
   }
   catch (const std::exception& error)
   {
@@ -112,7 +119,13 @@ void vtkBoundaryDisplacement::FindPatches(
 
 void vtkBoundaryDisplacement::CopyPatches(vtkDataArraySelection* names, vtkPolyData* output)
 {
-  filters::Pick::Write(this->Internals->Model, names, this->GetOutput(), output);
+  const vtkInternals& own = *this->Internals;
+  filters::Pick::Write(
+    own.Model, names, own.Whole ? own.WholeOutput.Get() : this->GetOutput(), output);
+  if (own.Whole && !filters::Ranks::IsFirst())
+  {
+    output->Initialize(); // the first rank has it all
+  }
 }
 
 void vtkBoundaryDisplacement::SetPick(vtkAlgorithm* selection)
@@ -258,7 +271,12 @@ int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* 
 int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // A user who is about to choose patches wants to see their names before the first execution.
+  // A user who is about to choose patches wants to see their names before the first execution. On
+  // several ranks they are known after it: a request for information need not come to all of them.
+  if (filters::Ranks::Processes() > 1)
+  {
+    return 1;
+  }
   filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
@@ -321,6 +339,7 @@ int vtkBoundaryDisplacement::RequestData(
     }
     check();
     this->Internals->Whole.reset();
+    this->Internals->WholeOutput->Initialize();
     if (!mesh.IsElsewhere)
     {
       this->Internals->Displace(this, input, selection, target, zone, output, monitor);

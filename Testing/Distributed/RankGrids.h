@@ -8,18 +8,22 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <functional>
+#include <vector>
 
-/// Grids of which each MPI rank has a piece, and the serial filters on all of one.
-namespace rankgrids
+/// Grids for the tests of filters on MPI ranks.
+namespace rank_grids
 {
-/// This rank's cells of a mesh in a random partition, with global ids and the arrays of
-/// grids::make().
+/// This rank's random cells of a mesh, with global ids of points and cells.
 vtkSmartPointer<vtkUnstructuredGrid> piece(
-  const morph::distributed::Ranks& ranks, const morph::Mesh& whole, unsigned seed);
-/// The same, of a grid with further arrays.
-vtkSmartPointer<vtkUnstructuredGrid> piece(const morph::distributed::Ranks& ranks,
-  vtkUnstructuredGrid* whole, const morph::Mesh& mesh, unsigned seed);
+  const morph::distributed::Ranks& ranks, const morph::Mesh& whole);
 
-/// Calls `work` with each rank by itself, as without MPI.
+std::vector<morph::Index> globalIds(vtkDataSet* data, const char* name);
+
+/// Calls `work` as a program of one process would.
 void alone(const std::function<void()>& work);
+
+/// The largest distance, on any rank, of this rank's points from those of the whole mesh with the
+/// same ids.
+double distance(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece,
+  vtkUnstructuredGrid* whole);
 }

@@ -4,6 +4,7 @@
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
 #include "RankGrids.h"
+#include "RankParts.h"
 #include "TestGrids.h"
 
 #include <vtkBoundaryDisplacement.h>
@@ -162,8 +163,8 @@ TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
     vtkNew<vtkClassifyBoundary> serial, filter;
     const auto whole = grids::make(mesh);
     serial->SetInputData(whole);
-    rankgrids::alone([&] { serial->Update(); });
-    filter->SetInputData(rankgrids::piece(ranks, whole, mesh, ++seed));
+    rank_grids::alone([&] { serial->Update(); });
+    filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
     grids::Listener listener(filter);
     filter->Update();
     expectNoErrors(listener);
@@ -261,13 +262,13 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       configure(serial);
       serial->SetInputData(whole);
       grids::Listener serialListener(serial);
-      rankgrids::alone([&] { serial->Update(); });
+      rank_grids::alone([&] { serial->Update(); });
       configure(filter);
       if (what == "target" && ranks.rank() > 0)
       {
         filter->SetTargetData(vtkNew<vtkPolyData>()); // as a reader of one file does
       }
-      filter->SetInputData(rankgrids::piece(ranks, whole, mesh, ++seed));
+      filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
       grids::Listener listener(filter);
       filter->Update();
       expectNoErrors(listener);
@@ -299,7 +300,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   const Ranks ranks = pieces::world();
   const morph::Mesh mesh = meshes::hexes(4, 3, 3);
   const auto whole = grids::make(mesh);
-  const auto piece = rankgrids::piece(ranks, whole, mesh, meshes::seed());
+  const auto piece = rank_grids::part(ranks, whole, mesh, meshes::seed());
   const auto select = [](vtkUnstructuredGrid* grid, bool all)
   {
     vtkNew<vtkIdTypeArray> ids;
@@ -328,7 +329,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   configure(serial);
   serial->SetInputData(whole);
   serial->SetSelectionData(select(whole, true));
-  rankgrids::alone([&] { serial->Update(); });
+  rank_grids::alone([&] { serial->Update(); });
   configure(filter);
   filter->SetInputData(piece);
   filter->SetSelectionData(select(piece, true));

@@ -23,7 +23,7 @@ using morph::distributed::Ranks;
 /// This rank's cells of a block, with global ids.
 vtkSmartPointer<vtkUnstructuredGrid> piece(const Ranks& ranks)
 {
-  return rankgrids::piece(ranks, meshes::hexes(6, 5, 4), meshes::seed());
+  return rank_grids::piece(ranks, meshes::hexes(6, 5, 4));
 }
 }
 

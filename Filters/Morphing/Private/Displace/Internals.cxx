@@ -337,6 +337,7 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
     [&]
     {
       this->Displace(filter, this->Whole->Grid(), selection, wholeTarget, zone, output, monitor);
+      this->WholeOutput->ShallowCopy(output);
       this->Whole->KeepOwn(output);
     });
 }

@@ -24,6 +24,7 @@
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
@@ -83,6 +84,7 @@ struct vtkBoundaryDisplacement::vtkInternals
   /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
   std::unique_ptr<morph::filters::WholeSurface> Whole;
   std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVE_SELECTION
+  vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
   /// Forgets the names of the patches.
   void ClearList()

@@ -105,7 +105,13 @@ vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData*) const
   refuse();
 }
 
-bool WholeSurface::Owns(morph::Index) const
+std::vector<std::int64_t> WholeSurface::IdsOfPiece(const std::vector<morph::Index>&) const
+{
+  refuse();
+}
+
+std::pair<double, double> WholeSurface::MaximumAndMean(
+  const std::vector<std::int64_t>&, const std::vector<double>&) const
 {
   refuse();
 }

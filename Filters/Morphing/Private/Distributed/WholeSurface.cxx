@@ -59,9 +59,10 @@ struct Origin
   Index number;
 };
 
-/// All processes' data objects; null where a process has none of `type`.
+/// All processes' data objects. `onlyDistinct`: without those that are equal to an earlier one.
 template <typename Data>
-std::vector<vtkSmartPointer<Data>> gather(const Ranks& ranks, Data* mine, std::size_t& bytes)
+std::vector<vtkSmartPointer<Data>> gather(
+  const Ranks& ranks, Data* mine, bool onlyDistinct, std::size_t& bytes)
 {
   vtkNew<vtkCharArray> buffer;
   ranks.together(
@@ -72,17 +73,22 @@ std::vector<vtkSmartPointer<Data>> gather(const Ranks& ranks, Data* mine, std::s
         throw morph::Error("The boundary cannot be sent to the other MPI ranks.");
       }
     });
-  const std::vector<char> message(
+  const std::vector<char> packed(
     buffer->GetPointer(0), buffer->GetPointer(0) + buffer->GetNumberOfValues());
   const auto messages =
-    ranks.exchange(std::vector<std::vector<char>>(static_cast<std::size_t>(ranks.count()), message));
+    ranks.exchange(std::vector<std::vector<char>>(static_cast<std::size_t>(ranks.count()), packed));
   std::vector<vtkSmartPointer<Data>> result;
   ranks.together(
     [&]
     {
-      for (const std::vector<char>& one : messages)
+      for (auto message = messages.begin(); message != messages.end(); ++message)
       {
+        const std::vector<char>& one = *message;
         bytes += one.size();
+        if (onlyDistinct && std::find(messages.begin(), message, one) != message)
+        {
+          continue;
+        }
         buffer->SetNumberOfValues(static_cast<vtkIdType>(one.size()));
         std::copy(one.begin(), one.end(), buffer->GetPointer(0));
         result.emplace_back(
@@ -284,7 +290,7 @@ void WholeSurface::Internals::Gather(vtkUnstructuredGrid* piece)
       }
     });
   this->Bytes = 0;
-  const auto parts = gather<vtkUnstructuredGrid>(ranks, mine, this->Bytes);
+  const auto parts = gather<vtkUnstructuredGrid>(ranks, mine, false, this->Bytes);
   const auto allNodes = gatherParts(ranks, nodeIds, this->Bytes);
   const auto allCells = gatherParts(ranks, cells, this->Bytes);
   const auto allFaces = gatherParts(ranks, faces, this->Bytes);
@@ -674,16 +680,51 @@ vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData* surface) const
   return result;
 }
 
-bool WholeSurface::Owns(Index point) const
+std::vector<std::int64_t> WholeSurface::IdsOfPiece(const std::vector<Index>& points) const
 {
-  return this->Own->Whole().owns(point);
+  std::vector<std::int64_t> ids;
+  for (const Index point : points)
+  {
+    ids.push_back(this->Own->Whole().nodeId(point));
+  }
+  return ids;
+}
+
+std::pair<double, double> WholeSurface::MaximumAndMean(
+  const std::vector<std::int64_t>& ids, const std::vector<double>& values) const
+{
+  struct Value
+  {
+    std::int64_t id;
+    double value;
+  };
+  std::vector<Value> all;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    all.push_back({ ids[i], values[i] });
+  }
+  all = this->Own->Mesh.Ranks().gather(all);
+  std::sort(all.begin(), all.end(), [](const Value& a, const Value& b)
+    { return std::tie(a.id, a.value) < std::tie(b.id, b.value); });
+  double most = std::numeric_limits<double>::quiet_NaN(), sum = 0;
+  Index count = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (i == 0 || all[i].id != all[i - 1].id)
+    {
+      most = count == 0 ? all[i].value : std::max(most, all[i].value);
+      sum += all[i].value;
+      ++count;
+    }
+  }
+  return { most, count > 0 ? sum / static_cast<double>(count) : most };
 }
 
 vtkSmartPointer<vtkPolyData> WholeSurface::Gather(vtkPolyData* part)
 {
   std::size_t bytes = 0;
   const Ranks ranks = GlobalRanks();
-  const auto parts = gather<vtkPolyData>(ranks, part, bytes);
+  const auto parts = gather<vtkPolyData>(ranks, part, true, bytes);
   auto whole = vtkSmartPointer<vtkPolyData>::New();
   ranks.together(
     [&]

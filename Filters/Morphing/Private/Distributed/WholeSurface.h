@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 class vtkPolyData;
@@ -79,10 +80,15 @@ public:
   /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
   /// of this process's piece.
   vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const;
-  /// Whether this process owns a point of its piece: each node has one owner.
-  bool Owns(morph::Index point) const;
+  /// The global ids of points of the piece.
+  std::vector<std::int64_t> IdsOfPiece(const std::vector<morph::Index>& points) const;
+  /// The largest and the mean of values of nodes, each of which counts once. `ids`: global, of the
+  /// nodes that this process has a value for. NaN without any. Collective.
+  std::pair<double, double> MaximumAndMean(
+    const std::vector<std::int64_t>& ids, const std::vector<double>& values) const;
 
-  /// All processes' parts of a surface as one, the same on each of them. Collective.
+  /// All processes' parts of a surface as one, the same on each of them. Where processes have equal
+  /// parts, as where each has read the whole surface, one of these counts. Collective.
   static vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part);
 
 private:

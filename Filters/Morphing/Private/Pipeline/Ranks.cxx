@@ -28,6 +28,12 @@ bool TakePieces()
   return MORPH_HAS_MPI != 0;
 }
 
+int Processes()
+{
+  auto* c = controller();
+  return c ? c->GetNumberOfProcesses() : 1;
+}
+
 bool IsFirst()
 {
   auto* c = controller();
