@@ -6,7 +6,9 @@
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Patches.h"
+#include "Private/Displace/Selection.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
@@ -37,7 +39,7 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
   options.UseGeometryArrays = filter->UseGeometryArrays;
   const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, options, monitor);
+  this->Model.Update(input, options, monitor, this->Whole.get());
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings = monitor.TakeWarnings();
@@ -75,6 +77,7 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
     key.Selection = timeOf(selection);
     options.Selection = selection;
     options.Extractor = own.Extractor;
+    options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
   }
   else if (this->Moving == MOVE_PATCHES)
   {
@@ -276,4 +279,65 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   filter->FreePoints = count(filters::Surroundings::IsFree);
   filter->ZonePoints = count(filters::Surroundings::IsZone);
   filter->LayerPoints = count(filters::Surroundings::IsLayer);
+}
+
+/// A selection's ids are those of a process's piece, so each process evaluates its own.
+void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
+  vtkUnstructuredGrid* piece, vtkSelection* selection)
+{
+  const bool hasAny = selection && selection->GetNumberOfNodes() > 0;
+  const bool isAnywhere = filters::Ranks::Count(hasAny) > 0;
+  std::vector<std::uint8_t> isSelected;
+  filters::Ranks::Together(
+    [&]
+    {
+      if (hasAny || !isAnywhere) // which throws
+      {
+        isSelected = filters::Selection::Points(piece, selection, this->Extractor);
+      }
+    });
+  this->IsSelected = this->Whole->AnyFlags(isSelected);
+  this->ChosenFrom = filters::ChoiceKey();
+}
+
+void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkSelection* zone,
+  vtkPolyData* output, filters::Monitor& monitor)
+{
+  auto* piece = vtkUnstructuredGrid::SafeDownCast(input);
+  filters::Ranks::Together(
+    [&]
+    {
+      if (!piece)
+      {
+        throw morph::Error("A boundary on several MPI ranks cannot be displaced again: "
+                           "vtkBoundaryDisplacement takes the volume mesh there.");
+      }
+      if (this->InnerOptions(filter, nullptr).Any() && filter->Moving != MOVE_NOTHING)
+      {
+        throw morph::Error("Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank, and "
+                           "the mesh is distributed over several. Run on one, or turn them off.");
+      }
+    });
+  if (!this->Whole)
+  {
+    this->Whole = std::make_unique<filters::WholeSurface>();
+  }
+  this->Whole->Take(piece, monitor);
+  if (filter->Moving == MOVE_SELECTION)
+  {
+    this->SelectOnRanks(piece, selection);
+  }
+  vtkSmartPointer<vtkPolyData> wholeTarget;
+  if (target)
+  {
+    wholeTarget = filters::WholeSurface::Gather(target);
+  }
+  this->Whole->Together(
+    [&]
+    {
+      this->Displace(filter, this->Whole->Grid(), selection, wholeTarget, zone, output, monitor);
+      this->WholeOutput->ShallowCopy(output);
+      this->Whole->KeepOwn(output);
+    });
 }
