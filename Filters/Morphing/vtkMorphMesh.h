@@ -154,10 +154,10 @@ public:
 
   ///@{
   /**
-   * Zones: parts of the mesh, inner nodes too, that stay (frozen), each move as one body (rigid),
-   * or give way more than the rest (soft), by the name of a point array, a cell array or a block.
-   * See vtkBoundaryDisplacement. The stiffness of soft cells is multiplied by SoftStiffness; with
-   * methods other than FEMWARP and LBWARP, soft zones are an error. Default: none.
+   * Zones: parts of the mesh, inner nodes too. They stay (frozen), each move as one body (rigid),
+   * or give way more than the rest (soft). Each is the name of a point array, a cell array or a
+   * block. See vtkBoundaryDisplacement. The stiffness of soft cells is multiplied by SoftStiffness;
+   * with methods other than FEMWARP and LBWARP, soft zones are an error. Default: none.
    */
   void SetFrozenZoneStatus(const char* name, int status);
   void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }
