@@ -313,10 +313,10 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   const auto text = [](const char* name) { return name ? name : "(none)"; };
   const auto numbers = [&](const char* name, const auto* v, int count)
   {
-    os << indent << name << ":";
+    os << indent << name << ": ";
     for (int i = 0; i < count; ++i)
     {
-      os << " " << v[i];
+      os << (i > 0 ? " " : "") << v[i];
     }
     os << "\n";
   };
@@ -343,14 +343,18 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AlignTarget: " << this->AlignTarget << "\n";
   os << indent << "TargetReach: " << this->TargetReach << "\n";
   os << indent << "TargetAngle: " << this->TargetAngle << "\n";
-  os << indent << "Handles: " << own.Handles.size() << "\n";
+  // A std::vector of arrays of numbers has them without gaps.
+  numbers("Handles", own.Handles.empty() ? nullptr : own.Handles.front().data(),
+    7 * this->GetNumberOfHandles());
   os << indent << "SelectedHandles: " << this->SelectedHandles << "\n";
   os << indent << "HandleRadius: " << this->HandleRadius << "\n";
   os << indent << "LatticeBasis: " << this->LatticeBasis << "\n";
   numbers("LatticeSize", this->LatticeSize, 3);
   os << indent << "AutoLattice: " << this->AutoLattice << "\n";
   numbers("LatticeBounds", this->LatticeBounds, 6);
-  os << indent << "LatticeDisplacements: " << own.LatticeDisplacements.size() << "\n";
+  numbers("LatticeDisplacements",
+    own.LatticeDisplacements.empty() ? nullptr : own.LatticeDisplacements.front().data(),
+    6 * this->GetNumberOfLatticeDisplacements());
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";

@@ -255,7 +255,7 @@ class MorphMesh(unittest.TestCase):
         handles.write_text("x,y,z,dx,dy,dz,radius\n1e3,0,0,1,1,1,0.5\n", encoding="utf-8")
         self.assertEqual(run("--handles", handles, BORE, moved).returncode, 0)
         self.assertEqual(bounds(moved), rest)
-        self.fails(1, "no column k", "--lattice", handles, BORE, moved)
+        self.fails(1, "no column i", "--lattice", handles, BORE, moved)
         lattice.write_text("i,j,k,dx,dy,dz\n3,0,0,1,0,0\n", encoding="utf-8")
         self.fails(1, "no control point 3", "--lattice", lattice, BORE, moved)
         self.fails(2, "Only one of", "--lattice", lattice, "--handles", handles, BORE, moved)
