@@ -35,6 +35,12 @@ public:
   /// ranks. The counts in the report are those of the whole mesh.
   EvaluateReport evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
 
+  /// morph::LinearMorpher::applyTranspose(). `gradient`: #local nodes x 3, read at the nodes that
+  /// this rank owns. `prescribed`: becomes #prescribed x 3, the derivatives at the nodes that this
+  /// rank owns, and zero at the others. Throws Error on all ranks.
+  EvaluateReport applyTranspose(
+    const Points& gradient, Points& prescribed, Monitor& monitor) const;
+
   const NodePartition& partition() const { return this->partition_; }
 
 protected:
@@ -43,6 +49,11 @@ protected:
   /// displacements.
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
+
+  /// Adds M^T free to rows of `prescribed`, #prescribed x 3: those of ghosts are added to their
+  /// owners' afterwards. `free`: #ownFree x 3.
+  virtual EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const = 0;
 
   const DistributedMesh& mesh() const { return *this->mesh_; }
   /// The free nodes that this rank owns, ascending.

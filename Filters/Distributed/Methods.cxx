@@ -10,7 +10,6 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
 #include "Morpher/CellStiffness.h"
-#include "Support/Error.h"
 
 #include <utility>
 
@@ -19,15 +18,10 @@ namespace morph::distributed
 std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
 {
   const auto* stiff = dynamic_cast<const StiffMorpher*>(serial.get());
-  if (stiff && (stiff->stiffness().kind != CellStiffness::Kind::Uniform ||
-                 !stiff->stiffness().values.empty()))
-  {
-    throw Error("A stiffness of the cells needs all of the mesh on one process. Run on one, or set "
-                "Stiffness to Uniform and StiffnessArray to none.");
-  }
   if (dynamic_cast<const morph::FemWarp*>(serial.get()))
   {
     auto method = std::make_unique<FemWarp>();
+    method->setStiffness(stiff->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }
@@ -35,6 +29,7 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
   {
     auto method = std::make_unique<LogBarrierWarp>(
       warp->outsideHull() == morph::LogBarrierWarp::OutsideHull::Relax);
+    method->setStiffness(stiff->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }

@@ -8,6 +8,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
 
@@ -86,7 +87,14 @@ void vtkBoundaryDisplacement::FindPatches(
   vtkInternals& own = *this->Internals;
   try
   {
-    filters::Pick::Find(shown, selection, own.Extractor, own.Blocks, own.Model, names);
+    const bool isPicked = own.Whole && selection && selection->GetNumberOfNodes() > 0;
+    filters::Pick::Find(
+      shown, isPicked ? nullptr : selection, own.Extractor, own.Blocks, own.Model, names);
+    if (isPicked)
+    {
+      throw morph::Error("The mesh is on several MPI ranks, each of which shows a part. Choose "
+                         "surfaces by their names.");
+    }
   }
   catch (const std::exception& error)
   {
@@ -96,7 +104,13 @@ void vtkBoundaryDisplacement::FindPatches(
 
 void vtkBoundaryDisplacement::CopyPatches(vtkDataArraySelection* names, vtkPolyData* output)
 {
-  filters::Pick::Write(this->Internals->Model, names, this->GetOutput(), output);
+  const vtkInternals& own = *this->Internals;
+  filters::Pick::Write(
+    own.Model, names, own.Whole ? own.WholeOutput.Get() : this->GetOutput(), output);
+  if (own.Whole && !filters::Ranks::IsFirst())
+  {
+    output->Initialize(); // the first rank has it all
+  }
 }
 
 void vtkBoundaryDisplacement::SetPick(vtkAlgorithm* selection)
@@ -159,7 +173,12 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
 int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // A user who is about to choose patches wants to see their names before the first execution.
+  // A user who is about to choose patches wants to see their names before the first execution. On
+  // several ranks they are known after it: a request for information need not come to all of them.
+  if (filters::Ranks::Processes() > 1)
+  {
+    return 1;
+  }
   filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
@@ -196,19 +215,37 @@ int vtkBoundaryDisplacement::RequestData(
   const auto displace = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
-    vtkPointSet* input =
-      filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
-    if (!mesh.IsElsewhere)
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    vtkPointSet* input = nullptr;
+    vtkPolyData* target = nullptr;
+    const auto check = [&]
     {
+      if (mesh.IsDistributed)
+      {
+        filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
+      }
+      input =
+        filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
-      vtkPolyData* target =
-        fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
-      if (fits && !target)
+      target = fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
+      if (fits && !target && (mesh.IsDistributed || !mesh.IsElsewhere))
       {
         throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
                            "from an STL file for instance.");
       }
+    };
+    if (mesh.IsDistributed)
+    {
+      filters::Ranks::Together(check);
+      this->Internals->DisplaceOnRanks(
+        this, input, { selection, target, zone, control }, output, monitor);
+      return;
+    }
+    check();
+    this->Internals->Whole.reset();
+    this->Internals->WholeOutput->Initialize();
+    if (!mesh.IsElsewhere)
+    {
       this->Internals->Displace(
         this, input, { selection, target, zone, control }, output, monitor);
     }
@@ -219,9 +256,13 @@ int vtkBoundaryDisplacement::RequestData(
     this->ResetResults();
   };
   filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
+  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    vtkWarningMacro(<< warning);
+    if (isTeller)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   return 1;
 }

@@ -579,9 +579,9 @@ private:
 
   friend class vtkMorphAdjoint;
 
-  /// ApplyTranspose() that throws.
+  /// ApplyTranspose() that throws. `onRanks`: all MPI processes call it, each with its piece.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
+    vtkDoubleArray* boundaryGradient, bool onRanks, morph::Monitor& monitor);
   ///@{
   /// A result of the last execution, by its name in Results.txt.
   double GetNumber(const char* name) const;

@@ -232,8 +232,12 @@ int vtkMorphMesh::RequestInformation(
     output->Remove(Pipeline::TIME_RANGE());
     steps.Write(output);
   }
-  // A user who is about to choose surfaces wants to see their names before the first execution.
-  this->Internals->List(filters::upToDateInput(this, inputVector));
+  // A user who is about to choose surfaces wants to see their names before the first execution. See
+  // vtkBoundaryDisplacement for several ranks.
+  if (filters::Ranks::Processes() == 1)
+  {
+    this->Internals->List(filters::upToDateInput(this, inputVector));
+  }
   return 1;
 }
 
@@ -261,24 +265,31 @@ int vtkMorphMesh::RequestData(
   own.Results.Reset();
   const auto work = [&]
   {
-    if (filters::Ranks::Count(true) > 1)
-    {
-      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph "
-                         "Boundary and a method's filter.");
-    }
-    input = own.Blocks.Gather(
-      input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    if (!grid)
-    {
-      filters::Input::RequireGrid(input, "The input"); // has the message
-    }
-    own.TakeGrid(grid);
-    own.TakeTarget(target);
-    own.TakeControlPoints(control);
-    own.TakeZone(zone);
-    partial = own.Run(own.OfGrid(selection), filters::Ports::Asked(request, outputVector), output,
-      badCells, surface, monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, own.Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    input = mesh.Data;
+    vtkSelection* ofGrid = nullptr;
+    filters::Ranks::Together(
+      [&]
+      {
+        if (mesh.IsDistributed)
+        {
+          filters::Input::RequireNoBlocks(own.Blocks, this->GetClassName());
+        }
+        auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+        if (!grid)
+        {
+          filters::Input::RequireGrid(input, "The input"); // has the message
+        }
+        own.IsDistributed = mesh.IsDistributed;
+        own.TakeGrid(grid);
+        own.TakeTarget(target);
+        own.TakeControlPoints(control);
+        own.TakeZone(zone);
+        ofGrid = own.OfGrid(selection);
+      });
+    partial = own.Run(ofGrid, filters::Ports::Asked(request, outputVector), output, badCells,
+      surface, monitor);
   };
   const auto clear = [&]
   {

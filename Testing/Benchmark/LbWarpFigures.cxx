@@ -81,7 +81,8 @@ void Run::weights(const Problem& problem)
   {
     say(problem.name + ", weights, repetition " + std::to_string(i + 1));
     this->settleDown();
-    morph::NodeWeights row(problem.mesh, around, columns);
+    const std::vector<double> sameStiffness;
+    morph::NodeWeights row(problem.mesh, around, columns, sameStiffness);
     steps = 0;
     const ThreadStopwatch rowsWatch;
     for (const morph::Index node : free)

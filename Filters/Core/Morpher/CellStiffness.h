@@ -3,6 +3,7 @@
 
 #include "Morpher/Morpher.h"
 
+#include <string>
 #include <vector>
 
 namespace morph
@@ -22,6 +23,8 @@ struct CellStiffness
   Kind kind = Kind::Uniform;
   double exponent = 1;        ///< power of volume or distance, in [0, 4]
   std::vector<Index> walls;   ///< node ids; none: all prescribed nodes
+  std::string noWalls;        ///< the error where there are none; empty: no error
+  bool areWallsGlobal = true; ///< not numbers of this MPI rank's nodes
   std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
 };
 

@@ -246,7 +246,8 @@ InversionFree::Outcome InversionFree::improve(
   // Raising the minimum of a valid mesh costs far less than minimising the energy.
   if (isValid && raisesFirst)
   {
-    if (raiseMinimumQuality(quality, goal, bestPoints, monitor) > 0)
+    const AscentEffort raised = raiseMinimumQuality(quality, goal, bestPoints, monitor);
+    if (raised.rounds > 0)
     {
       best = quality.measure(bestPoints, monitor);
     }
@@ -254,7 +255,7 @@ InversionFree::Outcome InversionFree::improve(
     {
       if (best.minimum < enough * this->minimumAtRest_)
       {
-        raiseNextWorst(quality, bestPoints, monitor);
+        raiseNextWorst(quality, raised, bestPoints, monitor);
       }
       points = std::move(bestPoints);
       return outcome;
@@ -278,7 +279,7 @@ InversionFree::Outcome InversionFree::improve(
   outcome.kept = outcome.effort.steps > 0 && (points.array() == alternative.array()).all();
   if (outcome.kept && this->target_ == TargetConstruction::IdealSkew && this->raisesMinimum())
   {
-    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor) == 0;
+    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor).rounds == 0;
   }
   return outcome;
 }

@@ -19,6 +19,7 @@ constexpr int Rings = 5; // of cells
 // tangled. Cells near folded faces become valid soon or never.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
 constexpr int StagesOfPatch = 15;   // without folds
+constexpr int StagesAfter = 1;      // of a mesh that is untangled but for its folds
 constexpr double MostTangled = 0.1; // of all cells: a patch then spans the mesh
 }
 
@@ -102,7 +103,7 @@ bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& ener
     if (this->untanglePatch(tangled, Rings, targets, stages, StagesNear, points, own))
     {
       energy.setTargets(targets);
-      return stages.untangle(points, whole);
+      return stages.untangle(points, whole, StagesAfter);
     }
   }
   return false;
@@ -117,14 +118,23 @@ bool Untangling::runNear(const TargetMatrices& targets, FoldoverContinuation& st
   {
     return false;
   }
+  Points trial = points;
+  std::vector<Index> seeds = tangled;
   for (const int rings : { Rings, 3 * Rings })
   {
-    Points trial = points;
-    if (this->untanglePatch(tangled, rings, targets, stages, StagesOfPatch, trial, monitor))
+    if (this->untanglePatch(seeds, rings, targets, stages, StagesOfPatch, trial, monitor))
     {
       points.swap(trial);
       return true;
     }
+    // The patch grows where it has stayed tangled, from the mesh that it has become.
+    std::vector<Index> left = tangledCells(this->mesh_, trial, targets);
+    if (left.size() > tangled.size())
+    {
+      trial = points;
+      continue;
+    }
+    seeds = std::move(left);
   }
   return false;
 }

@@ -6,8 +6,12 @@
 
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkTable.h>
 
 #include <algorithm>
@@ -83,6 +87,30 @@ vtkPointSet* pointsOf(vtkDataObject* given)
 Handle handleOf(const std::array<double, 7>& v)
 {
   return { { v[0], v[1], v[2] }, { v[3], v[4], v[5] }, v[6] };
+}
+
+/// With a vertex each, since VTK's append filter may leave out what has no cells.
+vtkSmartPointer<vtkPolyData> asPoints(const std::vector<Handle>& handles)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> vectors, radii;
+  vectors->SetName("Displacement");
+  vectors->SetNumberOfComponents(3);
+  radii->SetName("Radius");
+  result->AllocateExact(static_cast<vtkIdType>(handles.size()), 1);
+  result->SetPoints(places);
+  for (const Handle& handle : handles)
+  {
+    const vtkIdType point = places->InsertNextPoint(handle.place.data());
+    vectors->InsertNextTuple(handle.displacement.data());
+    radii->InsertNextValue(handle.radius);
+    result->InsertNextCell(VTK_VERTEX, 1, &point);
+  }
+  result->GetPointData()->AddArray(vectors);
+  result->GetPointData()->AddArray(radii);
+  return result;
 }
 
 /// Adds a displacement, of a point i, j, k.
@@ -177,6 +205,22 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
                 "points " + morph::listIds(bad) + ", those of the first direction counted first.");
   }
   return result;
+}
+
+vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given)
+{
+  return asPoints(Handles(given, {}));
+}
+
+vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size)
+{
+  std::vector<Handle> handles;
+  const Points displacements = given ? Lattice(given, {}, size) : Points();
+  for (Index i = 0; i < displacements.rows(); ++i)
+  {
+    handles.push_back({ Eigen::RowVector3d::Zero(), displacements.row(i), 0 });
+  }
+  return asPoints(handles);
 }
 }
 }

@@ -4,10 +4,13 @@
 #include "BoundaryMorphing/HandleMotion.h"
 #include "Support/Types.h"
 
+#include <vtkSmartPointer.h>
+
 #include <array>
 #include <vector>
 
 class vtkDataObject;
+class vtkPolyData;
 
 /// The control points of a displacement: handles, or those of a lattice. `given`, a vtkPointSet or
 /// a vtkTable, may be null; see vtkDisplacementAlgorithm::SetControlPointsData().
@@ -23,4 +26,9 @@ std::vector<Handle> Handles(
 /// another number of points than the lattice has, and displacements that are not finite.
 morph::Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& listed,
   const std::array<int, 3>& size);
+
+/// What Handles() or Lattice() read of `given`, as points that they read again: to be gathered from
+/// MPI processes. Empty for null.
+vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given);
+vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size);
 }

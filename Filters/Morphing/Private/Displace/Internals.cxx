@@ -9,6 +9,7 @@
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
@@ -39,7 +40,7 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
   options.UseGeometryArrays = filter->UseGeometryArrays;
   const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, options, monitor);
+  this->Model.Update(input, options, monitor, this->Whole.get());
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings = monitor.TakeWarnings();
@@ -77,6 +78,7 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
     key.Selection = timeOf(selection);
     options.Selection = selection;
     options.Extractor = own.Extractor;
+    options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
   }
   else if (this->Moving == MOVE_PATCHES)
   {
@@ -125,9 +127,12 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
 std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
   const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection)
 {
-  selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
-  const std::vector<std::uint8_t> isSelected =
-    filters::Selection::Points(input, selection, this->Extractor);
+  std::vector<std::uint8_t> isSelected = this->IsSelected;
+  if (!this->Whole)
+  {
+    selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
+    isSelected = filters::Selection::Points(input, selection, this->Extractor);
+  }
   std::vector<morph::Handle> handles;
   for (const morph::Index node : this->Model.Faces().nodes)
   {
@@ -341,4 +346,79 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   filter->FreePoints = count(filters::Surroundings::IsFree);
   filter->ZonePoints = count(filters::Surroundings::IsZone);
   filter->LayerPoints = count(filters::Surroundings::IsLayer);
+}
+
+/// A selection's ids are those of a process's piece, so each process evaluates its own.
+void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
+  vtkUnstructuredGrid* piece, vtkSelection* selection)
+{
+  const bool hasAny = selection && selection->GetNumberOfNodes() > 0;
+  const bool isAnywhere = filters::Ranks::Count(hasAny) > 0;
+  std::vector<std::uint8_t> isSelected;
+  filters::Ranks::Together(
+    [&]
+    {
+      if (hasAny || !isAnywhere) // which throws
+      {
+        isSelected = filters::Selection::Points(piece, selection, this->Extractor);
+      }
+    });
+  this->IsSelected = this->Whole->AnyFlags(isSelected);
+  this->ChosenFrom = filters::ChoiceKey();
+}
+
+void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, const Extras& extras, vtkPolyData* output, filters::Monitor& monitor)
+{
+  auto* piece = vtkUnstructuredGrid::SafeDownCast(input);
+  filters::Ranks::Together(
+    [&]
+    {
+      if (!piece)
+      {
+        throw morph::Error("A boundary on several MPI ranks cannot be displaced again: "
+                           "vtkBoundaryDisplacement takes the volume mesh there.");
+      }
+      if (this->InnerOptions(filter, nullptr).Any() && filter->Moving != MOVE_NOTHING)
+      {
+        throw morph::Error("Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank, and "
+                           "the mesh is distributed over several. Run on one, or turn them off.");
+      }
+    });
+  if (!this->Whole)
+  {
+    this->Whole = std::make_unique<filters::WholeSurface>();
+  }
+  this->Whole->Take(piece, monitor);
+  const bool byHandles = filter->Motion == MOTION_HANDLES;
+  if (filter->Moving == MOVE_SELECTION || (byHandles && filter->SelectedHandles))
+  {
+    this->SelectOnRanks(piece, extras.Selection);
+  }
+  vtkSmartPointer<vtkPolyData> target, control;
+  if (extras.Target)
+  {
+    target = filters::WholeSurface::Gather(extras.Target);
+  }
+  if (filters::Ranks::Count(extras.ControlPoints) > 0 &&
+      (byHandles || filter->Motion == MOTION_LATTICE))
+  {
+    filters::Ranks::Together(
+      [&]
+      {
+        const int* size = filter->LatticeSize;
+        control = byHandles ? filters::ControlPoints::AsHandles(extras.ControlPoints)
+                            : filters::ControlPoints::AsLattice(
+                                extras.ControlPoints, { size[0], size[1], size[2] });
+      });
+    control = filters::WholeSurface::Gather(control);
+  }
+  this->Whole->Together(
+    [&]
+    {
+      this->Displace(filter, this->Whole->Grid(),
+        { extras.Selection, target, extras.Zone, control }, output, monitor);
+      this->WholeOutput->ShallowCopy(output);
+      this->Whole->KeepOwn(output);
+    });
 }

@@ -16,15 +16,19 @@
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/Surroundings.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -72,6 +76,10 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::filters::FitToTarget Fit;
   morph::filters::InnerNodes Inner;
   morph::filters::Picker Picker;
+  /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
+  std::unique_ptr<morph::filters::WholeSurface> Whole;
+  std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVE_SELECTION
+  vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
   /// Forgets the names of the patches.
   void ClearList()
@@ -96,7 +104,13 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
     vtkPolyData* output, morph::filters::Monitor& monitor);
 
+  /// Displace() for a mesh on several MPI processes: each gets the part of the displaced boundary
+  /// that its cells have. Collective.
+  void DisplaceOnRanks(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    vtkPolyData* output, morph::filters::Monitor& monitor);
+
 private:
+  void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
   morph::filters::InnerNodes::Options InnerOptions(
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);
   /// The positions of what moves, on the target. Chooses what moves, too.

@@ -2,6 +2,7 @@
 #include "Private/Distributed/RankMatch.h"
 
 #include "Distributed/DistributedMesh.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
 
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -175,6 +178,38 @@ Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller
   return ranks.sum(sent - static_cast<Index>(matched.size()));
 }
 
+/// The points that the nodes of this process follow. `points`: of all processes, in their order;
+/// `pairs`: those of the points and the nodes that they stand for.
+std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
+  const BoundaryMatch::Result& result, const std::vector<Traveller>& points,
+  const std::vector<std::pair<Index, Index>>& pairs)
+{
+  std::map<Index, std::vector<Index>> ofNode; // the first point of each process
+  for (const auto& [point, node] : pairs)
+  {
+    std::vector<Index>& list = ofNode[node];
+    const auto isOfRank = [&, rank = points[point].rank](Index other)
+    { return points[other].rank == rank; };
+    if (points[point].isFree == 0 && std::none_of(list.begin(), list.end(), isOfRank))
+    {
+      list.push_back(point);
+    }
+  }
+  std::vector<RankMatch::Follower> followers;
+  for (std::size_t k = 0; k < result.Ids.size(); ++k)
+  {
+    if (result.Sources[k] < 0 || !mesh.owns(result.Ids[k]))
+    {
+      continue;
+    }
+    for (const Index point : ofNode[result.Ids[k]])
+    {
+      followers.push_back({ result.Ids[k], points[point].rank, points[point].point });
+    }
+  }
+  return followers;
+}
+
 /// The owners' choice for all local nodes.
 void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
 {
@@ -203,8 +238,8 @@ void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
 
 namespace RankMatch
 {
-BoundaryMatch::Result Match(
-  vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
+BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
+  const BoundaryMatch::Options& options, std::vector<Follower>* followers)
 {
   const Ranks& ranks = mesh.ranks();
   const double tolerance = options.MatchTolerance * mesh.size();
@@ -313,6 +348,7 @@ BoundaryMatch::Result Match(
       });
     unmatched = countUnmatched(ranks, static_cast<Index>(mine.size()), points, here.Pairs);
   }
+  const std::vector<std::pair<Index, Index>> found = here.Pairs;
   BoundaryMatch::Result result;
   ranks.together(
     [&]
@@ -320,6 +356,10 @@ BoundaryMatch::Result Match(
       result = BoundaryMatch::FindTargets(
         std::move(here), mesh.mesh(), mesh.outerNodes(), mesh.size(), options, &mesh.nodeIds());
     });
+  if (followers)
+  {
+    *followers = followersOf(mesh, result, points, found);
+  }
   takeOwners(mesh, result);
   result.Unmatched = unmatched;
   if (unmatched > 0)
@@ -330,6 +370,34 @@ BoundaryMatch::Result Match(
       "left out.");
   }
   return result;
+}
+
+void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Points& prescribed,
+  const std::vector<Follower>& followers, vtkIdType points, vtkDoubleArray* result)
+{
+  struct Row
+  {
+    Index point;
+    double value[3];
+  };
+  std::vector<std::vector<Row>> to(ranks.count());
+  for (const Follower& follower : followers)
+  {
+    const Index k = std::lower_bound(ids.begin(), ids.end(), follower.Node) - ids.begin();
+    to[follower.Rank].push_back(
+      { follower.Point, { prescribed(k, 0), prescribed(k, 1), prescribed(k, 2) } });
+  }
+  morph::Points sums = morph::Points::Zero(points, 3);
+  for (const std::vector<Row>& part : ranks.exchange(to))
+  {
+    for (const Row& row : part)
+    {
+      sums.row(row.point) += Eigen::RowVector3d(row.value[0], row.value[1], row.value[2]);
+    }
+  }
+  std::vector<Index> sources(points);
+  std::iota(sources.begin(), sources.end(), Index(0));
+  ranks.together([&] { Gradient::Gather(sums, sources, points, result); });
 }
 }
 }

@@ -12,6 +12,7 @@
 #include "Private/Displace/SharedProperties.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Time.h"
+#include "Private/Project/TargetDistance.h"
 #include "Support/Monitor.h"
 #include "vtkBoundaryDisplacement.h"
 #include "vtkMorphAlgorithm.h"
@@ -37,6 +38,7 @@ public:
   morph::filters::Time Time;
   morph::filters::Picker Picker;
   morph::filters::Blocks Blocks;
+  bool IsDistributed = false; ///< several MPI processes have pieces of the mesh
 
   explicit vtkInternals(vtkMorphMesh* filter)
     : Filter(filter)
@@ -91,12 +93,20 @@ private:
 
   void ConfigureDisplacement(vtkSelection* selection);
   void ConfigureMorph(morph::Monitor& monitor);
+  /// Validity Repair on several MPI processes: a valid mesh passes, and an inverted one comes with
+  /// an error.
+  bool CannotRepair() const;
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
   vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   void TakeResults();
+  /// The boundary with the ids of this process's mesh.
+  vtkSmartPointer<vtkPolyData> BoundaryOfGrid() const;
   /// Adds the distances from the target, as they are on `output`.
   void WriteDistances(vtkUnstructuredGrid* output);
+  /// Makes the summary that of all MPI processes. `nodes`: those with distances on `output`.
+  void SummarizeOnRanks(const std::vector<morph::Index>& nodes, vtkUnstructuredGrid* output,
+    morph::filters::TargetDistance::Summary& distance) const;
 };

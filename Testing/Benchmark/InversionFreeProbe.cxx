@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Times the inversion-free morph, and FEMWARP beside it, on one problem. It compiles against this
+// tree and against commit eab12e2, so that Utilities/benchmark_inversion_free.py runs both at once.
+#if __has_include("Untangling/InversionFree.h")
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/Topology.h"
+#include "Quality/ScaledJacobian.h"
+#include "Untangling/InversionFree.h"
+#else
+#include "FemWarp.h"
+#include "InversionFree.h"
+#include "ScaledJacobian.h"
+#include "Topology.h"
+#endif
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace
+{
+using morph::Index;
+
+constexpr double Nanosecond = 1e-9;
+constexpr double MebiByte = 1024; // in the kilobytes of getrusage()
+
+constexpr const char* Usage =
+  "Usage: inversion-free-probe PROBLEM femwarp|inversion-free|inversion-free-from-rest THREADS\n"
+  "Times prepare and evaluate on a problem that Utilities/benchmark_inversion_free.py writes, and\n"
+  "prints one line of name=value pairs: seconds, processor seconds, minimum scaled Jacobian,\n"
+  "inverted cells, counts of the method, and memory in MiB before and at most.\n";
+
+class Threads : public morph::Monitor
+{
+public:
+  explicit Threads(int threads)
+    : threads_(threads)
+  {
+  }
+
+  void parallelFor(
+    Index n, Index grain, const std::function<void(Index first, Index last)>& body) override
+  {
+    const Index parts = std::min<Index>(this->threads_, n / grain);
+    if (parts < 2)
+    {
+      if (n > 0)
+      {
+        body(0, n);
+      }
+      return;
+    }
+    std::vector<std::thread> others;
+    for (Index part = 1; part < parts; ++part)
+    {
+      others.emplace_back([&, part] { body(part * n / parts, (part + 1) * n / parts); });
+    }
+    body(0, n / parts);
+    for (std::thread& other : others)
+    {
+      other.join();
+    }
+  }
+
+private:
+  int threads_;
+};
+
+struct Problem
+{
+  morph::Mesh mesh;
+  morph::NodePartition partition;
+  morph::Points target;
+};
+
+template <typename Value>
+void read(std::ifstream& file, Value* values, Index count)
+{
+  file.read(reinterpret_cast<char*>(values), count * static_cast<Index>(sizeof(Value)));
+}
+
+/// Little-endian numbers: #nodes, #cells, #corners of all cells, #prescribed (int64); points and
+/// targets (double); offsets, connectivity, prescribed (int64); types (uint8).
+Problem readProblem(const char* name)
+{
+  std::ifstream file(name, std::ios::binary);
+  std::int64_t size[4] = {};
+  read(file, size, 4);
+  if (!file)
+  {
+    throw std::runtime_error(std::string("Cannot read ") + name + ".");
+  }
+  Problem problem;
+  morph::Mesh& mesh = problem.mesh;
+  mesh.points.resize(size[0], 3);
+  read(file, mesh.points.data(), 3 * size[0]);
+  problem.target.resize(size[3], 3);
+  read(file, problem.target.data(), 3 * size[3]);
+  mesh.offsets.resize(size[1] + 1);
+  read(file, mesh.offsets.data(), size[1] + 1);
+  mesh.connectivity.resize(size[2]);
+  read(file, mesh.connectivity.data(), size[2]);
+  std::vector<Index> prescribed(size[3]);
+  read(file, prescribed.data(), size[3]);
+  mesh.types.resize(size[1]);
+  read(file, mesh.types.data(), size[1]);
+  if (!file)
+  {
+    throw std::runtime_error(std::string(name) + " ends too early.");
+  }
+  problem.partition = morph::partitionNodes(mesh, std::move(prescribed));
+  return problem;
+}
+
+double processorSeconds()
+{
+  timespec time = {};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + Nanosecond * static_cast<double>(time.tv_nsec);
+}
+
+double seconds()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double mostMemory()
+{
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / MebiByte;
+}
+
+/// The counts were called `counts` once.
+template <typename Report>
+auto countsOf(const Report& report, int) -> decltype(report.statistics)
+{
+  return report.statistics;
+}
+template <typename Report>
+auto countsOf(const Report& report, long) -> decltype(report.counts)
+{
+  return report.counts;
+}
+
+void measure(morph::Morpher& method, const Problem& problem, morph::Monitor& monitor)
+{
+  const double memory = mostMemory();
+  const double start = seconds(), startOfWork = processorSeconds();
+  method.prepare(problem.mesh, problem.partition, monitor);
+  const double prepared = seconds(), preparedWork = processorSeconds();
+  morph::Points moved;
+  const morph::EvaluateReport report = method.evaluate(problem.target, moved, monitor);
+  const double end = seconds(), endOfWork = processorSeconds();
+  const double most = mostMemory();
+  const morph::Quality quality = morph::measureQuality(problem.mesh, moved, {}, {}, monitor);
+  std::printf(
+    "cells=%lld prepare=%.4f evaluate=%.4f prepareCpu=%.4f evaluateCpu=%.4f "
+    "minimum=%.6f mean=%.6f inverted=%lld memoryBefore=%.1f memoryMost=%.1f iterations=%d",
+    static_cast<long long>(problem.mesh.numberOfCells()), prepared - start, end - prepared,
+    preparedWork - startOfWork, endOfWork - preparedWork, quality.minimum, quality.mean,
+    static_cast<long long>(quality.inverted), memory, most, report.iterations);
+  for (const auto& count : countsOf(report, 0))
+  {
+    std::printf(" %s=%lld", count.name.c_str(), static_cast<long long>(count.value));
+  }
+  std::printf("\n");
+}
+}
+
+int main(int argc, char** argv)
+{
+  if (argc != 4)
+  {
+    std::fputs(Usage, stderr);
+    return 2;
+  }
+  try
+  {
+    const Problem problem = readProblem(argv[1]);
+    Threads monitor(std::max(1, std::atoi(argv[3])));
+    const std::string name = argv[2];
+    if (name == "femwarp")
+    {
+      morph::FemWarp method;
+      measure(method, problem, monitor);
+      return 0;
+    }
+    morph::InversionFree method;
+    if (name == "inversion-free-from-rest")
+    {
+      method.setStart(morph::InversionFree::Start::Rest);
+    }
+    else if (name != "inversion-free")
+    {
+      std::fputs(Usage, stderr);
+      return 2;
+    }
+    measure(method, problem, monitor);
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
+  return 0;
+}

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary's filters on random partitions, against the same filters on the whole mesh.
+#include "Meshes.h"
+#include "Pieces.h"
+#include "PolyhedralMeshes.h"
+#include "RankGrids.h"
+#include "RankParts.h"
+#include "TestGrids.h"
+
+#include <vtkBoundaryDisplacement.h>
+#include <vtkCellData.h>
+#include <vtkClassifyBoundary.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkSphereSource.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace
+{
+using morph::Index;
+using morph::distributed::Ranks;
+
+std::vector<std::pair<std::string, morph::Mesh>> shapes()
+{
+  auto all = meshes::all(4, 3, 3);
+  for (auto& polyhedral : meshes::polyhedral())
+  {
+    all.push_back(std::move(polyhedral));
+  }
+  return all;
+}
+
+/// A mesh whose sides are bent, so that its surfaces are not planes.
+void bend(morph::Mesh& mesh)
+{
+  meshes::transform(mesh, [](const grids::Row& x)
+    { return grids::Row(x[0] + 0.1 * x[1] * x[1], x[1] - 0.05 * x[0] * x[2], x[2] + 0.1 * x[0]); });
+}
+
+/// Rows of an array by global id; `ids`: "MorphPointId", or null for global point ids.
+void expectSameRows(vtkDataSetAttributes* mine, vtkDataSetAttributes* whole, const char* name,
+  const std::vector<vtkIdType>& numbers)
+{
+  vtkDataArray* a = mine->GetArray(name);
+  vtkDataArray* b = whole->GetArray(name);
+  EXPECT_TRUE(a && b) << name;
+  for (vtkIdType i = 0; a && b && i < a->GetNumberOfTuples(); ++i)
+  {
+    for (int j = 0; j < a->GetNumberOfComponents(); ++j)
+    {
+      EXPECT_EQ(a->GetComponent(i, j), b->GetComponent(numbers[i], j)) << name << ' ' << i;
+    }
+  }
+}
+
+std::vector<vtkIdType> values(vtkDataArray* array)
+{
+  std::vector<vtkIdType> result;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    result.push_back(static_cast<vtkIdType>(array->GetComponent(i, 0)));
+  }
+  return result;
+}
+
+/// For each point of `mine` the point of `whole` with the same MorphPointId.
+std::vector<vtkIdType> samePoints(vtkPolyData* mine, vtkPolyData* whole)
+{
+  std::map<vtkIdType, vtkIdType> place;
+  const auto ids = values(whole->GetPointData()->GetArray("MorphPointId"));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    place[ids[i]] = static_cast<vtkIdType>(i);
+  }
+  std::vector<vtkIdType> result;
+  for (const vtkIdType id : values(mine->GetPointData()->GetArray("MorphPointId")))
+  {
+    EXPECT_TRUE(place.count(id)) << id;
+    result.push_back(place[id]);
+  }
+  return result;
+}
+
+/// The polygons by their points' ids, and the value of a cell array.
+std::multimap<std::vector<vtkIdType>, double> cells(vtkPolyData* surface, const char* name)
+{
+  std::multimap<std::vector<vtkIdType>, double> result;
+  const auto ids = values(surface->GetPointData()->GetArray("MorphPointId"));
+  vtkDataArray* array = surface->GetCellData()->GetArray(name);
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; array && c < surface->GetNumberOfCells(); ++c)
+  {
+    surface->GetCellPoints(c, points);
+    std::vector<vtkIdType> key;
+    for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+    {
+      key.push_back(ids[points->GetId(k)]);
+    }
+    result.emplace(key, array->GetComponent(c, 0));
+  }
+  return result;
+}
+
+/// Points, polygons and arrays of all ranks' parts are those of the whole.
+void expectSameSurface(const Ranks& ranks, vtkPolyData* mine, vtkPolyData* whole,
+  const std::vector<const char*>& ofPoints, const std::vector<const char*>& ofCells)
+{
+  const std::vector<vtkIdType> numbers = samePoints(mine, whole);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    double a[3], b[3];
+    mine->GetPoint(static_cast<vtkIdType>(i), a);
+    whole->GetPoint(numbers[i], b);
+    EXPECT_EQ(std::vector<double>(a, a + 3), std::vector<double>(b, b + 3));
+  }
+  for (const char* name : ofPoints)
+  {
+    expectSameRows(mine->GetPointData(), whole->GetPointData(), name, numbers);
+  }
+  for (const char* name : ofCells)
+  {
+    const auto all = cells(whole, name);
+    for (const auto& [points, value] : cells(mine, name))
+    {
+      const auto found = all.equal_range(points);
+      EXPECT_TRUE(std::any_of(found.first, found.second,
+        [value = value](const auto& cell) { return cell.second == value; }))
+        << name;
+    }
+  }
+  EXPECT_EQ(ranks.sum(static_cast<Index>(mine->GetNumberOfCells())), whole->GetNumberOfCells());
+  const auto all = ranks.gather(numbers);
+  EXPECT_EQ(static_cast<vtkIdType>(std::set<vtkIdType>(all.begin(), all.end()).size()),
+    whole->GetNumberOfPoints());
+}
+
+void expectNoErrors(const grids::Listener& listener)
+{
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+}
+}
+
+TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
+{
+  const Ranks ranks = pieces::world();
+  unsigned seed = meshes::seed();
+  for (auto& [name, mesh] : shapes())
+  {
+    SCOPED_TRACE(name);
+    bend(mesh);
+    vtkNew<vtkClassifyBoundary> serial, filter;
+    const auto whole = grids::make(mesh);
+    serial->SetInputData(whole);
+    rank_grids::alone([&] { serial->Update(); });
+    filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
+    grids::Listener listener(filter);
+    filter->Update();
+    expectNoErrors(listener);
+    EXPECT_EQ(filter->GetNumberOfVertices(), serial->GetNumberOfVertices());
+    EXPECT_EQ(filter->GetNumberOfCurves(), serial->GetNumberOfCurves());
+    EXPECT_EQ(filter->GetNumberOfSurfaces(), serial->GetNumberOfSurfaces());
+    vtkUnstructuredGrid* output = filter->GetOutput();
+    const auto ids = values(output->GetPointData()->GetGlobalIds());
+    EXPECT_EQ(static_cast<vtkIdType>(ids.size()), output->GetNumberOfPoints());
+    const std::vector<const char*> arrays = { "GeometryDimension", "GeometryId", "CurveParameter",
+      "Number" };
+    for (const char* array : arrays)
+    {
+      expectSameRows(
+        output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
+    }
+    expectSameSurface(ranks, filter->GetSurfaces(), serial->GetSurfaces(), arrays,
+      { "GeometryId", "MorphCellId", "Cell" });
+    expectSameSurface(ranks, filter->GetCurves(), serial->GetCurves(),
+      { "GeometryDimension", "GeometryId", "CurveParameter" },
+      { "GeometryDimension", "GeometryId" });
+  }
+}
+
+TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
+{
+  const Ranks ranks = pieces::world();
+  unsigned seed = meshes::seed();
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(1.2, 0, 0);
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(2, 1.5, 1.5);
+  ball->SetRadius(2.4);
+  ball->SetThetaResolution(40);
+  ball->SetPhiResolution(40);
+  ball->Update();
+  using Filter = vtkBoundaryDisplacement;
+  const std::vector<std::pair<std::string, std::function<void(Filter*)>>> cases = {
+    { "surface",
+      [](Filter* filter)
+      {
+        filter->SetMovingToPatches();
+        filter->AddPatch("Surface 1");
+        filter->AddHeldPatch("Surface 2");
+        filter->SetMotionToPlacement();
+        filter->SetTranslation(0.1, 0.2, -0.1);
+        filter->SetRotation(5, 0, 10);
+      } },
+    { "region along normals",
+      [&](Filter* filter)
+      {
+        filter->SetMovingToRegion();
+        filter->SetRegion(plane);
+        filter->SetMotionToAlongNormals();
+        filter->SetDistance(0.1);
+        filter->SetSurroundingsToStay();
+      } },
+    { "array, fading",
+      [](Filter* filter)
+      {
+        filter->SetMovingToArray();
+        filter->SetMovingArray("Marked");
+        filter->SetMotionToVector();
+        filter->SetVector(0.1, 0.1, 0.2);
+        filter->SetSurroundingsToFade();
+      } },
+    { "target",
+      [&](Filter* filter)
+      {
+        filter->SetMovingToPatches();
+        filter->AddPatch("Surface 0");
+        filter->SetMotionToTarget();
+        filter->SetTargetData(ball->GetOutput());
+        filter->SetTargetReach(1);
+        filter->SetTargetAngle(180);
+      } },
+  };
+  const auto all = shapes();
+  for (const std::size_t shape : { 0u, 1u, 3u, 6u, 7u, 9u })
+  {
+    auto [name, mesh] = all.at(shape);
+    bend(mesh);
+    const auto whole = grids::make(mesh);
+    vtkNew<vtkIdTypeArray> marked;
+    marked->SetName("Marked");
+    for (vtkIdType i = 0; i < whole->GetNumberOfPoints(); ++i)
+    {
+      marked->InsertNextValue(whole->GetPoint(i)[2] > 2);
+    }
+    whole->GetPointData()->AddArray(marked);
+    for (const auto& [what, configure] : cases)
+    {
+      SCOPED_TRACE(name + ", " + what);
+      vtkNew<Filter> serial, filter;
+      configure(serial);
+      serial->SetInputData(whole);
+      grids::Listener serialListener(serial);
+      rank_grids::alone([&] { serial->Update(); });
+      configure(filter);
+      if (what == "target" && ranks.rank() > 0)
+      {
+        filter->SetTargetData(vtkNew<vtkPolyData>()); // as a reader of one file does
+      }
+      filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
+      grids::Listener listener(filter);
+      filter->Update();
+      expectNoErrors(listener);
+      // One rank speaks for all.
+      EXPECT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? serialListener.Warnings.size() : 0);
+      EXPECT_EQ(filter->GetMovingPoints(), serial->GetMovingPoints());
+      EXPECT_GT(filter->GetMovingPoints(), 0);
+      EXPECT_EQ(filter->GetHeldPoints(), serial->GetHeldPoints());
+      EXPECT_EQ(filter->GetFollowingPoints(), serial->GetFollowingPoints());
+      expectSameSurface(ranks, filter->GetOutput(), serial->GetOutput(),
+        { "BoundaryDisplacement", "Role", "RestPosition", "GeometryId", "Number" },
+        { "Role", "GeometryId", "MorphCellId" });
+      const auto names = [](Filter* of)
+      {
+        std::vector<std::string> all;
+        for (int i = 0; i < of->GetPatchList()->GetNumberOfArrays(); ++i)
+        {
+          all.emplace_back(of->GetPatchList()->GetArrayName(i));
+        }
+        return all;
+      };
+      EXPECT_EQ(names(filter), names(serial));
+    }
+  }
+}
+
+TEST(RankBoundary, EachRankSelectsInItsPiece)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh mesh = meshes::hexes(4, 3, 3);
+  const auto whole = grids::make(mesh);
+  const auto piece = rank_grids::part(ranks, whole, mesh, meshes::seed());
+  const auto select = [](vtkUnstructuredGrid* grid, bool all)
+  {
+    vtkNew<vtkIdTypeArray> ids;
+    for (vtkIdType i = 0; all && i < grid->GetNumberOfPoints(); ++i)
+    {
+      if (grid->GetPoint(i)[2] > 2.5)
+      {
+        ids->InsertNextValue(i);
+      }
+    }
+    vtkNew<vtkSelectionNode> node;
+    node->SetFieldType(vtkSelectionNode::POINT);
+    node->SetContentType(vtkSelectionNode::INDICES);
+    node->SetSelectionList(ids);
+    auto selection = vtkSmartPointer<vtkSelection>::New();
+    selection->AddNode(node);
+    return selection;
+  };
+  const auto configure = [](vtkBoundaryDisplacement* filter)
+  {
+    filter->SetMovingToSelection();
+    filter->SetMotionToVector();
+    filter->SetVector(0, 0, 1);
+  };
+  vtkNew<vtkBoundaryDisplacement> serial, filter;
+  configure(serial);
+  serial->SetInputData(whole);
+  serial->SetSelectionData(select(whole, true));
+  rank_grids::alone([&] { serial->Update(); });
+  configure(filter);
+  filter->SetInputData(piece);
+  filter->SetSelectionData(select(piece, true));
+  grids::Listener listener(filter);
+  filter->Update();
+  expectNoErrors(listener);
+  EXPECT_EQ(filter->GetMovingPoints(), 5 * 4);
+  expectSameSurface(
+    ranks, filter->GetOutput(), serial->GetOutput(), { "Role" }, { "Role", "MorphCellId" });
+
+  // Nothing selected anywhere is one error for all.
+  filter->SetSelectionData(select(piece, false));
+  filter->Update();
+  EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
