@@ -73,6 +73,15 @@ std::vector<std::array<double, Columns>> rowsOf(
   return rows;
 }
 
+/// Null, or as a reader leaves it on an MPI process that has no part of the data.
+bool isEmpty(vtkDataObject* given)
+{
+  auto* table = vtkTable::SafeDownCast(given);
+  auto* points = vtkPointSet::SafeDownCast(given);
+  return !given || (table && table->GetNumberOfColumns() == 0) ||
+         (points && points->GetNumberOfPoints() == 0);
+}
+
 vtkPointSet* pointsOf(vtkDataObject* given)
 {
   auto* points = vtkPointSet::SafeDownCast(given);
@@ -139,6 +148,10 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
 {
   std::vector<Handle> result;
   std::transform(listed.begin(), listed.end(), std::back_inserter(result), handleOf);
+  if (isEmpty(given))
+  {
+    return result;
+  }
   if (auto* table = vtkTable::SafeDownCast(given))
   {
     for (const auto& row : rowsOf<7>(table, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
@@ -147,20 +160,17 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
     }
     return result;
   }
-  if (given)
+  vtkPointSet* points = pointsOf(given);
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);
+  vtkDataArray* radii = arrayOf(points->GetPointData(), "Radius", 1, count, true);
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    vtkPointSet* points = pointsOf(given);
-    const vtkIdType count = points->GetNumberOfPoints();
-    vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);
-    vtkDataArray* radii = arrayOf(points->GetPointData(), "Radius", 1, count, true);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      Handle handle;
-      points->GetPoint(i, handle.place.data());
-      vectors->GetTuple(i, handle.displacement.data());
-      handle.radius = radii ? radii->GetComponent(i, 0) : 0;
-      result.push_back(handle);
-    }
+    Handle handle;
+    points->GetPoint(i, handle.place.data());
+    vectors->GetTuple(i, handle.displacement.data());
+    handle.radius = radii ? radii->GetComponent(i, 0) : 0;
+    result.push_back(handle);
   }
   return result;
 }
@@ -174,14 +184,15 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
   {
     addTo(result, row, size);
   }
-  if (auto* table = vtkTable::SafeDownCast(given))
+  auto* table = vtkTable::SafeDownCast(given);
+  if (table && !isEmpty(given))
   {
     for (const auto& row : rowsOf<6>(table, { "i", "j", "k", "dx", "dy", "dz" }))
     {
       addTo(result, row, size);
     }
   }
-  else if (given)
+  else if (!isEmpty(given))
   {
     vtkPointSet* points = pointsOf(given);
     if (points->GetNumberOfPoints() != count)
@@ -215,7 +226,7 @@ vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given)
 vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size)
 {
   std::vector<Handle> handles;
-  const Points displacements = given ? Lattice(given, {}, size) : Points();
+  const Points displacements = isEmpty(given) ? Points() : Lattice(given, {}, size);
   for (Index i = 0; i < displacements.rows(); ++i)
   {
     handles.push_back({ Eigen::RowVector3d::Zero(), displacements.row(i), 0 });
