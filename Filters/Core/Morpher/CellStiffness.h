@@ -23,9 +23,9 @@ struct CellStiffness
   Kind kind = Kind::Uniform;
   double exponent = 1;        ///< power of volume or distance, in [0, 4]
   std::vector<Index> walls;   ///< node ids; none: all prescribed nodes
-  std::string noWalls;        ///< the error where there are none; empty: no error
-  bool areWallsGlobal = true; ///< not numbers of this MPI rank's nodes
   std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
+  std::string noWalls = {};   ///< the error where there are no walls; empty: no error
+  bool areWallsGlobal = true; ///< not numbers in this part of a distributed mesh
 };
 
 /// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
