@@ -201,6 +201,11 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
   ball->SetThetaResolution(40);
   ball->SetPhiResolution(40);
   ball->Update();
+  morph::Points places(2, 3), by(2, 3);
+  places << 1, 1, 1, 3, 3, 3;
+  by << 0, 0, 0.1, 0.2, 0, 0;
+  const auto handles = grids::cloud(places);
+  grids::addVectors(handles, "Displacement", by);
   using Filter = vtkBoundaryDisplacement;
   const std::vector<std::pair<std::string, std::function<void(Filter*)>>> cases = {
     { "surface",
@@ -241,6 +246,21 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
         filter->SetTargetReach(1);
         filter->SetTargetAngle(180);
       } },
+    { "handles",
+      [&](Filter* filter)
+      {
+        filter->SetMotionToHandles();
+        filter->AddHandle(0, 0, 0, 0.1, 0, 0.2, 1.5);
+        filter->SetControlPointsData(handles);
+      } },
+    { "lattice",
+      [&](Filter* filter)
+      {
+        filter->SetMotionToLattice();
+        filter->SetLatticeSize(3, 4, 2);
+        filter->SetLatticeBasisToBSpline();
+        filter->AddLatticeDisplacement(1, 2, 1, 0.1, 0.2, -0.1);
+      } },
   };
   const auto all = shapes();
   for (const std::size_t shape : { 0u, 1u, 3u, 6u, 7u, 9u })
@@ -267,6 +287,10 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       if (what == "target" && ranks.rank() > 0)
       {
         filter->SetTargetData(vtkNew<vtkPolyData>()); // as a reader of one file does
+      }
+      if (what == "handles" && ranks.rank() > 0)
+      {
+        filter->SetControlPointsData(vtkNew<vtkPolyData>());
       }
       filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
       grids::Listener listener(filter);
