@@ -44,36 +44,21 @@ vtkMTimeType timeOf(vtkObject* object)
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(4);
+  this->Shared = this->Internals.get();
   this->ResetResults();
 }
 
-vtkBoundaryDisplacement::~vtkBoundaryDisplacement()
+vtkBoundaryDisplacement::~vtkBoundaryDisplacement() = default;
+
+vtkPolyData* vtkBoundaryDisplacement::GetOutput()
 {
-  this->SetMovingArray(nullptr);
-  this->SetLayersArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-  this->SetSurfaceIdArray(nullptr);
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
-void vtkBoundaryDisplacement::SetSelectionConnection(vtkAlgorithmOutput* output)
+int vtkBoundaryDisplacement::FillOutputPortInformation(int, vtkInformation* info)
 {
-  this->SetInputConnection(1, output);
-}
-
-void vtkBoundaryDisplacement::SetSelectionData(vtkSelection* selection)
-{
-  this->SetInputDataObject(1, selection);
-}
-
-void vtkBoundaryDisplacement::SetTargetConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(2, output);
-}
-
-void vtkBoundaryDisplacement::SetTargetData(vtkDataObject* target)
-{
-  this->SetInputDataObject(2, target);
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
 }
 
 vtkPolyData* vtkBoundaryDisplacement::GetFittedTarget()
@@ -150,72 +135,6 @@ vtkDataArraySelection* vtkBoundaryDisplacement::GetPickedPatches()
   return picker.Names;
 }
 
-void vtkBoundaryDisplacement::SetRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->Region != region)
-  {
-    this->Internals->Region = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkBoundaryDisplacement::GetRegion()
-{
-  return this->Internals->Region;
-}
-
-void vtkBoundaryDisplacement::SetTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->Transform != transform)
-  {
-    this->Internals->Transform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkBoundaryDisplacement::GetTransform()
-{
-  return this->Internals->Transform;
-}
-
-void vtkBoundaryDisplacement::SetZoneSelectionConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(3, output);
-}
-
-void vtkBoundaryDisplacement::SetZoneSelectionData(vtkSelection* selection)
-{
-  this->SetInputDataObject(3, selection);
-}
-
-void vtkBoundaryDisplacement::SetZoneRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->ZoneRegion != region)
-  {
-    this->Internals->ZoneRegion = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkBoundaryDisplacement::GetZoneRegion()
-{
-  return this->Internals->ZoneRegion;
-}
-
-void vtkBoundaryDisplacement::SetRigidTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->RigidTransform != transform)
-  {
-    this->Internals->RigidTransform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkBoundaryDisplacement::GetRigidTransform()
-{
-  return this->Internals->RigidTransform;
-}
-
 vtkStringArray* vtkBoundaryDisplacement::GetPatchSizes()
 {
   return this->Internals->PatchSizes;
@@ -248,24 +167,7 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
   {
     time = std::max(time, timeOf(this->Internals->Region));
   }
-  if (this->ZoneRegionType != ZONE_NONE)
-  {
-    time = std::max(time, timeOf(this->Internals->ZoneRegion));
-  }
-  time = std::max(time, timeOf(this->Internals->RigidTransform));
   return time;
-}
-
-int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
-{
-  // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
-    port == 1 || port == 3 ? "vtkSelection" : "vtkDataObject");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 int vtkBoundaryDisplacement::RequestInformation(
@@ -306,6 +208,7 @@ int vtkBoundaryDisplacement::RequestData(
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* given = vtkDataObject::GetData(inputVector[2]);
   vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
+  vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
   filters::Monitor monitor(this, this->NumberOfThreads);
@@ -334,7 +237,8 @@ int vtkBoundaryDisplacement::RequestData(
     if (mesh.IsDistributed)
     {
       filters::Ranks::Together(check);
-      this->Internals->DisplaceOnRanks(this, input, selection, target, zone, output, monitor);
+      this->Internals->DisplaceOnRanks(
+        this, input, { selection, target, zone, control }, output, monitor);
       return;
     }
     check();
@@ -342,7 +246,8 @@ int vtkBoundaryDisplacement::RequestData(
     this->Internals->WholeOutput->Initialize();
     if (!mesh.IsElsewhere)
     {
-      this->Internals->Displace(this, input, selection, target, zone, output, monitor);
+      this->Internals->Displace(
+        this, input, { selection, target, zone, control }, output, monitor);
     }
   };
   const auto clear = [&]
@@ -371,54 +276,17 @@ void vtkBoundaryDisplacement::ResetResults()
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
   const auto list = [&](const char* name, const filters::NameSet::Names& values)
   { filters::NameSet::Print(os, indent, name, values); };
   os << indent << "Moving: " << this->Moving << "\n";
-  os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   list("Patches", this->Internals->Patches);
   list("HeldPatches", this->Internals->HeldPatches);
   list("SlidingPatches", this->Internals->SlidingPatches);
   list("FreePatches", this->Internals->FreePatches);
-  list("FrozenZones", this->Internals->FrozenZones);
-  list("RigidZones", this->Internals->RigidZones);
-  os << indent << "ZoneRegion: " << this->Internals->ZoneRegion.Get() << "\n";
-  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
-  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
-  os << indent << "RigidTransform: " << this->Internals->RigidTransform.Get() << "\n";
-  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
-  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
-  os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "Motion: " << this->Motion << "\n";
-  os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
-  os << indent << "Vector: " << this->Vector[0] << " " << this->Vector[1] << " " << this->Vector[2]
-     << "\n";
-  os << indent << "Distance: " << this->Distance << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  const auto triple = [&](const char* name, const double* v)
-  { os << indent << name << ": " << v[0] << " " << v[1] << " " << v[2] << "\n"; };
-  triple("Translation", this->Translation);
-  triple("Rotation", this->Rotation);
-  triple("Scale", this->Scale);
-  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
-  triple("Center", this->Center);
-  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
-  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
-  os << indent << "TargetReach: " << this->TargetReach << "\n";
-  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "Surroundings: " << this->Surroundings << "\n";
-  os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
   os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
   os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";
   os << indent << "HeldPoints: " << this->HeldPoints << "\n";
   os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
@@ -434,18 +302,3 @@ morphNameSetMacro(vtkBoundaryDisplacement, Patch, Patches);
 morphNameSetMacro(vtkBoundaryDisplacement, HeldPatch, HeldPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, SlidingPatch, SlidingPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, FreePatch, FreePatches);
-morphNameSetMacro(vtkBoundaryDisplacement, FrozenZone, FrozenZones);
-morphNameSetMacro(vtkBoundaryDisplacement, RigidZone, RigidZones);
-morphSetNumberMacro(vtkBoundaryDisplacement, Distance);
-morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor);
-morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange);
-morphSetNumberMacro(vtkBoundaryDisplacement, TargetReach, 0.0, 10.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, TargetAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0);
-morphSetVectorMacro(vtkBoundaryDisplacement, Vector);
-morphSetVectorMacro(vtkBoundaryDisplacement, Translation);
-morphSetVectorMacro(vtkBoundaryDisplacement, Rotation);
-morphSetVectorMacro(vtkBoundaryDisplacement, Scale);
-morphSetVectorMacro(vtkBoundaryDisplacement, Center);

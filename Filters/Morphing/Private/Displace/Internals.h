@@ -10,19 +10,18 @@
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
+#include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/FitToTarget.h"
 #include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/Picker.h"
+#include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/Surroundings.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 
-#include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
-#include <vtkExtractSelection.h>
-#include <vtkImplicitFunction.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -56,17 +55,13 @@ struct ChoiceKey
 };
 }
 
-struct vtkBoundaryDisplacement::vtkInternals
+struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShared
 {
-  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches, FrozenZones,
-    RigidZones;
+  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches;
   vtkNew<vtkDataArraySelection> PatchList;
   vtkNew<vtkStringArray> PatchSizes;
   vtkNew<vtkDoubleArray> PatchBounds;
   vtkIdType ListedVersion = -1; ///< of Model
-  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
-  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
 
   morph::filters::Blocks Blocks;
   const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
@@ -98,15 +93,21 @@ struct vtkBoundaryDisplacement::vtkInternals
   /// Finds the boundary and its geometry, and its patches' names.
   void Classify(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
-  /// `target`: of MOTION_TARGET, or null; `zone`: the selection of a zone, or null.
-  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, vtkSelection* zone, vtkPolyData* output, morph::filters::Monitor& monitor);
+  /// What the optional ports hold; each may be null.
+  struct Extras
+  {
+    vtkSelection* Selection;      ///< of what moves
+    vtkPolyData* Target;          ///< of MOTION_TARGET
+    vtkSelection* Zone;           ///< of a zone
+    vtkDataObject* ControlPoints; ///< of MOTION_HANDLES and MOTION_LATTICE
+  };
+  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    vtkPolyData* output, morph::filters::Monitor& monitor);
 
   /// Displace() for a mesh on several MPI processes: each gets the part of the displaced boundary
   /// that its cells have. Collective.
-  void DisplaceOnRanks(vtkBoundaryDisplacement* filter, vtkPointSet* input,
-    vtkSelection* selection, vtkPolyData* target, vtkSelection* zone, vtkPolyData* output,
-    morph::filters::Monitor& monitor);
+  void DisplaceOnRanks(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    vtkPolyData* output, morph::filters::Monitor& monitor);
 
 private:
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
@@ -115,5 +116,10 @@ private:
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
     vtkPolyData* target, morph::filters::Monitor& monitor);
+  /// The positions of what moves, by handles or by a lattice.
+  morph::Points ByControlPoints(const vtkBoundaryDisplacement* filter, vtkPointSet* input,
+    vtkSelection* selection, vtkDataObject* points, morph::filters::Monitor& monitor);
+  std::vector<morph::Handle> SelectedHandles(
+    const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection);
   void WriteDistances(const morph::filters::Surroundings::Result& result, vtkPolyData* output);
 };

@@ -88,20 +88,30 @@ void vtkMorphMesh::vtkInternals::TakeGrid(vtkUnstructuredGrid* grid)
   this->Displacement->SetInputDataObject(0, this->Rest);
 }
 
+vtkDataObject* vtkMorphMesh::vtkInternals::CopiedData::Update(vtkDataObject* given)
+{
+  const vtkMTimeType time = given ? given->GetMTime() : 0;
+  if (this->Given != given || this->Time != time)
+  {
+    this->Copy.TakeReference(given ? given->NewInstance() : nullptr);
+    if (given)
+    {
+      this->Copy->ShallowCopy(given);
+    }
+    this->Given = given;
+    this->Time = time;
+  }
+  return this->Copy;
+}
+
 void vtkMorphMesh::vtkInternals::TakeTarget(vtkDataObject* target)
 {
-  const vtkMTimeType time = target ? target->GetMTime() : 0;
-  if (this->GivenTarget != target || this->TargetTime != time)
-  {
-    this->Target.TakeReference(target ? target->NewInstance() : nullptr);
-    if (target)
-    {
-      this->Target->ShallowCopy(target);
-    }
-    this->GivenTarget = target;
-    this->TargetTime = time;
-  }
-  this->Displacement->SetTargetData(this->Target);
+  this->Displacement->SetTargetData(this->Target.Update(target));
+}
+
+void vtkMorphMesh::vtkInternals::TakeControlPoints(vtkDataObject* points)
+{
+  this->Displacement->SetControlPointsData(this->ControlPoints.Update(points));
 }
 
 void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
@@ -110,18 +120,23 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
   vtkBoundaryDisplacement* to = this->Displacement;
   const bool anySelection =
     filters::Ranks::Count(selection && selection->GetNumberOfNodes() > 0) > 0;
-  const bool byTarget = from->Displacement == DISPLACEMENT_TARGET && this->Target && !anySelection;
-  const bool nothing = from->Moving == MOVE_SURFACES
-                         ? this->Surfaces.empty() && !anySelection && !byTarget
-                         : from->Moving == MOVE_SELECTION && !anySelection;
-  const int moving[] = { this->Surfaces.empty() && !byTarget
-                           ? vtkBoundaryDisplacement::MOVE_SELECTION
-                           : vtkBoundaryDisplacement::MOVE_PATCHES,
-    vtkBoundaryDisplacement::MOVE_SELECTION, vtkBoundaryDisplacement::MOVE_REGION,
-    vtkBoundaryDisplacement::MOVE_EVERYTHING, vtkBoundaryDisplacement::MOVE_ARRAY };
-  to->SetMoving(nothing ? vtkBoundaryDisplacement::MOVE_NOTHING : moving[from->Moving]);
+  const bool hasHandles = from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles;
+  const bool selectionMoves = anySelection && !hasHandles;
+  const bool byTarget =
+    from->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
+  const bool byPoints =
+    from->Displacement == DISPLACEMENT_HANDLES || from->Displacement == DISPLACEMENT_LATTICE;
+  const int ofSurfaces = !this->Surfaces.empty() || byTarget
+                           ? vtkBoundaryDisplacement::MOVE_PATCHES
+                         : selectionMoves ? vtkBoundaryDisplacement::MOVE_SELECTION
+                         : byPoints       ? vtkBoundaryDisplacement::MOVE_EVERYTHING
+                                          : vtkBoundaryDisplacement::MOVE_NOTHING;
+  const int moving[] = { ofSurfaces,
+    anySelection ? vtkBoundaryDisplacement::MOVE_SELECTION : vtkBoundaryDisplacement::MOVE_NOTHING,
+    vtkBoundaryDisplacement::MOVE_REGION, vtkBoundaryDisplacement::MOVE_EVERYTHING,
+    vtkBoundaryDisplacement::MOVE_ARRAY };
+  to->SetMoving(moving[from->Moving]);
   to->SetSelectionData(anySelection ? selection : nullptr);
-  to->SetSelectionExtractor(this->Extractor);
   using Filter = vtkBoundaryDisplacement;
   pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
   pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
@@ -130,45 +145,12 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     &Filter::AddSlidingPatch);
   pass(this->FreeSurfaces, this->PassedFreeSurfaces, to, &Filter::RemoveAllFreePatches,
     &Filter::AddFreePatch);
-  pass(this->FrozenZones, this->PassedFrozenZones, to, &Filter::RemoveAllFrozenZones,
-    &Filter::AddFrozenZone);
-  pass(this->RigidZones, this->PassedRigidZones, to, &Filter::RemoveAllRigidZones,
-    &Filter::AddRigidZone);
-  const auto prescribed = [](int type) { return type == ZONE_SOFT ? ZONE_NONE : type; };
-  to->SetZoneRegion(this->ZoneRegion);
-  to->SetZoneRegionType(prescribed(from->ZoneRegionType));
+  to->CopyDisplacement(this->Filter);
   to->SetZoneSelectionData(this->Zone);
-  to->SetZoneSelectionType(prescribed(from->ZoneSelectionType));
-  to->SetRigidTransform(this->RigidTransform);
   to->Internals->OuterBlocks = this->Blocks.Merged();
-  to->SetKeepLayers(from->KeepLayers);
-  to->SetLayersArray(from->LayersArray);
-  to->SetRegion(this->Region);
-  to->SetMovingArray(from->MovingArray);
   to->SetMotion(from->Displacement);
-  to->SetTransform(this->Transform);
-  to->SetVector(from->Vector);
-  to->SetDistance(from->Distance);
-  to->SetDisplacementArray(from->DisplacementArray);
-  to->SetTranslation(from->Translation);
-  to->SetRotation(from->Rotation);
-  to->SetScale(from->Scale);
-  to->SetAutoCenter(from->AutoCenter);
-  to->SetCenter(from->Center);
-  to->SetRadiusChange(from->RadiusChange);
-  to->SetAlignTarget(from->AlignTarget);
-  to->SetTargetReach(from->TargetReach);
-  to->SetTargetAngle(from->TargetAngle);
-  to->SetScaleFactor(from->ScaleFactor);
-  to->SetSurroundings(from->Surroundings);
-  to->SetFalloffRadius(from->FalloffRadius);
-  to->SetFeatureAngle(from->FeatureAngle);
-  to->SetCornerAngle(from->CornerAngle);
-  to->SetSurfaceIdArray(from->SurfaceIdArray);
-  to->SetUseGeometryArrays(from->UseGeometryArrays);
   // The boundary in the precision of the computation: the output alone is rounded.
   to->SetOutputPointsPrecision(DOUBLE_PRECISION);
-  to->SetNumberOfThreads(from->NumberOfThreads);
 }
 
 vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
@@ -285,8 +267,10 @@ void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
 
 vtkSelection* vtkMorphMesh::vtkInternals::OfGrid(vtkSelection* selection)
 {
-  const bool isUsed = this->Filter->Moving == MOVE_SELECTION ||
-                      (this->Filter->Moving == MOVE_SURFACES && this->Surfaces.empty());
+  const vtkMorphMesh* from = this->Filter;
+  const bool isUsed = from->Moving == MOVE_SELECTION ||
+                      (from->Moving == MOVE_SURFACES && this->Surfaces.empty()) ||
+                      (from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles);
   return isUsed || !this->Blocks.Merged()
            ? this->Selected.OfGrid(this->Blocks, selection, this->Extractor)
            : nullptr;

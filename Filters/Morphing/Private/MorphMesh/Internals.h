@@ -9,6 +9,7 @@
 #include "Private/Displace/BlockPick.h"
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/Picker.h"
+#include "Private/Displace/SharedProperties.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Time.h"
 #include "Private/Project/TargetDistance.h"
@@ -16,9 +17,6 @@
 #include "vtkBoundaryDisplacement.h"
 #include "vtkMorphAlgorithm.h"
 
-#include <vtkAbstractTransform.h>
-#include <vtkExtractSelection.h>
-#include <vtkImplicitFunction.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -28,14 +26,11 @@
 
 class vtkPolyData;
 
-class vtkMorphMesh::vtkInternals
+class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
 {
 public:
   morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces,
-    FrozenZones, RigidZones, SoftZones;
-  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
-  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
+    SoftZones;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
@@ -52,8 +47,10 @@ public:
 
   /// Gives the filters inside the mesh, unless they have it.
   void TakeGrid(vtkUnstructuredGrid* grid);
-  /// Gives the filter inside the target, a copy for its pipeline; null for none.
+  /// Give the filter inside the target or the control points, copies for its pipeline; null for
+  /// none.
   void TakeTarget(vtkDataObject* target);
+  void TakeControlPoints(vtkDataObject* points);
   /// Keeps the selection of a zone, as one of the grid; null for none.
   void TakeZone(vtkSelection* selection);
   /// Lists the surfaces of the mesh, if it is one.
@@ -77,12 +74,19 @@ private:
   vtkNew<vtkUnstructuredGrid> Rest;
   const vtkUnstructuredGrid* Input = nullptr; ///< that Rest was made from; compared, never used
   vtkMTimeType InputTime = 0;
-  vtkSmartPointer<vtkDataObject> Target;      ///< a copy of the one on port 2, or null
-  const vtkDataObject* GivenTarget = nullptr; ///< compared, never used
-  vtkMTimeType TargetTime = 0;
+  /// Data of an optional port, as a copy, which is the same object while they stay the same.
+  struct CopiedData
+  {
+    vtkSmartPointer<vtkDataObject> Copy;
+    const vtkDataObject* Given = nullptr; ///< compared, never used
+    vtkMTimeType Time = 0;
+
+    vtkDataObject* Update(vtkDataObject* given);
+  };
+  CopiedData Target, ControlPoints;
   morph::filters::BlockSelection Selected;
   morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
-    PassedFreeSurfaces, PassedFrozenZones, PassedRigidZones;
+    PassedFreeSurfaces;
   morph::filters::BlockSelection ZoneSelected;
   vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
