@@ -10,10 +10,15 @@
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
 #include <vtkClassifyBoundary.h>
+#include <vtkCompareMorphMethods.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkFEMWarpMorph.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMorphBoundary.h>
+#include <vtkMorphMesh.h>
+#include <vtkMorphShapes.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -498,4 +503,49 @@ TEST(RankBoundary, MorphBoundaryTakesCopiesAndPositionsAndNamesUnknownIds)
   {
     EXPECT_NE(listener.Errors.front().find("12345"), std::string::npos);
   }
+}
+
+TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
+{
+  const Ranks ranks = pieces::world();
+  if (ranks.count() < 2)
+  {
+    GTEST_SKIP() << "needs several ranks";
+  }
+  const auto expect = [&](vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* boundary,
+                        const std::string& message)
+  {
+    SCOPED_TRACE(message);
+    filter->SetInputDataObject(0, input);
+    if (boundary)
+    {
+      filter->SetInputDataObject(1, boundary);
+    }
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
+    for (const std::string& error : listener.Errors)
+    {
+      EXPECT_NE(error.find(message), std::string::npos) << error;
+    }
+  };
+  const auto piece = rank_grids::piece(ranks, meshes::hexes(4, 3, 3));
+  const auto moved = grids::boundary(piece, grids::affine);
+  expect(vtkNew<vtkCompareMorphMethods>(), piece, moved, "vtkCompareMorphMethods needs");
+  expect(vtkNew<vtkMorphShapes>(), piece, moved, "vtkMorphShapes needs it on one");
+  expect(vtkNew<vtkBoundaryDisplacement>(), moved, nullptr, "takes the volume mesh there");
+
+  const auto polyhedra = rank_grids::piece(ranks, meshes::honeycomb(3));
+  expect(vtkNew<vtkFEMWarpMorph>(), polyhedra, grids::boundary(polyhedra, grids::affine),
+    "vtkFEMWarpMorph of a mesh with polyhedra needs one MPI rank");
+
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, piece);
+  const std::string composite = "Composite data on several MPI ranks: ";
+  expect(vtkNew<vtkFEMWarpMorph>(), blocks, moved, composite + "vtkFEMWarpMorph");
+  expect(vtkNew<vtkMorphBoundary>(), blocks, moved, composite + "vtkMorphBoundary");
+  expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");
+  expect(
+    vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
+  expect(vtkNew<vtkClassifyBoundary>(), blocks, nullptr, composite + "vtkClassifyBoundary");
 }
