@@ -184,8 +184,7 @@ TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
       "Number" };
     for (const char* array : arrays)
     {
-      expectSameRows(
-        output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
+      expectSameRows(output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
     }
     expectSameSurface(ranks, filter->GetSurfaces(), serial->GetSurfaces(), arrays,
       { "GeometryId", "MorphCellId", "Cell" });
@@ -545,7 +544,6 @@ TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
   expect(vtkNew<vtkFEMWarpMorph>(), blocks, moved, composite + "vtkFEMWarpMorph");
   expect(vtkNew<vtkMorphBoundary>(), blocks, moved, composite + "vtkMorphBoundary");
   expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");
-  expect(
-    vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
+  expect(vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
   expect(vtkNew<vtkClassifyBoundary>(), blocks, nullptr, composite + "vtkClassifyBoundary");
 }

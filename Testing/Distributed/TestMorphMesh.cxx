@@ -12,11 +12,11 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkMorphMesh.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-#include <vtkMorphMesh.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
@@ -80,8 +80,7 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         filter->SetDisplacementToVector();
         filter->SetVector(0.1, 0, 0.2);
       } },
-    { "target",
-      [&](vtkMorphMesh* filter)
+    { "target", [&](vtkMorphMesh* filter)
       {
         filter->AddSurface("Surface 0");
         filter->SetDisplacementToTarget();
@@ -89,9 +88,9 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         filter->SetTargetReach(1);
         filter->SetTargetAngle(180);
       } } };
-  for (auto& [name, mesh] : { std::pair("hexes", meshes::hexes(5, 4, 3)),
-         std::pair("tets", meshes::tets(4, 3, 3)),
-         std::pair("quadratic", meshes::quadraticTets(3, 2, 2)) })
+  for (auto& [name, mesh] :
+    { std::pair("hexes", meshes::hexes(5, 4, 3)), std::pair("tets", meshes::tets(4, 3, 3)),
+      std::pair("quadratic", meshes::quadraticTets(3, 2, 2)) })
   {
     for (const auto& [what, configure] : cases)
     {
@@ -124,7 +123,8 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         EXPECT_GT(serial->GetMaxTargetDistanceBefore(), 0);
         EXPECT_NEAR(
           filter->GetMaxTargetDistanceBefore(), serial->GetMaxTargetDistanceBefore(), 1e-8);
-        EXPECT_NEAR(filter->GetMeanTargetDistanceBefore(), serial->GetMeanTargetDistanceBefore(), 1e-8);
+        EXPECT_NEAR(
+          filter->GetMeanTargetDistanceBefore(), serial->GetMeanTargetDistanceBefore(), 1e-8);
         EXPECT_NEAR(filter->GetMaxTargetDistance(), serial->GetMaxTargetDistance(), 1e-8);
         EXPECT_NEAR(filter->GetMeanTargetDistance(), serial->GetMeanTargetDistance(), 1e-8);
       }

@@ -40,7 +40,8 @@ class WindowOnRanks(unittest.TestCase):
             serial.UpdatePipeline()
             self.assertEqual(serial.MorphStatus, "Valid")
             names = sorted(serial.GetProperty("Surfaces").GetAvailable())
-            path = write_pieces(str(folder), "pieces", points, cells, VTK_HEXAHEDRON, owner, 2, True)
+            path = write_pieces(
+                str(folder), "pieces", points, cells, VTK_HEXAHEDRON, owner, 2, True)
 
             server, port = ranks.start_server(ranks.command(2, "pvserver"))
             self.addCleanup(server.wait, 60)
