@@ -3,6 +3,7 @@
 #include "Meshes.h"
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "RankGrids.h"
 #include "RankParts.h"
 #include "TestGrids.h"
@@ -30,6 +31,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <map>
 #include <set>
 
@@ -546,4 +548,32 @@ TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
   expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");
   expect(vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
   expect(vtkNew<vtkClassifyBoundary>(), blocks, nullptr, composite + "vtkClassifyBoundary");
+}
+
+TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
+{
+  const Ranks ranks = pieces::world();
+  morph::Monitor monitor;
+  const auto bytes = [&](int n)
+  {
+    const auto grid = rank_grids::piece(ranks, meshes::hexes(n, n, n));
+    for (vtkDataSetAttributes* data :
+      { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+        static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
+    {
+      data->RemoveArray("Number");
+      data->RemoveArray("Cell");
+    }
+    morph::filters::WholeSurface surface;
+    surface.Take(grid, monitor);
+    const int boundary = (n + 1) * (n + 1) * (n + 1) - (n - 1) * (n - 1) * (n - 1);
+    return static_cast<double>(surface.Bytes()) / boundary;
+  };
+  const double small = bytes(8), large = bytes(16);
+  if (ranks.rank() == 0)
+  {
+    std::cout << "bytes a boundary node: " << small << ", " << large << '\n';
+  }
+  EXPECT_LT(large, 1.2 * small);
+  EXPECT_LT(large, 400);
 }

@@ -276,3 +276,30 @@ TEST(RankMorphMesh, AnAbortOnOneRankEndsAllWithoutAMessage)
   EXPECT_TRUE(listener.Errors.empty());
   EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
 }
+
+TEST(RankMorphMesh, MovesAMeshThatOneRankHas)
+{
+  const Ranks ranks = pieces::world();
+  const auto whole = grids::make(meshes::hexes(5, 4, 3));
+  vtkNew<vtkMorphMesh> serial, filter;
+  turnAndShift(serial);
+  serial->SetInputData(whole);
+  rank_grids::alone([&] { serial->Update(); });
+  turnAndShift(filter);
+  vtkNew<vtkUnstructuredGrid> none;
+  filter->SetInputData(ranks.rank() == 0 ? whole.Get() : none.Get());
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
+  if (ranks.rank() == 0)
+  {
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+    EXPECT_EQ(grids::points(output),
+      grids::points(vtkUnstructuredGrid::SafeDownCast(serial->GetOutputDataObject(0))));
+  }
+  else
+  {
+    EXPECT_EQ(output->GetNumberOfPoints(), 0);
+  }
+}

@@ -58,7 +58,7 @@ class WindowOnRanks(unittest.TestCase):
             events.set(BOX + "translateZ", "set_string", UP)
             events.apply()
             for number in NUMBERS:
-                events.expect(f"{PANEL}{number}/DoubleLineEdit0", str(getattr(serial, number)))
+                events.expect(f"{PANEL}{number}/DoubleLineEdit0", f"{getattr(serial, number):.0f}")
             # The middle button drags the box as a whole; the mesh follows while it is dragged.
             events.do(VIEW, "mousePress", "(0.5,0.5,4,4,0)")
             for step in range(1, 5):
