@@ -145,26 +145,42 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
   const Ranks ranks = pieces::world();
   std::vector<std::pair<std::string, morph::Mesh>> all = meshes::all(6, 5, 4);
   all.emplace_back("layers", meshes::layered(meshes::hexes, 6, 0.05, 1.3));
+  all.emplace_back("fine", meshes::hexes(16, 16, 16)); // its patches are parts of it
   for (auto& [name, whole] : all)
   {
-    meshes::jitterInterior(whole, name == "layers" ? 0 : 0.1, meshes::seed());
+    // Jittered quadratic cells are inverted inside.
+    const bool isLinear = whole.types[0] == morph::Hexahedron || whole.types[0] == morph::Tetra ||
+                          whole.types[0] == morph::Wedge;
+    meshes::jitterInterior(whole, isLinear && name != "layers" ? 0.1 : 0, meshes::seed());
     const double height = whole.points.col(2).maxCoeff();
-    const auto bulge = [&](const grids::Row& x)
+    const double length = whole.points.col(0).maxCoeff(), deep = isLinear ? 0.5 : 0.3;
+    grids::Map motion = [&](const grids::Row& x)
     {
-      const double wave = std::sin(x[0] / whole.points.col(0).maxCoeff() * M_PI);
-      return grids::Row(x[0] + 0.3 * height * wave, x[1], x[2] * (1 - 0.5 * wave * wave));
+      const double wave = std::sin(x[0] / length * M_PI);
+      return grids::Row(x[0] + 0.6 * deep * height * wave, x[1], x[2] * (1 - deep * wave * wave));
     };
+    if (name == "fine")
+    {
+      motion = [](const grids::Row& x)
+      {
+        const double r = std::hypot(x[0] - 8, x[1] - 8), dent = std::cos(r / 4 * M_PI / 2);
+        return grids::Row(x[0], x[1], x[2] == 0 && r < 4 ? 3.5 * dent * dent : x[2]);
+      };
+    }
     const auto run = [&](vtkUnstructuredGrid* grid)
     {
       vtkNew<vtkInversionFreeMorph> filter;
       filter->SetInputData(grid);
-      filter->SetBoundaryData(grids::boundary(grid, bulge));
+      filter->SetBoundaryData(grids::boundary(grid, motion));
       filter->Update();
-      return std::pair(std::string(filter->GetMorphStatus()), filter->GetMinScaledJacobian());
+      return std::pair(
+        std::string(filter->GetMorphStatus()) + " " + std::to_string(filter->GetInvertedCells()),
+        filter->GetMinScaledJacobian());
     };
     std::pair<std::string, double> serial;
     rank_grids::alone([&] { serial = run(grids::make(whole)); });
     const auto mine = run(rank_grids::piece(ranks, whole));
+    EXPECT_EQ(serial.first, "Valid 0") << name;
     EXPECT_EQ(mine.first, serial.first) << name;
     EXPECT_GT(mine.second, 0.99 * serial.second) << name;
     if (ranks.rank() == 0)

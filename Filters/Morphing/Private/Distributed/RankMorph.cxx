@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/InversionFree.h"
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
+#include "Distributed/Patches.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
@@ -242,6 +244,15 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
   const auto start = Clock::now();
   const morph::EvaluateReport report = method.evaluate(match.Targets, result.Moved, evaluating);
+  const bool isInversionFree = dynamic_cast<const morph::distributed::InversionFree*>(&method);
+  const morph::Index followers =
+    ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
+  if (isInversionFree && followers > 0)
+  {
+    // The method has moved the corners; nodes between them have followed.
+    morph::distributed::repairInverted(
+      whole, this->Mesh.Whole().mesh().points, partition, result.Moved, evaluating);
+  }
   double seconds = secondsSince(start);
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
   ranks.together(
