@@ -311,6 +311,34 @@ TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
   }
 }
 
+TEST(InversionFree, ABoundaryWithoutAMeshIsGivenUpSoon)
+{
+  // Half a turn folds the inner side; with less a mesh exists, and steep waves invert cells of both
+  // linear meshes.
+  const Mesh mesh = meshes::hexes(24, 8, 8);
+  const auto bent = [&](double degrees, double height)
+  {
+    const double angle = degrees * M_PI / 180, radius = 24 / angle;
+    const Points boundary = target(mesh,
+      [&](const motions::Row& x) -> motions::Row
+      {
+        const double phi = angle * x[0] / 24, r = radius - x[1];
+        return { r * std::sin(phi), radius - r * std::cos(phi),
+          x[2] + height * std::sin(M_PI / 2 * x[0]) };
+      });
+    InversionFree method;
+    return run(method, mesh, boundary);
+  };
+  const Morphed valid = bent(150, 3), folded = bent(180, 0);
+  EXPECT_EQ(valid.inverted, 0);
+  EXPECT_GT(count(valid.report, "NewtonSteps"), 20);
+  EXPECT_GT(folded.inverted, 0);
+  EXPECT_EQ(count(folded.report, "Untangled"), 0);
+  EXPECT_GT(count(folded.report, "NewtonSteps"), 0);
+  EXPECT_LE(count(folded.report, "NewtonSteps"), 2 * count(valid.report, "NewtonSteps"));
+  EXPECT_LE(count(folded.report, "LinearIterations"), 2 * count(valid.report, "LinearIterations"));
+}
+
 TEST(InversionFree, RelativeRunsKeepTheirReference)
 {
   // Out along the waves and back: the reference's shapes bring the mesh home.

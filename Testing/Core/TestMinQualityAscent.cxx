@@ -62,20 +62,23 @@ TEST(MinQualityAscent, OnePlaceAtItsBoundDoesNotStopTheOthers)
   meshes::ThreadedMonitor one(1), three(3);
   Points points = mesh.points;
   const double bound = quality.bounds(points).movable;
-  morph::raiseMinimumQuality(quality, bound, points, one);
+  const morph::AscentEffort first = morph::raiseMinimumQuality(quality, bound, points, one);
   const MovableQuality::Result floor = quality.measure(points, one);
   ASSERT_TRUE(morph::hasReached(floor.minimum, bound)) << floor.minimum << " of " << bound;
   const double before = minimumElsewhere(mesh, floor);
   ASSERT_GT(before, 3 * floor.minimum);
 
   Points again = points;
-  EXPECT_GT(morph::raiseNextWorst(quality, points, one), 0);
+  const morph::AscentEffort effort = morph::raiseNextWorst(quality, first, points, one);
+  EXPECT_GT(effort.rounds, 0);
+  EXPECT_LE(effort.cellEvaluations,
+    std::max(0.3 * first.cellEvaluations, 20. * static_cast<double>(mesh.numberOfCells())) * 1.1);
   const MovableQuality::Result raised = quality.measure(points, one);
   EXPECT_GE(raised.minimum, floor.minimum);
   EXPECT_GT(minimumElsewhere(mesh, raised), 1.2 * before);
   EXPECT_EQ(
     meshes::rows(points, partition.prescribed), meshes::rows(mesh.points, partition.prescribed));
-  morph::raiseNextWorst(quality, again, three);
+  morph::raiseNextWorst(quality, first, again, three);
   EXPECT_TRUE(motions::identical(points, again));
 }
 
@@ -90,6 +93,6 @@ TEST(MinQualityAscent, AMeshWithManyCellsAtItsMinimumStays)
   const MovableQuality quality(sheared, orientation, partition.free);
   meshes::ThreadedMonitor monitor;
   Points points = sheared.points;
-  EXPECT_EQ(morph::raiseNextWorst(quality, points, monitor), 0);
+  EXPECT_EQ(morph::raiseNextWorst(quality, {}, points, monitor).rounds, 0);
   EXPECT_EQ(points, sheared.points);
 }

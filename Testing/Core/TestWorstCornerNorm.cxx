@@ -39,7 +39,7 @@ int raise(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, morph::Monitor& monitor, double goal = 1)
 {
   const morph::MovableQuality quality(mesh, orientation, free);
-  return morph::raiseMinimumQuality(quality, goal, points, monitor);
+  return morph::raiseMinimumQuality(quality, goal, points, monitor).rounds;
 }
 }
 

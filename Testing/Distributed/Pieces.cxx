@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -45,6 +46,20 @@ morph::distributed::Piece pieceOf(const morph::Mesh& mesh, const std::vector<int
         piece.nodeIds.push_back(node);
       }
       piece.mesh.connectivity.push_back(local[node]);
+    }
+    if (morph::hasPolyhedra(mesh))
+    {
+      piece.mesh.faceOffsets.resize(piece.mesh.types.size() + 1, 0);
+      morph::forEachFace(mesh, c,
+        [&](const morph::Index* nodes, morph::Index size)
+        {
+          piece.mesh.faces.push_back(size);
+          for (morph::Index k = 0; k < size; ++k)
+          {
+            piece.mesh.faces.push_back(local[nodes[k]]);
+          }
+        });
+      piece.mesh.faceOffsets.push_back(static_cast<morph::Index>(piece.mesh.faces.size()));
     }
     piece.mesh.types.push_back(mesh.types[c]);
     piece.mesh.offsets.push_back(static_cast<morph::Index>(piece.mesh.connectivity.size()));

@@ -43,8 +43,6 @@ public:
 
 private:
   void openMatrix(BlockCsr3f& matrix, Monitor& monitor) const;
-  void gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
-    BlockCsr3f& result, Monitor& monitor) const;
 
   PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;

@@ -15,8 +15,9 @@ using namespace foldover;
 
 constexpr Index Grain = 64;     // batches
 constexpr Index RowGrain = 256; // rows
-// between two checks whether it is cancelled
-constexpr Index BatchesToCheck = 4096, RowsToCheck = 16384;
+// Their blocks stay in cache, and between two pieces it checks whether it is cancelled.
+constexpr Index BatchesInPiece = 1024;
+constexpr Index RowsToCheck = 16384;
 constexpr double Largest = 1e20; // of an entry: its square is still a float
 
 /// Returns the number of the block of corners a <= b in the upper triangle of a cell with `n`
@@ -74,12 +75,12 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
 }
 
 /// Computes the second derivatives of a batch's tetrahedra by pairs of corners a <= b of the cell.
-/// Single precision, in the order cell, block, column, row.
+/// Single precision, in the order cell, block, column, row. `begin`: the batch of start[0].
 struct BatchHessian
 {
   static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
-    const FoldoverDensity& density, const Points& points, const std::vector<Index>& start,
-    std::vector<float>& out)
+    const FoldoverDensity& density, const Points& points, Index begin,
+    const std::vector<Index>& start, std::vector<float>& out)
   {
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
@@ -106,7 +107,7 @@ struct BatchHessian
         }
       }
     }
-    separateCells(entries, 9 * blocksOf(n), out.data() + start[batch]);
+    separateCells(entries, 9 * blocksOf(n), out.data() + start[batch - begin]);
   }
 
 private:
@@ -180,9 +181,18 @@ private:
 
 void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
 {
+  const auto rows = static_cast<Index>(this->free_.size());
   BlockPattern pattern;
+  pattern.offsets.reserve(rows + 1);
+  pattern.placeOffsets.reserve(rows + 1);
+  Index places = 0;
+  for (const Index use : this->batches_.uses().values)
+  {
+    places += this->batches_.corners(this->batches_.batchOf(use));
+  }
+  pattern.places.reserve(places);
   std::vector<std::int32_t> row, found;
-  for (Index i = 0; i < static_cast<Index>(this->free_.size()); ++i)
+  for (Index i = 0; i < rows; ++i)
   {
     if (i % RowsToCheck == 0)
     {
@@ -213,7 +223,93 @@ void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
     pattern.offsets.push_back(static_cast<Index>(pattern.columns.size()));
     pattern.placeOffsets.push_back(static_cast<Index>(pattern.places.size()));
   }
+  pattern.columns.shrink_to_fit();
   matrix.open(this->pattern_, std::move(pattern));
+}
+
+namespace
+{
+/// Adds the blocks of a piece of the batches to the rows of the matrix. A row adds its blocks in the
+/// order of the cells, whatever the pieces.
+class BlockGatherer
+{
+public:
+  BlockGatherer(const CellBatches& batches, BlockCsr3f& matrix)
+    : batches_(batches)
+    , matrix_(matrix)
+    , used_(matrix.rows(), { 0, 0 })
+  {
+  }
+
+  /// `blocks`: of the batches in [begin, end), each at its entry of `start`.
+  void add(Index begin, Index end, const std::vector<float>& blocks,
+    const std::vector<Index>& start, Monitor& monitor)
+  {
+    const Index firstPlace = this->batches_.firstPlace(begin),
+                endPlace = end < this->batches_.size() ? this->batches_.firstPlace(end)
+                                                       : this->batches_.places();
+    std::int32_t low = static_cast<std::int32_t>(this->matrix_.rows()), high = -1;
+    for (Index place = firstPlace; place < endPlace; ++place)
+    {
+      const std::int32_t row = this->batches_.row(place);
+      low = row >= 0 ? std::min(low, row) : low;
+      high = std::max(high, row);
+    }
+    monitor.parallelFor(std::max<Index>(0, high + 1 - low), RowGrain,
+      [&](Index first, Index last)
+      {
+        for (Index row = low + first; row < low + last; ++row)
+        {
+          this->addToRow(row, begin, endPlace, blocks, start);
+        }
+      });
+  }
+
+private:
+  struct Used
+  {
+    std::int32_t uses, places; ///< of the row, added before
+  };
+
+  void addToRow(Index row, Index begin, Index endPlace, const std::vector<float>& blocks,
+    const std::vector<Index>& start)
+  {
+    const Adjacency& uses = this->batches_.uses();
+    Used& used = this->used_[row];
+    const Index *firstUse = uses.begin(row) + used.uses, *use = firstUse;
+    const std::int32_t *firstPlace = this->matrix_.places(row) + used.places, *place = firstPlace;
+    float* out = this->matrix_.blocks(row);
+    for (; use != uses.end(row) && *use < endPlace; ++use)
+    {
+      const Index batch = this->batches_.batchOf(*use), first = this->batches_.firstPlace(batch);
+      const int n = this->batches_.corners(batch);
+      const Index own = (*use - first) / SimdWidth, lane = (*use - first) % SimdWidth;
+      const float* cell = blocks.data() + start[batch - begin] + lane * 9 * blocksOf(n);
+      for (Index other = 0; other < n; ++other, ++place)
+      {
+        if (*place < 0)
+        {
+          continue;
+        }
+        float* block = out + 9 * static_cast<Index>(*place);
+        const float* in = cell + 9 * blockOf(std::min(own, other), std::max(own, other), n);
+        for (Index j = 0; j < 3; ++j)
+        {
+          for (Index i = 0; i < 3; ++i)
+          {
+            block[3 * j + i] += in[own <= other ? 3 * j + i : 3 * i + j];
+          }
+        }
+      }
+    }
+    used.uses += static_cast<std::int32_t>(use - firstUse);
+    used.places += static_cast<std::int32_t>(place - firstPlace);
+  }
+
+  const CellBatches& batches_;
+  BlockCsr3f& matrix_;
+  std::vector<Used> used_; ///< #rows
+};
 }
 
 void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const
@@ -222,66 +318,27 @@ void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
   {
     this->openMatrix(result, monitor);
   }
-  // First the blocks of each batch; then each row gathers its blocks in the order of the cells.
-  std::vector<Index> start(this->batches_.size() + 1, 0);
-  for (Index batch = 0; batch < this->batches_.size(); ++batch)
-  {
-    start[batch + 1] = start[batch] + 9 * SimdWidth * blocksOf(this->batches_.corners(batch));
-  }
-  std::vector<float>& blocks = result.scratch();
-  blocks.resize(start.back());
-  // Pieces end within tenths of a second; between them it checks whether it is cancelled.
-  for (Index begin = 0; begin < this->batches_.size(); begin += BatchesToCheck)
+  result.setZero();
+  BlockGatherer gatherer(this->batches_, result);
+  std::vector<Index> start(BatchesInPiece + 1, 0);
+  std::vector<float> blocks;
+  for (Index begin = 0; begin < this->batches_.size(); begin += BatchesInPiece)
   {
     monitor.check();
-    monitor.parallelFor(std::min(BatchesToCheck, this->batches_.size() - begin), Grain,
+    const Index end = std::min(begin + BatchesInPiece, this->batches_.size());
+    for (Index batch = begin; batch < end; ++batch)
+    {
+      start[batch - begin + 1] =
+        start[batch - begin] + 9 * SimdWidth * blocksOf(this->batches_.corners(batch));
+    }
+    blocks.resize(std::max<std::size_t>(blocks.size(), start[end - begin]));
+    monitor.parallelFor(end - begin, Grain,
       [&](Index first, Index last)
       {
-        dispatchedFor<BatchHessian>(
-          begin + first, begin + last, this->batches_, this->density_, points, start, blocks);
+        dispatchedFor<BatchHessian>(begin + first, begin + last, this->batches_, this->density_,
+          points, begin, start, blocks);
       });
+    gatherer.add(begin, end, blocks, start, monitor);
   }
-  monitor.check();
-  this->gatherBlocks(blocks, start, result, monitor);
-}
-
-void MeshEnergy::gatherBlocks(const std::vector<float>& blocks, const std::vector<Index>& start,
-  BlockCsr3f& result, Monitor& monitor) const
-{
-  monitor.parallelFor(result.rows(), RowGrain,
-    [&](Index firstRow, Index lastRow)
-    {
-      for (Index row = firstRow; row < lastRow; ++row)
-      {
-        float* out = result.blocks(row);
-        std::fill(out, result.blocks(row + 1), 0.f);
-        const std::int32_t* place = result.places(row);
-        for (const Index* use = this->batches_.uses().begin(row);
-             use != this->batches_.uses().end(row); ++use)
-        {
-          const Index batch = this->batches_.batchOf(*use),
-                      first = this->batches_.firstPlace(batch);
-          const int n = this->batches_.corners(batch);
-          const Index own = (*use - first) / SimdWidth, lane = (*use - first) % SimdWidth;
-          const float* cell = blocks.data() + start[batch] + lane * 9 * blocksOf(n);
-          for (Index other = 0; other < n; ++other, ++place)
-          {
-            if (*place < 0)
-            {
-              continue;
-            }
-            float* block = out + 9 * static_cast<Index>(*place);
-            const float* in = cell + 9 * blockOf(std::min(own, other), std::max(own, other), n);
-            for (Index j = 0; j < 3; ++j)
-            {
-              for (Index i = 0; i < 3; ++i)
-              {
-                block[3 * j + i] += in[own <= other ? 3 * j + i : 3 * i + j];
-              }
-            }
-          }
-        }
-      }
-    });
 }
 }

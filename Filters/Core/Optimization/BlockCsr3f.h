@@ -4,6 +4,7 @@
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -68,8 +69,7 @@ public:
     return this->values_.data() + 9 * this->pattern_.offsets[row];
   }
 
-  /// Memory of the owner, kept between two fillings of the matrix.
-  std::vector<float>& scratch() { return this->scratch_; }
+  void setZero() { std::fill(this->values_.begin(), this->values_.end(), 0.f); }
 
   void multiply(const Points& x, Points& y, Monitor& monitor) const;
 
@@ -82,7 +82,6 @@ public:
 private:
   std::uint64_t id_ = 0; ///< 0: no pattern
   BlockPattern pattern_;
-  std::vector<float> scratch_;
   std::vector<float> values_; ///< Padding more follow, for reads of four numbers instead of three
 };
 }

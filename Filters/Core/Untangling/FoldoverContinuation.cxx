@@ -2,6 +2,7 @@
 #include "Untangling/FoldoverContinuation.h"
 
 #include <algorithm>
+
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,11 @@ constexpr int MostSteps = 30;
 constexpr int RegularisedSteps = 4; // more are wasted, as the next regularisation changes the mesh
 constexpr int StepsOfBfgs = 20;     // equivalent to one Newton step
 constexpr double Settled = 1e-5;
-constexpr int Patience = 10;       // stages without progress before untangling gives up
+constexpr int MostPolishing = 2; // stages of a valid mesh
+constexpr int Patience = 10;     // stages without progress before untangling gives up
+// As many that have not lowered their energy by Moving either: the mesh has come to rest.
+constexpr int PatienceAtRest = 3;
+constexpr double Moving = 0.01;
 constexpr double Gain = 0.05;      // increase of the minimum determinant that is progress
 constexpr double LeastRatio = 0.3; // minimum ratio of successive regularisations
 
@@ -41,7 +46,9 @@ public:
     {
       return Valid;
     }
-    this->idle_ = least > this->best_ + Gain * std::abs(this->best_) ? 0 : this->idle_ + 1;
+    // Near 0 it is the regularisation that a gain has to be seen beside.
+    const double gain = Gain * std::max(std::abs(this->best_), epsilon);
+    this->idle_ = least > this->best_ + gain ? 0 : this->idle_ + 1;
     this->best_ = std::max(this->best_, least);
     this->careful_ = this->careful_ || this->idle_ >= 3;
     if (!this->careful_)
@@ -72,21 +79,22 @@ public:
   {
   }
 
-  /// Call it after each stage.
-  bool gaveUp(const MeshEnergy::State& state)
+  /// Call it after each stage. `decrease`: of the stage's energy, relative.
+  bool gaveUp(const MeshEnergy::State& state, double decrease)
   {
     const bool isProgress = state.minimumDeterminant > 0 || state.inverted < this->inverted_ ||
                             state.minimumDeterminant > this->least_ + Gain * std::abs(this->least_);
     this->idle_ = isProgress ? 0 : this->idle_ + 1;
+    this->atRest_ = isProgress || decrease > Moving ? 0 : this->atRest_ + 1;
     this->inverted_ = std::min(this->inverted_, state.inverted);
     this->least_ = std::max(this->least_, state.minimumDeterminant);
-    return this->idle_ >= Patience;
+    return this->idle_ >= Patience || this->atRest_ >= PatienceAtRest;
   }
 
 private:
   Index inverted_;
   double least_;
-  int idle_ = 0;
+  int idle_ = 0, atRest_ = 0;
 };
 }
 
@@ -134,6 +142,7 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
   double epsilon = regularisation.first(state.minimumDeterminant);
   double settled = std::numeric_limits<double>::infinity();
   Stagnation stagnation(state);
+  int polishing = 0;
   for (int stage = 0; stage < stages; ++stage)
   {
     monitor.progress(1 - std::pow(0.8, stage));
@@ -146,18 +155,20 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
     }
     if (epsilon <= Valid)
     {
-      if (std::abs(settled - state.energy) < Settled * state.energy ||
+      if (++polishing >= MostPolishing ||
+          std::abs(settled - state.energy) < Settled * state.energy ||
           std::abs(start - state.energy) < Settled * state.energy)
       {
         break;
       }
       settled = state.energy;
     }
-    if (stagnation.gaveUp(state))
+    const double decrease = 1 - state.energy / start;
+    if (stagnation.gaveUp(state, decrease))
     {
       break;
     }
-    epsilon = regularisation.next(state.minimumDeterminant, 1 - state.energy / start, epsilon);
+    epsilon = regularisation.next(state.minimumDeterminant, decrease, epsilon);
   }
   return state.minimumDeterminant > 0;
 }

@@ -181,12 +181,13 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
   const bool isTangled = best <= 0;
-  const TargetMatrices targets = this->targets(aim, isTangled, monitor);
   monitor.check();
   ProgressRange untangle(monitor, 0.1, 0.7);
-  const Untangling::Result untangling = Untangling(
-    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                                          .run(targets, energy, stages, points, untangle);
+  const Untangling::Result untangling =
+    Untangling(
+      this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
+      .run(
+        [&] { return this->targets(aim, isTangled, monitor); }, energy, stages, points, untangle);
   outcome.onFolds = untangling.onFolds;
   if (untangling.valid)
   {
@@ -246,7 +247,8 @@ InversionFree::Outcome InversionFree::improve(
   // Raising the minimum of a valid mesh costs far less than minimising the energy.
   if (isValid && raisesFirst)
   {
-    if (raiseMinimumQuality(quality, goal, bestPoints, monitor) > 0)
+    const AscentEffort raised = raiseMinimumQuality(quality, goal, bestPoints, monitor);
+    if (raised.rounds > 0)
     {
       best = quality.measure(bestPoints, monitor);
     }
@@ -254,7 +256,7 @@ InversionFree::Outcome InversionFree::improve(
     {
       if (best.minimum < enough * this->minimumAtRest_)
       {
-        raiseNextWorst(quality, bestPoints, monitor);
+        raiseNextWorst(quality, raised, bestPoints, monitor);
       }
       points = std::move(bestPoints);
       return outcome;
@@ -278,7 +280,7 @@ InversionFree::Outcome InversionFree::improve(
   outcome.kept = outcome.effort.steps > 0 && (points.array() == alternative.array()).all();
   if (outcome.kept && this->target_ == TargetConstruction::IdealSkew && this->raisesMinimum())
   {
-    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor) == 0;
+    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor).rounds == 0;
   }
   return outcome;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace morph
@@ -67,6 +68,10 @@ namespace
 {
 constexpr int MostLevels = 2;
 constexpr double FewCells = 0.01; // of all: where more are at the minimum, it is no single place's
+// Raising the next-worst cells may evaluate this part of what raising the minimum has, or as much
+// as these passes over the mesh.
+constexpr double OfSpent = 0.3, FewPasses = 20;
+constexpr double LeastSteps = 10; // fewer are not worth the set-up
 
 /// Returns the cells at the minimum, within NearBound.
 std::vector<Index> atMinimum(const MovableQuality::Result& quality)
@@ -93,39 +98,65 @@ bool hasReached(double minimum, double goal)
   return minimum >= (1 - NearBound) * std::min(goal, 1.);
 }
 
-int raiseMinimumQuality(
-  const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
+namespace
+{
+struct Limits
+{
+  int squarings;          ///< of the first power, at least
+  double cellEvaluations; ///< in all
+};
+
+/// Raises the minimum as raiseMinimumQuality() does, and adds to `effort`.
+void raise(const MovableQuality& measured, double bound, const Limits& limits, Points& points,
+  AscentEffort& effort, Monitor& monitor)
 {
   const double goal = std::min(bound, 1.);
   const Mesh& mesh = measured.mesh();
   MovableQuality::Result quality = measured.measure(points, monitor);
   if (!(quality.minimum > 0) || hasReached(quality.minimum, goal) || measured.free().empty())
   {
-    return 0;
+    return;
   }
   const Adjacency around = nodeToCells(mesh);
   Points trial = points;
-  int kept = 0, squarings = firstSquarings(quality.minimum, goal);
-  const auto canGain = [&] { return quality.minimum + significantGain(quality.minimum) < goal; };
+  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal));
+  // Once a power's second round has gained little, those of higher powers do.
+  bool repeats = true, isRepeated = false;
+  const auto canGain = [&]
+  {
+    return !hasReached(quality.minimum, goal) &&
+           quality.minimum + significantGain(quality.minimum) < goal;
+  };
   for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
     const KRing patch =
       kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), Rings);
+    const auto cells = static_cast<double>(patch.cells.size());
+    const double left = (limits.cellEvaluations - effort.cellEvaluations) / cells;
+    if (left < LeastSteps)
+    {
+      break;
+    }
     const WorstCornerNorm norm(
       mesh, measured.orientation(), patch.cells, patch.nodes, quality.minimum, squarings);
-    MinimizerLimits limits;
-    limits.steps = stepsOf(squarings);
-    MinimizerEffort effort;
-    limitedMemoryBfgs(norm, trial, limits, effort, monitor);
+    MinimizerLimits stepLimits;
+    stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
+    MinimizerEffort steps;
+    limitedMemoryBfgs(norm, trial, stepLimits, steps, monitor);
+    effort.cellEvaluations += cells * static_cast<double>(steps.evaluations);
+    effort.squarings = squarings;
     MovableQuality::Result next = measured.measure(trial, monitor);
     const double gain = next.minimum - quality.minimum, least = significantGain(quality.minimum);
     const bool gained = gain > least;
-    const bool more = gain > Promising * least && effort.steps >= limits.steps;
+    const bool isPromising = gain > Promising * least;
+    const bool more = isPromising && steps.steps >= stepLimits.steps && repeats;
+    repeats = repeats && (isPromising || !isRepeated);
+    isRepeated = more;
     if (gained)
     {
       points(patch.nodes, allColumns) = trial(patch.nodes, allColumns);
       quality = std::move(next);
-      ++kept;
+      ++effort.rounds;
     }
     else
     {
@@ -137,13 +168,28 @@ int raiseMinimumQuality(
       ++squarings;
     }
   }
-  return kept;
+}
 }
 
-int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& monitor)
+AscentEffort raiseMinimumQuality(
+  const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
+{
+  AscentEffort effort;
+  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity() }, points,
+    effort, monitor);
+  return effort;
+}
+
+AscentEffort raiseNextWorst(
+  const MovableQuality& measured, const AscentEffort& before, Points& points, Monitor& monitor)
 {
   const Mesh& mesh = measured.mesh();
-  int kept = raiseMinimumQuality(measured, measured.bounds(points).movable, points, monitor);
+  const auto cells = static_cast<double>(mesh.numberOfCells());
+  // Its mesh is the best for the powers that are done.
+  const Limits limits{ std::max(FirstSquarings, before.squarings),
+    std::max(OfSpent * before.cellEvaluations, FewPasses * cells) };
+  AscentEffort effort;
+  raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
   for (int level = 0; level < MostLevels && !free.empty(); ++level)
@@ -155,7 +201,7 @@ int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& moni
       break;
     }
     const std::vector<Index> worst = atMinimum(quality);
-    if (static_cast<double>(worst.size()) > FewCells * static_cast<double>(mesh.numberOfCells()))
+    if (static_cast<double>(worst.size()) > FewCells * cells)
     {
       break;
     }
@@ -168,8 +214,8 @@ int raiseNextWorst(const MovableQuality& measured, Points& points, Monitor& moni
     free.erase(std::remove_if(free.begin(), free.end(), [&](Index node) { return stays[node]; }),
       free.end());
     const MovableQuality others(mesh, measured.orientation(), free);
-    kept += raiseMinimumQuality(others, others.bounds(points).movable, points, monitor);
+    raise(others, others.bounds(points).movable, limits, points, effort, monitor);
   }
-  return kept;
+  return effort;
 }
 }

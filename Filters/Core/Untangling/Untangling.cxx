@@ -19,6 +19,7 @@ constexpr int Rings = 5; // of cells
 // tangled. Cells near folded faces become valid soon or never.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
 constexpr int StagesOfPatch = 15;   // without folds
+constexpr int StagesAfter = 1;      // of a mesh that is untangled but for its folds
 constexpr double MostTangled = 0.1; // of all cells: a patch then spans the mesh
 }
 
@@ -102,7 +103,7 @@ bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& ener
     if (this->untanglePatch(tangled, Rings, targets, stages, StagesNear, points, own))
     {
       energy.setTargets(targets);
-      return stages.untangle(points, whole);
+      return stages.untangle(points, whole, StagesAfter);
     }
   }
   return false;
@@ -117,20 +118,29 @@ bool Untangling::runNear(const TargetMatrices& targets, FoldoverContinuation& st
   {
     return false;
   }
+  Points trial = points;
+  std::vector<Index> seeds = tangled;
   for (const int rings : { Rings, 3 * Rings })
   {
-    Points trial = points;
-    if (this->untanglePatch(tangled, rings, targets, stages, StagesOfPatch, trial, monitor))
+    if (this->untanglePatch(seeds, rings, targets, stages, StagesOfPatch, trial, monitor))
     {
       points.swap(trial);
       return true;
     }
+    // The patch grows where it has stayed tangled, from the mesh that it has become.
+    std::vector<Index> left = tangledCells(this->mesh_, trial, targets);
+    if (left.size() > tangled.size())
+    {
+      trial = points;
+      continue;
+    }
+    seeds = std::move(left);
   }
   return false;
 }
 
-Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& energy,
-  FoldoverContinuation& stages, Points& points, Monitor& monitor) const
+Untangling::Result Untangling::run(const std::function<TargetMatrices()>& targets,
+  MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const
 {
   const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
                              this->geometry_, this->isFixed_),
@@ -140,19 +150,19 @@ Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& en
     last(monitor, 0.9, 1);
   if (folded.empty())
   {
-    energy.setTargets(targets);
+    energy.setTargets(targets());
     if (stages.untangle(points, first))
     {
       return { true, {} };
     }
     besides = points;
-    TargetMatrices others = targets;
+    TargetMatrices others = targets();
     this->untangleAwayFromFolds(others, energy, stages, besides, second);
   }
   else
   {
     besides = points;
-    TargetMatrices others = targets;
+    TargetMatrices others = targets();
     excludeOnFoldedFaces(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
     if (!stages.untangle(besides, first, StagesOfAll))
@@ -160,9 +170,10 @@ Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& en
       this->untangleAwayFromFolds(others, energy, stages, besides, second);
     }
     points = besides;
-    if (this->untanglePatch(cellsBehind, Rings, targets, stages, StagesWithFolds, points, third))
+    others = targets();
+    if (this->untanglePatch(cellsBehind, Rings, others, stages, StagesWithFolds, points, third))
     {
-      energy.setTargets(targets);
+      energy.setTargets(others);
       if (stages.untangle(points, last))
       {
         return { true, {} };

@@ -82,10 +82,10 @@ public:
   BoundaryMatch::Result Match(vtkDataObject* boundary, double fraction,
     const Session::Options& options, std::vector<RankMatch::Follower>* followers,
     morph::Monitor& monitor) const;
-  /// Prepares the method for the mesh at rest, unless it is prepared.
+  /// Prepares the method for the undeformed mesh, unless it is prepared.
   Method& Prepare(const morph::NodePartition& partition, const Session::Options& options,
     morph::Monitor& monitor);
-  /// `from`: null for the mesh at rest.
+  /// `from`: null for the undeformed mesh.
   StepResult Step(const DistributedMesh* from, const BoundaryMatch::Result& match,
     const Session::Options& options, morph::Monitor& monitor);
   std::shared_ptr<const StepResult> MorphSeries(

@@ -34,6 +34,12 @@ int Processes()
   return c ? c->GetNumberOfProcesses() : 1;
 }
 
+bool IsFirst()
+{
+  auto* c = controller();
+  return !c || c->GetLocalProcessId() == 0;
+}
+
 int Count(bool yes)
 {
   int mine = yes ? 1 : 0;

@@ -15,6 +15,9 @@ bool TakePieces();
 /// The number of processes. Not collective.
 int Processes();
 
+/// Whether this is the process that tells the user what all of them know.
+bool IsFirst();
+
 /// The number of processes that say `yes`.
 int Count(bool yes);
 
