@@ -51,8 +51,8 @@ TEST(DistributedPatches, RepairInvertedCellsAndMoveNothingElse)
   const Ranks ranks = pieces::world();
   Case c(ranks);
   Monitor monitor;
-  const auto report = morph::distributed::repairInverted(
-    c.mesh, c.mesh.mesh().points, c.partition, c.moved, monitor);
+  const auto report =
+    morph::distributed::repairInverted(c.mesh, c.mesh.mesh().points, c.partition, c.moved, monitor);
   EXPECT_EQ(report.bad, 0);
   EXPECT_EQ(report.tooLarge, 0);
   // The patches of six rings end before the middle.
@@ -77,8 +77,8 @@ TEST(DistributedPatches, SayWhatTheyGatherAndHaveALimit)
   for (Index cell = 0; cell < c.mesh.pieceCells(); ++cell)
   {
     const Index* nodes = c.mesh.mesh().cell(cell);
-    if (std::any_of(nodes, nodes + c.mesh.mesh().cellSize(cell), [&](Index node)
-          { return c.moved.row(node) != c.mesh.mesh().points.row(node); }))
+    if (std::any_of(nodes, nodes + c.mesh.mesh().cellSize(cell),
+          [&](Index node) { return c.moved.row(node) != c.mesh.mesh().points.row(node); }))
     {
       seeds.push_back(cell);
     }
@@ -89,7 +89,7 @@ TEST(DistributedPatches, SayWhatTheyGatherAndHaveALimit)
     c.mesh, c.mesh.mesh().points, c.partition, seeds, limits, c.moved, monitor);
   EXPECT_EQ(report.patches, 2);
   EXPECT_EQ(report.failed, 0);
-  // The nodes of 4^3 cells round each node move, with the cells round them, two to each side.
+  // The nodes within two cells of each move, and so change the cells within three.
   EXPECT_EQ(report.cells, 2 * 6 * 6 * 6);
   EXPECT_EQ(report.bytes > 0, ranks.count() > 1);
 

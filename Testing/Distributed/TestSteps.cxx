@@ -46,7 +46,8 @@ struct Result
   std::vector<std::string> Errors, Warnings;
 };
 
-Result morphed(vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
+Result morphed(
+  vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
 {
   vtkNew<vtkFEMWarpMorph> filter;
   filter->SetTolerance(1e-12);
@@ -106,22 +107,28 @@ TEST(RankSteps, RelativeStepsAgreeWithTheSerialOnes)
       filter->SetStepMemoryLimit(0.008);
     },
     "Valid", 0.75);
-  compare(ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetNumberOfSteps(3); }, "Valid", 0.4);
+  compare(
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetNumberOfSteps(3); }, "Valid",
+    0.4);
 }
 
 TEST(RankSteps, ValidityAgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToReport(); }, "Inverted");
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); }, "SubStepped");
-  compare(ranks, waves,
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToReport(); }, "Inverted");
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); }, "SubStepped");
+  compare(
+    ranks, waves,
     [](vtkFEMWarpMorph* filter)
     {
       filter->SetValidityToSubStep();
       filter->SetMaximumSubSteps(2);
     },
     "Partial");
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
 }
 
 TEST(RankSteps, RepairGivesAValidMesh)
@@ -190,8 +197,7 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     EXPECT_GT(mine.second, 0.99 * serial.second) << name;
     if (ranks.rank() == 0)
     {
-      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second
-                << "\n";
+      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second << "\n";
     }
   }
 }
@@ -200,10 +206,13 @@ TEST(RankSteps, StiffnessAgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
   compare(
-    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToInverseVolume(); }, "Valid");
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToInverseVolume(); },
+    "Valid");
   compare(
-    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToWallDistance(); }, "Valid");
-  compare(ranks, grids::twist,
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToWallDistance(); },
+    "Valid");
+  compare(
+    ranks, grids::twist,
     [](vtkFEMWarpMorph* filter)
     {
       // The first half of the nodes is a wall; this rank's copies have the same mark.

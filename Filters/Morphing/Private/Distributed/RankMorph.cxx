@@ -224,8 +224,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const auto& ranks = whole.ranks();
   const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
   const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
-    match.Targets,
-    [&] { return this->Make(options); } };
+    match.Targets, [&] { return this->Make(options); } };
   StepResult result;
   result.BoundaryInverted = validity.RequireFeasible();
 
@@ -273,9 +272,9 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     {
       seconds = secondsSince(start);
     }
-    const double minimum = ranks.minimum(
-      morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
-        .fixedMinimum(result.Moved));
+    const double minimum =
+      ranks.minimum(morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
+                      .fixedMinimum(result.Moved));
     result.BoundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
@@ -404,9 +403,8 @@ std::string Morphing::Run(
   return isFirst ? step->Valid.Error : "";
 }
 
-void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-  vtkDataArray* gradient, const Session::Options& options, vtkDoubleArray* boundaryGradient,
-  morph::Monitor& monitor)
+void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+  const Session::Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
   own.Take(rest, options, monitor);
