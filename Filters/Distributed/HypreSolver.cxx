@@ -9,6 +9,7 @@
 #include <HYPRE_parcsr_ls.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -18,6 +19,13 @@ namespace morph::distributed
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 void startHypre()
 {
   static const bool started = []
@@ -241,7 +249,10 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
   Vector b(ranks.communicator(), this->first_, rows), x(ranks.communicator(), this->first_, rows);
   const std::vector<double> zeros(rows, 0.);
   HYPRE_ParVector pb = b.set(zeros);
-  handles.setUp(pb, x.set(zeros));
+  HYPRE_ParVector px = x.set(zeros);
+  const auto start = Clock::now();
+  handles.setUp(pb, px);
+  this->seconds_.setUp += secondsSince(start);
 }
 
 SolveReport HypreSolver::solve(
@@ -268,7 +279,9 @@ SolveReport HypreSolver::solve(
     HYPRE_ParVector pb = b.set(column);
     Eigen::Map<Eigen::VectorXd>(column.data(), rows) = x.col(j);
     HYPRE_ParVector pu = u.set(column);
+    const auto start = Clock::now();
     report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
+    this->seconds_.solve += secondsSince(start);
     u.get(column);
     x.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
     // b - A x, in place of b: what the iteration reports may have drifted.

@@ -26,6 +26,9 @@ public:
   /// option that prepare() reads.
   virtual void takeEvaluateOptions(const Morpher& serial) = 0;
 
+  /// See morph::Morpher::setReference(). #local nodes x 3.
+  virtual void setReference(Points) {}
+
   /// Prepares the method. `partition`: of mesh.mesh(), with the owner's choice at ghosts. `mesh`
   /// has to outlive this object's use. Throws Error on all ranks.
   void prepare(const DistributedMesh& mesh, const NodePartition& partition, Monitor& monitor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Methods.h"
 
+#include "Distributed/InversionFree.h"
 #include "Distributed/SiteMethod.h"
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
@@ -39,6 +40,12 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
       dynamic_cast<const SimplexNaturalNeighbor*>(serial.get()))
   {
     return std::make_unique<SiteMethod>(std::move(serial));
+  }
+  if (const auto* inversionFree = dynamic_cast<const morph::InversionFree*>(serial.get()))
+  {
+    auto method = std::make_unique<InversionFree>(*inversionFree);
+    method->takeEvaluateOptions(*serial);
+    return method;
   }
   return nullptr;
 }

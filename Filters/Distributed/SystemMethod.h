@@ -21,6 +21,7 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
+  const HypreSolver& solver() const { return this->solver_; }
   /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
 

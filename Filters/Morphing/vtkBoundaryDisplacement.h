@@ -16,8 +16,7 @@
  *   HeldPatches stay in any case, except for the nodes that they share with what moves.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm), or its
- * boundary (vtkPolyData) as
- * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
+ * boundary (vtkPolyData) as vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
  * in a row move several parts, each in its own way. Such a boundary moves from its current
  * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
  * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
@@ -40,15 +39,16 @@
  * patches, so that a window can list their names before the first execution, and keeps what it
  * finds for that execution. On a large mesh this takes as long as the first execution would.
  *
- * Warnings: nodes that do not reach the target, faces that the motion leaves without area (a scale
- * of zero, for instance), surfaces that it would reflect, and a mesh without any outer face, whose
+ * Warnings: nodes that do not reach the target; faces that the motion leaves without area (a scale
+ * of zero, for instance); surfaces that it would reflect; a mesh without any outer face, whose
  * boundary is empty. Errors: those of vtkClassifyBoundary; a surface without polygons, MorphPointId
  * or RestPosition; nothing chosen, or nothing on the boundary; a target without polygons, with
  * coordinates that are not finite, or that no node reaches; patches or arrays that do not exist;
  * positions that are not finite, beyond 1e50, or in single precision beyond 3.4e38; nodes without a
  * normal. The output is then empty: a morph would take an unchanged boundary for a motion of zero.
- * An execution that is aborted gives an empty output and no message. With several MPI processes an
- * execution is collective. Cost, where everything is kept: a few passes over the boundary.
+ * An execution that is aborted gives an empty output and no message. With several MPI ranks all of
+ * them have to execute it. Cost, where everything is kept: a few passes over the boundary.
+ *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
  *

@@ -13,6 +13,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkIdTypeArray.h>
+#include <vtkMorphBoundary.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -369,4 +370,132 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   filter->Update();
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)
+{
+  const Ranks ranks = pieces::world();
+  unsigned seed = meshes::seed();
+  const auto moved = [](vtkUnstructuredGrid* grid)
+  {
+    // Surface 1 alone is told where to go.
+    vtkNew<vtkBoundaryDisplacement> displace;
+    displace->SetInputData(grid);
+    displace->SetMovingToPatches();
+    displace->AddPatch("Surface 1");
+    displace->SetMotionToPlacement();
+    displace->SetTranslation(0.1, 0.2, -0.1);
+    displace->SetRotation(5, 0, 10);
+    displace->SetSurroundingsToStay();
+    displace->Update();
+    vtkPolyData* output = displace->GetOutput();
+    vtkDataArray* ofPoints = output->GetPointData()->GetArray("MorphPointId");
+    std::vector<Index> places, ids;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      if (output->GetPointData()->GetArray("Role")->GetComponent(i, 0) == 1)
+      {
+        places.push_back(static_cast<Index>(i));
+        ids.push_back(static_cast<Index>(ofPoints->GetComponent(i, 0)));
+      }
+    }
+    const auto result = grids::cloud(grids::points(output)(places, morph::allColumns));
+    grids::addIds(result, "MorphPointId", ids);
+    return result;
+  };
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(2, 1.5, 1.5);
+  ball->SetRadius(2.4);
+  ball->Update();
+  for (auto& [name, mesh] : { std::pair("hexes", meshes::hexes(5, 4, 3)),
+         std::pair("quadratic", meshes::quadraticTets(3, 2, 2)) })
+  {
+    for (const int method : { 0, 1, 2 })
+    {
+      for (const bool projects : { false, true })
+      {
+        SCOPED_TRACE(std::string(name) + " " + std::to_string(method));
+        const auto whole = grids::make(mesh);
+        const auto piece = rank_grids::part(ranks, whole, mesh, ++seed);
+        vtkNew<vtkMorphBoundary> serial, filter;
+        const auto run = [&](vtkMorphBoundary* of, vtkUnstructuredGrid* grid)
+        {
+          of->SetInputData(grid);
+          of->SetBoundaryData(moved(grid));
+          of->SetPrescribedDimension(2);
+          of->SetSurfaceMethod(method);
+          if (projects)
+          {
+            of->SetTargetData(ball->GetOutput());
+          }
+          grids::Listener listener(of);
+          of->Update();
+          expectNoErrors(listener);
+          return listener.Warnings.size();
+        };
+        std::size_t warnings = 0;
+        rank_grids::alone([&] { warnings = run(serial, whole); });
+        EXPECT_EQ(run(filter, piece), ranks.rank() == 0 ? warnings : 0);
+        EXPECT_GT(serial->GetGivenPoints(), 0);
+        EXPECT_EQ(filter->GetGivenPoints(), serial->GetGivenPoints());
+        EXPECT_EQ(filter->GetHeldVertices(), serial->GetHeldVertices());
+        EXPECT_EQ(filter->GetProjectedPoints(), serial->GetProjectedPoints());
+        EXPECT_EQ(filter->GetMinScaledJacobian(), serial->GetMinScaledJacobian());
+        EXPECT_EQ(filter->GetFoldedFaces(), serial->GetFoldedFaces());
+        expectSameSurface(ranks, filter->GetOutput(), serial->GetOutput(),
+          { "MorphDisplacement", "GeometryId" }, { "ScaledJacobian", "MorphCellId" });
+      }
+    }
+  }
+}
+
+TEST(RankBoundary, MorphBoundaryTakesCopiesAndPositionsAndNamesUnknownIds)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh mesh = meshes::hexes(4, 3, 3);
+  const auto piece = rank_grids::piece(ranks, mesh);
+  const auto run = [&](vtkPointSet* boundary, bool byPosition)
+  {
+    auto filter = vtkSmartPointer<vtkMorphBoundary>::New();
+    filter->SetInputData(piece);
+    filter->SetBoundaryData(boundary);
+    filter->SetPrescribedDimension(2);
+    filter->SetDisplacementArray(byPosition ? "Move" : nullptr);
+    filter->Update();
+    return filter;
+  };
+  const auto moved = grids::copy(piece);
+  const morph::Points rest = grids::points(piece), to = grids::mapped(rest, grids::affine);
+  for (Index i = 0; i < to.rows(); ++i)
+  {
+    moved->GetPoints()->SetPoint(static_cast<vtkIdType>(i), to.row(i).data());
+  }
+  const auto cloud = grids::cloud(rest);
+  grids::addVectors(cloud, "Move", to - rest);
+  for (const auto& filter : { run(moved, false), run(cloud, true) })
+  {
+    vtkPolyData* output = filter->GetOutput();
+    EXPECT_EQ(filter->GetGivenPoints(), 5 * 4 * 4 - 3 * 2 * 2);
+    EXPECT_GT(ranks.sum(static_cast<Index>(output->GetNumberOfPoints())), 0);
+    const morph::Points x = grids::points(output);
+    vtkDataArray* before = output->GetPointData()->GetArray("RestPosition");
+    for (Index i = 0; i < x.rows(); ++i)
+    {
+      const double* at = before->GetTuple(static_cast<vtkIdType>(i));
+      EXPECT_LT((x.row(i) - grids::affine(grids::Row(at[0], at[1], at[2]))).norm(), 1e-12);
+    }
+  }
+  auto strange = grids::cloud(rest);
+  grids::addIds(
+    strange, "MorphPointId", std::vector<Index>(static_cast<std::size_t>(rest.rows()), 12345));
+  vtkNew<vtkMorphBoundary> filter;
+  filter->SetInputData(piece);
+  filter->SetBoundaryData(strange);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
+  if (!listener.Errors.empty())
+  {
+    EXPECT_NE(listener.Errors.front().find("12345"), std::string::npos);
+  }
 }

@@ -7,15 +7,17 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkFEMWarpMorph.h>
-#include <vtkLBWarpMorph.h>
+#include <vtkInversionFreeMorph.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <iostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -44,7 +46,7 @@ struct Result
   std::vector<std::string> Errors, Warnings;
 };
 
-Result morph(vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
+Result morphed(vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
 {
   vtkNew<vtkFEMWarpMorph> filter;
   filter->SetTolerance(1e-12);
@@ -69,8 +71,8 @@ void compare(const Ranks& ranks, const grids::Map& map, const Setting& set, cons
 {
   const morph::Mesh whole = block();
   Result serial;
-  rank_grids::alone([&] { serial = morph(grids::make(whole), map, set, time); });
-  const Result mine = morph(rank_grids::piece(ranks, whole), map, set, time);
+  rank_grids::alone([&] { serial = morphed(grids::make(whole), map, set, time); });
+  const Result mine = morphed(rank_grids::piece(ranks, whole), map, set, time);
   EXPECT_EQ(serial.Status, status);
   EXPECT_EQ(mine.Status, serial.Status);
   EXPECT_EQ(mine.SubSteps, serial.SubSteps);
@@ -120,6 +122,57 @@ TEST(RankSteps, ValidityAgreesWithTheSerialOne)
     },
     "Partial");
   compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
+}
+
+TEST(RankSteps, RepairGivesAValidMesh)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh whole = block();
+  const auto repair = [](vtkFEMWarpMorph* filter) { filter->SetValidityToRepair(); };
+  Result serial;
+  rank_grids::alone([&] { serial = morphed(grids::make(whole), waves, repair); });
+  const Result mine = morphed(rank_grids::piece(ranks, whole), waves, repair);
+  EXPECT_EQ(serial.Status, "Repaired");
+  EXPECT_EQ(mine.Status, "Repaired");
+  EXPECT_EQ(mine.Inverted, 0);
+  EXPECT_EQ(mine.LargestValidStep, 1);
+  EXPECT_GT(mine.MinScaledJacobian, 0.99 * serial.MinScaledJacobian);
+  EXPECT_TRUE(mine.Errors.empty());
+}
+
+TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
+{
+  const Ranks ranks = pieces::world();
+  std::vector<std::pair<std::string, morph::Mesh>> all = meshes::all(6, 5, 4);
+  all.emplace_back("layers", meshes::layered(meshes::hexes, 6, 0.05, 1.3));
+  for (auto& [name, whole] : all)
+  {
+    meshes::jitterInterior(whole, name == "layers" ? 0 : 0.1, meshes::seed());
+    const double height = whole.points.col(2).maxCoeff();
+    const auto bulge = [&](const grids::Row& x)
+    {
+      const double wave = std::sin(x[0] / whole.points.col(0).maxCoeff() * M_PI);
+      return grids::Row(x[0] + 0.3 * height * wave, x[1], x[2] * (1 - 0.5 * wave * wave));
+    };
+    const auto run = [&](vtkUnstructuredGrid* grid)
+    {
+      vtkNew<vtkInversionFreeMorph> filter;
+      filter->SetInputData(grid);
+      filter->SetBoundaryData(grids::boundary(grid, bulge));
+      filter->Update();
+      return std::pair(std::string(filter->GetMorphStatus()), filter->GetMinScaledJacobian());
+    };
+    std::pair<std::string, double> serial;
+    rank_grids::alone([&] { serial = run(grids::make(whole)); });
+    const auto mine = run(rank_grids::piece(ranks, whole));
+    EXPECT_EQ(mine.first, serial.first) << name;
+    EXPECT_GT(mine.second, 0.99 * serial.second) << name;
+    if (ranks.rank() == 0)
+    {
+      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second
+                << "\n";
+    }
+  }
 }
 
 TEST(RankSteps, StiffnessAgreesWithTheSerialOne)

@@ -305,6 +305,39 @@ class OutputFiles(unittest.TestCase):
         self.run_program([PROGRAM, "--quiet", str(grid), str(self.boundary), str(grid)], check=True)
         self.assertTrue(self.whole(grid))
 
+    def test_a_solvers_file_may_be_the_output(self):
+        """Each format: it becomes what a copy would be."""
+        for name in self.outputs:
+            if not self.has_original(Path(name)):
+                continue
+            with self.subTest(name=name):
+                command = self.command(self.folder / name)
+                self.run_program(command, check=True)
+                expected = [path.read_bytes() for path in self.files(name)]
+                for path in self.files(name):
+                    path.unlink()
+                original = Path(command[-2])
+                if original.is_dir():
+                    copy = shutil.copytree(original, self.folder / "in")
+                    out = copy / "constant" / "polyMesh" / name
+                    changed = [out]
+                elif name.endswith(PIECES):  # named as the copy's, since the list names them
+                    folder = shutil.copytree(original.parent, self.folder / "in")
+                    for path in [*folder.iterdir()]:
+                        path.write_bytes(path.read_bytes().replace(b"piece_", b"out_"))
+                        path.rename(path.with_name(path.name.replace("piece", "out")))
+                    copy = out = folder / name
+                    changed = [folder / path.name for path in self.files(name)]
+                else:
+                    (self.folder / "in").mkdir()
+                    copy = out = Path(shutil.copy(original, self.folder / "in"))
+                    changed = [copy]
+                before = [path.read_bytes() for path in changed]
+                self.run_program([*command[:-2], str(copy), str(out)], check=True)
+                self.assertEqual([path.read_bytes() for path in changed], expected)
+                self.assertNotEqual(before, expected)
+                shutil.rmtree(self.folder / "in")
+
     def test_a_long_name(self):
         output = self.folder / ("x" * 250 + ".vtu")
         self.run_program(self.command(output), check=True)

@@ -3,6 +3,7 @@
 
 #include "Morpher/Morpher.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,13 @@ public:
   void setStiffness(CellStiffness stiffness);
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
+  /// Nodes from this id on are centres of polyhedra and of their faces: a method may eliminate them
+  /// before it solves. Call it before prepare(). Default: no node is one.
+  void setFirstCentre(Index node) { this->firstCentre_ = node; }
+  Index firstCentre() const { return this->firstCentre_; }
+
 private:
+  Index firstCentre_ = std::numeric_limits<Index>::max();
   CellStiffness stiffness_;
 };
 }

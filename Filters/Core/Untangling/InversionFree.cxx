@@ -181,12 +181,13 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   FoldoverContinuation stages(energy, this->minimizer_);
   const bool isTangled = best <= 0;
-  const TargetMatrices targets = this->targets(aim, isTangled, monitor);
   monitor.check();
   ProgressRange untangle(monitor, 0.1, 0.7);
-  const Untangling::Result untangling = Untangling(
-    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                                          .run(targets, energy, stages, points, untangle);
+  const Untangling::Result untangling =
+    Untangling(
+      this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
+      .run(
+        [&] { return this->targets(aim, isTangled, monitor); }, energy, stages, points, untangle);
   outcome.onFolds = untangling.onFolds;
   if (untangling.valid)
   {

@@ -139,8 +139,8 @@ bool Untangling::runNear(const TargetMatrices& targets, FoldoverContinuation& st
   return false;
 }
 
-Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& energy,
-  FoldoverContinuation& stages, Points& points, Monitor& monitor) const
+Untangling::Result Untangling::run(const std::function<TargetMatrices()>& targets,
+  MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const
 {
   const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
                              this->geometry_, this->isFixed_),
@@ -150,19 +150,19 @@ Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& en
     last(monitor, 0.9, 1);
   if (folded.empty())
   {
-    energy.setTargets(targets);
+    energy.setTargets(targets());
     if (stages.untangle(points, first))
     {
       return { true, {} };
     }
     besides = points;
-    TargetMatrices others = targets;
+    TargetMatrices others = targets();
     this->untangleAwayFromFolds(others, energy, stages, besides, second);
   }
   else
   {
     besides = points;
-    TargetMatrices others = targets;
+    TargetMatrices others = targets();
     excludeOnFoldedFaces(this->mesh_, this->faces_, folded, others);
     energy.setTargets(others);
     if (!stages.untangle(besides, first, StagesOfAll))
@@ -170,9 +170,10 @@ Untangling::Result Untangling::run(const TargetMatrices& targets, MeshEnergy& en
       this->untangleAwayFromFolds(others, energy, stages, besides, second);
     }
     points = besides;
-    if (this->untanglePatch(cellsBehind, Rings, targets, stages, StagesWithFolds, points, third))
+    others = targets();
+    if (this->untanglePatch(cellsBehind, Rings, others, stages, StagesWithFolds, points, third))
     {
-      energy.setTargets(targets);
+      energy.setTargets(others);
       if (stages.untangle(points, last))
       {
         return { true, {} };

@@ -9,6 +9,7 @@
 #include "Untangling/FoldoverContinuation.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace morph
@@ -32,10 +33,11 @@ public:
     bool valid = false;         ///< all tetrahedra are positive
     std::vector<Index> onFolds; ///< inverted cells on folded faces, ascending
   };
-  /// Untangles `points`, #nodes x 3, start and result. `targets`: of all cells; `energy` may end
-  /// with other targets.
-  Result run(const TargetMatrices& targets, MeshEnergy& energy, FoldoverContinuation& stages,
-    Points& points, Monitor& monitor) const;
+  /// Untangles `points`, #nodes x 3, start and result. `targets`: makes those of all cells. They are
+  /// as large as what `energy` keeps of them, so they are made when needed and not held besides.
+  /// `energy` may end with other targets.
+  Result run(const std::function<TargetMatrices()>& targets, MeshEnergy& energy,
+    FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
 
   /// Untangles `points` by moving only the nodes within 5 rings of tangled cells, then within 15
   /// rings of those that are left.

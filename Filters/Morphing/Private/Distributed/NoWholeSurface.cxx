@@ -80,7 +80,7 @@ morph::Index WholeSurface::NodeOf(std::int64_t) const
   refuse();
 }
 
-std::vector<std::int64_t> WholeSurface::Unknown(const std::vector<std::int64_t>&) const
+BoundaryMatch::Result WholeSurface::Match(vtkPointSet*, const BoundaryMatch::Options&) const
 {
   refuse();
 }

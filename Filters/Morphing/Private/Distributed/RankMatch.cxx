@@ -234,15 +234,19 @@ void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
   result.Targets = targets(result.Ids, morph::allColumns);
   result.Sources.clear();
 }
-}
 
-namespace RankMatch
+/// What the ranks have of a boundary.
+struct Given
 {
-BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
-  const BoundaryMatch::Options& options, std::vector<Follower>* followers)
+  Way How;      ///< the same on all ranks
+  bool HasRest; ///< whether RestPosition counts: all points have it
+  std::vector<Traveller> Mine;
+};
+
+Given read(
+  vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
 {
   const Ranks& ranks = mesh.ranks();
-  const double tolerance = options.MatchTolerance * mesh.size();
   const bool areCopies = ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
   Way way = Way::None;
   BoundaryMatch::NamedPoints named;
@@ -277,37 +281,32 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
     });
   const bool isEmpty = way == Way::None;
   way = agree(ranks, way);
-  // RestPosition counts where all points have it.
   const bool hasRest = ranks.sum(Index(!isEmpty && named.Rest.rows() == 0)) == 0;
-  const std::vector<Traveller> mine = travellers(named, pairs, ranks.rank());
-  std::vector<Traveller> points, unknown;
-  if (way == Way::Positions)
-  {
-    points = toBoxes(mesh, mine, tolerance);
-  }
-  else
-  {
-    points = mesh.directory().route(mine, unknown);
-  }
+  return { way, hasRest, travellers(named, pairs, ranks.rank()) };
+}
+
+/// Throws on all ranks where one has points of nodes that the mesh does not have.
+void requireKnown(const Ranks& ranks, const std::vector<Index>& unknown)
+{
   ranks.together(
     [&]
     {
       if (!unknown.empty())
       {
-        std::vector<Index> ids;
-        for (const Traveller& point : unknown)
-        {
-          ids.push_back(point.id);
-        }
         throw Error("The boundary names nodes that the grid does not have: global ids " +
-                    morph::listIds(ids) +
+                    morph::listIds(unknown) +
                     ". Make the boundary from this grid, with Extract Morph Boundary.");
       }
     });
+}
+
+/// All of NamedPoints but Pairs; sorts `points` by where they come from.
+BoundaryMatch::NamedPoints named(
+  std::vector<Traveller>& points, bool hasRest, const BoundaryMatch::Options& options)
+{
   std::sort(points.begin(), points.end(),
     [](const Traveller& a, const Traveller& b)
     { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
-
   const Index count = static_cast<Index>(points.size());
   BoundaryMatch::NamedPoints here;
   here.Positions.resize(count, 3);
@@ -328,25 +327,54 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
       here.Displacements.row(i) = row(points[i].displacement);
     }
     here.IsFree[i] = points[i].isFree != 0;
-    if (way != Way::Positions)
-    {
-      here.Pairs.emplace_back(i, mesh.nodeOf(points[i].id));
-    }
+  }
+  return here;
+}
+}
+
+namespace RankMatch
+{
+BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
+  const BoundaryMatch::Options& options, std::vector<Follower>* followers)
+{
+  const Ranks& ranks = mesh.ranks();
+  const double tolerance = options.MatchTolerance * mesh.size();
+  const Given given = read(boundary, mesh, options);
+  const bool byPosition = given.How == Way::Positions;
+  std::vector<Traveller> points, unknown;
+  if (byPosition)
+  {
+    points = toBoxes(mesh, given.Mine, tolerance);
+  }
+  else
+  {
+    points = mesh.directory().route(given.Mine, unknown);
+  }
+  std::vector<Index> ids;
+  for (const Traveller& point : unknown)
+  {
+    ids.push_back(point.id);
+  }
+  requireKnown(ranks, ids);
+  BoundaryMatch::NamedPoints here = named(points, given.HasRest, options);
+  for (std::size_t i = 0; !byPosition && i < points.size(); ++i)
+  {
+    here.Pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
   }
   Index unmatched = 0;
-  if (way == Way::Positions)
+  if (byPosition)
   {
     Index ignored = 0;
     ranks.together(
       [&]
       {
-        if (count > 0)
+        if (!points.empty())
         {
           here.Pairs = BoundaryMatch::FindByPosition(
             here.Positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
         }
       });
-    unmatched = countUnmatched(ranks, static_cast<Index>(mine.size()), points, here.Pairs);
+    unmatched = countUnmatched(ranks, static_cast<Index>(given.Mine.size()), points, here.Pairs);
   }
   const std::vector<std::pair<Index, Index>> found = here.Pairs;
   BoundaryMatch::Result result;
@@ -398,6 +426,39 @@ void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Po
   std::vector<Index> sources(points);
   std::iota(sources.begin(), sources.end(), Index(0));
   ranks.together([&] { Gradient::Gather(sums, sources, points, result); });
+}
+
+Gathered Gather(
+  vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
+{
+  const Ranks& ranks = mesh.ranks();
+  const Given given = read(boundary, mesh, options);
+  Gathered result;
+  result.ByPosition = given.How == Way::Positions;
+  std::vector<Index> ids, unknown;
+  for (const Traveller& point : given.Mine)
+  {
+    ids.push_back(point.id);
+  }
+  if (!result.ByPosition)
+  {
+    const std::vector<int> owners = mesh.directory().owners(ids);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      if (owners[i] < 0)
+      {
+        unknown.push_back(ids[i]);
+      }
+    }
+  }
+  requireKnown(ranks, unknown);
+  std::vector<Traveller> points = ranks.gather(given.Mine);
+  result.Points = named(points, given.HasRest, options);
+  for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
+  {
+    result.Points.Pairs.emplace_back(static_cast<Index>(i), points[i].id);
+  }
+  return result;
 }
 }
 }

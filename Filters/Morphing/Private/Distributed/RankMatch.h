@@ -41,4 +41,16 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const morph::distributed::Dis
 void SendBack(const morph::distributed::Ranks& ranks, const std::vector<morph::Index>& ids,
   const morph::Points& prescribed, const std::vector<Follower>& followers, vtkIdType points,
   vtkDoubleArray* result);
+
+/// The points of a boundary of all processes, the same on each of them.
+struct Gathered
+{
+  /// Pairs of a point and its node's global id, which some process has; none where ByPosition.
+  BoundaryMatch::NamedPoints Points;
+  bool ByPosition = false;
+};
+/// Gathers the boundary. It finds ids as Match() does, and throws as that does. 120 bytes a point.
+/// Collective.
+Gathered Gather(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
+  const BoundaryMatch::Options& options);
 }

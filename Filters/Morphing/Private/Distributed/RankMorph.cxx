@@ -55,10 +55,6 @@ void requireAvailable(const Morphing::Task& task, const Session::Options& option
   {
     refuse("PostSmooth");
   }
-  if (options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
-  {
-    refuse("Validity Repair");
-  }
   if (task.FeatureLines)
   {
     refuse("FeatureLines");
@@ -84,10 +80,10 @@ public:
   BoundaryMatch::Result Match(vtkDataObject* boundary, double fraction,
     const Session::Options& options, std::vector<RankMatch::Follower>* followers,
     morph::Monitor& monitor) const;
-  /// Prepares the method for the mesh at rest, unless it is prepared.
+  /// Prepares the method for the undeformed mesh, unless it is prepared.
   Method& Prepare(const morph::NodePartition& partition, const Session::Options& options,
     morph::Monitor& monitor);
-  /// `from`: null for the mesh at rest.
+  /// `from`: null for the undeformed mesh.
   StepResult Step(const DistributedMesh* from, const BoundaryMatch::Result& match,
     const Session::Options& options, morph::Monitor& monitor);
   std::shared_ptr<const StepResult> MorphSeries(
@@ -125,7 +121,7 @@ void Morphing::Internals::Take(
   {
     throw morph::Error(options.Method +
                        " needs one MPI rank, and the mesh is distributed over several. Run on one, "
-                       "or use a linear method, Morph FEMWARP for instance.");
+                       "or use another method, Morph Inversion Free for instance.");
   }
   if (this->Mesh.Take(grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor))
   {
@@ -225,7 +221,8 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
   const auto& ranks = whole.ranks();
   const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
-  const RankValidity validity{ options, whole, partition, match.Targets,
+  const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
+    match.Targets,
     [&] { return this->Make(options); } };
   StepResult result;
   result.BoundaryInverted = validity.RequireFeasible();
@@ -236,6 +233,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   if (from)
   {
     ofStep = this->Make(options);
+    ofStep->setReference(this->Mesh.Whole().mesh().points);
     const auto begin = Clock::now();
     ofStep->prepare(whole, partition, preparing);
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
@@ -260,7 +258,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
-    if (result.Valid.SubSteps > 0)
+    if (result.Valid.Status != "Valid" && result.Valid.Status != "Inverted")
     {
       seconds = secondsSince(start);
     }

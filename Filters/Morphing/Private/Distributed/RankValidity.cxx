@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankValidity.h"
 
+#include "Distributed/Patches.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Quality/BoundaryDetermined.h"
@@ -119,15 +120,25 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   const morph::BoundaryPath path = morph::straightPath(rest, this->Partition, this->Targets);
   morph::SubStepLimits limits;
   limits.attempts = this->Options.MaximumSubSteps;
+  if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+  {
+    limits.failures = 6; // as on one process
+  }
   limits.forbidden = [&](double time) { return this->ForbiddenBy(path(time), monitor); };
   const auto attempt = [&](const morph::Points& from, double time, morph::Monitor& part)
   {
     morph::ProgressRange first(part, 0, 0.5), second(part, 0.5, 1);
     const morph::distributed::DistributedMesh valid = this->Mesh.at(from);
     const std::unique_ptr<Method> method = this->Make();
+    method->setReference(this->Reference);
     method->prepare(valid, this->Partition, first);
     morph::SubStepAttempt made;
     made.report = method->evaluate(path(time), made.moved, second);
+    if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+    {
+      morph::distributed::repairInverted(
+        valid, this->Reference, this->Partition, made.moved, part);
+    }
     made.inverted = inverted(made.moved);
     return made;
   };
@@ -167,23 +178,48 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
   const int mode = this->Options.Validity;
   const morph::Index free =
     this->Mesh.ranks().sum(static_cast<morph::Index>(this->Partition.free.size()));
+  const bool repairs = mode == vtkMorphAlgorithm::VALIDITY_REPAIR;
+  if (free == 0 && (repairs || mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP))
+  {
+    return this->Remaining(
+      moved, "Every node is prescribed, so the boundary alone decides.", monitor);
+  }
+  if (repairs)
+  {
+    morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+    const morph::distributed::RepairReport report = morph::distributed::repairInverted(
+      this->Mesh, this->Reference, this->Partition, moved, first);
+    if (report.bad == 0)
+    {
+      outcome.Status = "Repaired";
+      return outcome;
+    }
+    if (report.tooLarge > 0)
+    {
+      return this->Remaining(moved,
+        "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would have " +
+          std::to_string(report.tooLarge) + " cells of " + std::to_string(this->Mesh.volumeCells()) +
+          "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
+          "or run on one rank.",
+        monitor);
+    }
+    return this->SubStep(moved, second);
+  }
   if (mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
   {
-    return free == 0 ? this->Remaining(moved,
-                         "Every node is prescribed, so the boundary alone decides.", monitor)
-                     : this->SubStep(moved, monitor);
+    return this->SubStep(moved, monitor);
   }
   if (mode == vtkMorphAlgorithm::VALIDITY_REFUSE)
   {
     throw morph::Error("The morph is refused: " +
                        RankQuality::Found(this->Mesh, measured, moved) +
-                       "Set Validity to Sub Step, or move the boundary less.");
+                       "Set Validity to Repair or Sub Step, or move the boundary less.");
   }
   if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)
   {
     outcome.Warning = RankQuality::Found(this->Mesh, measured, moved) +
-                      "The output Bad cells holds them all. Move the boundary less, or set Validity "
-                      "to Sub Step.";
+                      "The output Bad cells holds them all. Validity set to Repair keeps cells "
+                      "valid.";
   }
   outcome.Status = "Inverted";
   outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();

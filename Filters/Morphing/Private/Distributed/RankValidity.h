@@ -18,6 +18,7 @@ class RankValidity
 public:
   const Session::Options& Options;
   const morph::distributed::DistributedMesh& Mesh; ///< before the motion
+  const morph::Points& Reference;                  ///< #local nodes x 3, the undeformed mesh
   const morph::NodePartition& Partition;           ///< of the local mesh
   const morph::Points& Targets;                    ///< #prescribed x 3
   /// Makes a method with its options, not prepared yet.

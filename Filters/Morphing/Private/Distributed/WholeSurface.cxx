@@ -6,6 +6,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Support/Error.h"
 
@@ -539,18 +540,37 @@ Index WholeSurface::NodeOf(std::int64_t id) const
   return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : -1;
 }
 
-std::vector<std::int64_t> WholeSurface::Unknown(const std::vector<std::int64_t>& ids) const
+BoundaryMatch::Result WholeSurface::Match(
+  vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
-  std::vector<std::int64_t> unknown;
-  const std::vector<int> owners = this->Own->Whole().directory().owners(ids);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    if (owners[i] < 0)
+  const Internals& own = *this->Own;
+  RankMatch::Gathered gathered = RankMatch::Gather(boundary, own.Whole(), options);
+  BoundaryMatch::Result result;
+  own.Mesh.Ranks().together(
+    [&]
     {
-      unknown.push_back(ids[i]);
-    }
-  }
-  return unknown;
+      BoundaryMatch::NamedPoints& named = gathered.Points;
+      if (gathered.ByPosition)
+      {
+        named.Pairs = BoundaryMatch::FindByPosition(named.Positions, own.Shell, own.Faces.nodes,
+          options.MatchTolerance * this->Size(), named.Unmatched);
+      }
+      else
+      {
+        std::vector<std::pair<Index, Index>> pairs;
+        for (const auto& [point, id] : named.Pairs)
+        {
+          if (const Index node = this->NodeOf(id); node >= 0)
+          {
+            pairs.emplace_back(point, node);
+          }
+        }
+        named.Pairs = std::move(pairs);
+      }
+      result = BoundaryMatch::FindTargets(
+        std::move(named), own.Shell, own.Faces, this->Size(), options, &own.NodeIds);
+    });
+  return result;
 }
 
 void WholeSurface::Together(const std::function<void()>& work) const

@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Private/Morph/BoundaryMatch.h"
 
 #include <vtkSmartPointer.h>
 
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -63,8 +65,10 @@ public:
   std::vector<morph::Index> Places() const;
   /// The node of Grid() with a global id, or -1.
   morph::Index NodeOf(std::int64_t id) const;
-  /// Those of the ids that no node of the whole mesh has. Collective.
-  std::vector<std::int64_t> Unknown(const std::vector<std::int64_t>& ids) const;
+  /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
+  /// nodes that it names are left out. Collective.
+  BoundaryMatch::Result Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
 
   /// Calls `work`, the same on each process, which must not communicate; throws as
   /// Ranks::Together() does. A message with ids says of what they are. Collective.
