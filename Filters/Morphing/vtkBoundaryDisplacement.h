@@ -60,8 +60,8 @@
 #ifndef vtkBoundaryDisplacement_h
 #define vtkBoundaryDisplacement_h
 
-#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 #include "vtkDisplacementAlgorithm.h"
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
 
@@ -74,7 +74,8 @@ class vtkPolyData;
 class vtkSelection;
 class vtkStringArray;
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkDisplacementAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement
+  : public vtkDisplacementAlgorithm
 {
 public:
   static vtkBoundaryDisplacement* New();

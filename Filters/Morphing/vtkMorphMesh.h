@@ -41,8 +41,8 @@
 #ifndef vtkMorphMesh_h
 #define vtkMorphMesh_h
 
-#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 #include "vtkDisplacementAlgorithm.h"
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
 

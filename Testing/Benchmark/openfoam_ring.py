@@ -3,9 +3,9 @@
 
 Run: pvpython openfoam_ring.py
 Prints, for each solver and diffusivity, the largest lean of the wall-normal lines in degrees, the
-relative height of the first cells, and the number of inverted cells. The turn has 30 equal steps:
-the terms that set displacementSBRStress apart come from the step before. A solver may fail on the mesh
-that it has inverted. Needs OpenFOAM's blockMesh and moveDynamicMesh.
+relative height of the first cells, and the number of inverted cells. The turn has equal steps, since
+the terms that set displacementSBRStress apart come from the step before. A solver may fail on a
+mesh that it has inverted. Needs OpenFOAM's blockMesh and moveDynamicMesh.
 """
 import os
 import pathlib
@@ -19,14 +19,15 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "ParaView"))
 import keep_layers as ring  # (needs the path above)
 
-STEPS = 30
-SETTINGS = (("displacementLaplacian", "uniform"), ("displacementLaplacian", "inverseVolume"),
-            ("displacementLaplacian", "quadratic inverseDistance (wall)"),
-            ("displacementSBRStress", "uniform"), ("displacementSBRStress", "inverseVolume"),
-            ("displacementSBRStress", "quadratic inverseDistance (wall)"))
+# Solver, diffusivity and equal steps of the turn.
+SETTINGS = (("displacementLaplacian", "uniform", 1), ("displacementLaplacian", "inverseVolume", 1),
+            ("displacementLaplacian", "quadratic inverseDistance (wall)", 1),
+            ("displacementSBRStress", "uniform", 10), ("displacementSBRStress", "uniform", 30),
+            ("displacementSBRStress", "inverseVolume", 10),
+            ("displacementSBRStress", "quadratic inverseDistance (wall)", 10))
 HEADER = "FoamFile { version 2.0; format ascii; class %s; object %s; }\n"
-CONTROL = f"""application moveDynamicMesh; startFrom startTime; startTime 0; stopAt endTime;
-endTime {STEPS}; deltaT 1; writeControl timeStep; writeInterval {STEPS}; writeFormat ascii;
+CONTROL = """application moveDynamicMesh; startFrom startTime; startTime 0; stopAt endTime;
+endTime %(steps)d; deltaT 1; writeControl timeStep; writeInterval %(steps)d; writeFormat ascii;
 writePrecision 17; libs ("libfvMotionSolvers.so");"""
 SCHEMES = """ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
 divSchemes { default Gauss linear; } laplacianSchemes { default Gauss linear limited corrected 0.33; }
@@ -34,8 +35,8 @@ interpolationSchemes { default linear; } snGradSchemes { default limited correct
 SOLUTION = """solvers { "cellDisplacement.*"
 { solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; } }
 PIMPLE { nNonOrthogonalCorrectors 2; }"""
-TURN = f"""solidBodyMotionFunction rotatingMotion;
-rotatingMotionCoeffs {{ origin (0 0 0); axis (0 0 1); omega {ring.ANGLE / STEPS}; }}"""
+TURN = """solidBodyMotionFunction rotatingMotion;
+rotatingMotionCoeffs { origin (0 0 0); axis (0 0 1); omega %.17g; }"""
 FIELD = """dimensions [0 1 0 0 0 0 0]; internalField uniform (0 0 0); boundaryField {
 wall { %s } outer { type fixedValue; value uniform (0 0 0); } sides { type slip; } }"""
 MOVING = {"pointVectorField": "type solidBodyMotionDisplacement; value uniform (0 0 0); " + TURN,
@@ -46,18 +47,16 @@ def blocks(points):
     """blockMeshDict: a block for each interval of the angle. `points`: #z x #around x #radii x 3."""
     high, around, radii = points.shape[:3]
     corners = points[[0, -1]][:, :, [0, -1]]
-    number = np.arange(corners.size // 3).reshape(2, around, 2)
-    following = np.roll(number, -1, axis=1)
-    one = ["(%d %d %d %d %d %d %d %d)" % sum(
-        ((a[k, j, 0], a[k, j, 1], b[k, j, 1], b[k, j, 0]) for k in (0, 1)), ())
-        for j in range(around) for a, b in ((number, following),)]
-    face = lambda *nodes: "(%d %d %d %d)" % nodes
-    sides = {"wall": [face(*(n[k, j, 0] for n, k in ((number, 0), (following, 0), (following, 1),
-                                                     (number, 1)))) for j in range(around)],
-             "outer": [face(*(n[k, j, 1] for n, k in ((number, 0), (following, 0), (following, 1),
-                                                      (number, 1)))) for j in range(around)],
-             "sides": [face(number[k, j, 0], number[k, j, 1], following[k, j, 1],
-                            following[k, j, 0]) for k in (0, 1) for j in range(around)]}
+    a = np.arange(corners.size // 3).reshape(2, around, 2)  # k, j, inner or outer
+    b = np.roll(a, -1, axis=1)  # the next j
+    listed = lambda nodes: "(" + " ".join(map(str, nodes)) + ")"
+    ends = [[(a[k, j, 0], a[k, j, 1], b[k, j, 1], b[k, j, 0]) for k in (0, 1)]
+            for j in range(around)]
+    one = [listed(low + high_) for low, high_ in ends]
+    along = lambda r: [listed((a[0, j, r], b[0, j, r], b[1, j, r], a[1, j, r]))
+                       for j in range(around)]
+    sides = {"wall": along(0), "outer": along(1),
+             "sides": [listed(face) for pair in ends for face in pair]}
     grading = ring.GROWTH ** (radii - 2)
     text = "convertToMeters 1; vertices ("
     text += " ".join("(%.17g %.17g %.17g)" % tuple(p) for p in corners.reshape(-1, 3))
@@ -65,7 +64,8 @@ def blocks(points):
         f"hex {block} ({radii - 1} 1 {high - 1}) simpleGrading ({grading:.17g} 1 1)"
         for block in one) + "); edges (); boundary ("
     for name, faces in sides.items():
-        text += f"{name} {{ type {'wall' if name == 'wall' else 'patch'}; faces ({' '.join(faces)}); }}"
+        kind = "wall" if name == "wall" else "patch"
+        text += f"{name} {{ type {kind}; faces ({' '.join(faces)}); }}"
     return text + "); mergePatchPairs ();"
 
 
@@ -103,10 +103,10 @@ def inverted(points):
     return np.count_nonzero(bad)
 
 
-def moved(solver, diffusivity, rest):
+def moved(solver, diffusivity, steps, rest):
     with tempfile.TemporaryDirectory() as name:
         case = pathlib.Path(name)
-        write(case, "system/controlDict", "dictionary", CONTROL)
+        write(case, "system/controlDict", "dictionary", CONTROL % {"steps": steps})
         write(case, "system/fvSchemes", "dictionary", SCHEMES)
         write(case, "system/fvSolution", "dictionary", SOLUTION)
         write(case, "system/blockMeshDict", "dictionary", blocks(rest))
@@ -115,11 +115,11 @@ def moved(solver, diffusivity, rest):
               f" motionSolver {solver}; {solver}Coeffs {{ diffusivity {diffusivity}; }}")
         for field, kind in (("pointDisplacement", "pointVectorField"),
                             ("cellDisplacement", "volVectorField")):
-            write(case, f"0/{field}", kind, FIELD % MOVING[kind])
+            write(case, f"0/{field}", kind, FIELD % MOVING[kind].replace("%.17g", repr(ring.ANGLE / steps)))
         call(case, "blockMesh")
         before = read_points(case / "constant/polyMesh/points")
         call(case, "moveDynamicMesh")
-        after = read_points(case / f"{STEPS}/polyMesh/points")
+        after = read_points(case / f"{steps}/polyMesh/points")
     # blockMesh numbers the points its own way.
     flat = rest.reshape(-1, 3)
     nearest = np.array([np.argmin(((before - p) ** 2).sum(axis=1)) for p in flat])
@@ -130,16 +130,16 @@ def moved(solver, diffusivity, rest):
 def main():
     rest = ring.ring_points()
     print("| solver | diffusivity | lean | first height | inverted |")
-    for solver, diffusivity in SETTINGS:
+    for solver, diffusivity, steps in SETTINGS:
         try:
-            result = moved(solver, diffusivity, rest)
+            result = moved(solver, diffusivity, steps, rest)
         except RuntimeError as error:
             step = re.findall(r"\nTime = (\d+)", str(error))
-            print(f"| {solver} | {diffusivity} | fails at step {step[-1] if step else 0} | | |",
+            print(f"| {solver}, {steps} steps | {diffusivity} | fails at step {step[-1] if step else 0} | | |",
                   flush=True)
             continue
         lean, height = ring.figures(rest, result)
-        print(f"| {solver} | {diffusivity} | {lean:.2f} | {height:.4f} | {inverted(result)} |",
+        print(f"| {solver}, {steps} steps | {diffusivity} | {lean:.2f} | {height:.4f} | {inverted(result)} |",
               flush=True)
 
 

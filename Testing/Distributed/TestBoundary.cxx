@@ -179,8 +179,7 @@ TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
       "Number" };
     for (const char* array : arrays)
     {
-      expectSameRows(
-        output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
+      expectSameRows(output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
     }
     expectSameSurface(ranks, filter->GetSurfaces(), serial->GetSurfaces(), arrays,
       { "GeometryId", "MorphCellId", "Cell" });

@@ -126,8 +126,7 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     from->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
   const bool byPoints =
     from->Displacement == DISPLACEMENT_HANDLES || from->Displacement == DISPLACEMENT_LATTICE;
-  const int ofSurfaces = !this->Surfaces.empty() || byTarget
-                           ? vtkBoundaryDisplacement::MOVE_PATCHES
+  const int ofSurfaces = !this->Surfaces.empty() || byTarget ? vtkBoundaryDisplacement::MOVE_PATCHES
                          : selectionMoves ? vtkBoundaryDisplacement::MOVE_SELECTION
                          : byPoints       ? vtkBoundaryDisplacement::MOVE_EVERYTHING
                                           : vtkBoundaryDisplacement::MOVE_NOTHING;

@@ -29,8 +29,7 @@ class vtkPolyData;
 class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
 {
 public:
-  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces,
-    SoftZones;
+  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces, SoftZones;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
