@@ -262,19 +262,20 @@ InversionFree::Outcome InversionFree::improve(
   MovableQuality::Result best = quality.measure(alternative, monitor);
   Outcome outcome;
   const std::vector<Index> inverted = notPositive(best.scaledJacobian);
+  const bool isRepair = enough == 0;
   const bool raisesFirst = this->raisesMinimum() && this->target_ == TargetConstruction::Stretched;
   if (raisesFirst && !inverted.empty() && this->validAtRest_)
   {
     ProgressRange near(monitor, 0.1, 0.3);
     Points untangled = alternative;
     if (untangleNear(this->referenceMesh_, this->orientation_, this->partition().free, inverted,
-          aim, this->minimizer_, untangled, outcome.effort, near))
+          isRepair ? 2 : 5, aim, this->minimizer_, untangled, outcome.effort, near))
     {
       best = quality.measure(untangled, monitor);
       bestPoints = std::move(untangled);
     }
   }
-  const bool isValid = best.inverted == 0, isRepair = enough == 0;
+  const bool isValid = best.inverted == 0;
   outcome.untangled = isValid;
   if (isRepair && isValid && raisesFirst && !inverted.empty())
   {

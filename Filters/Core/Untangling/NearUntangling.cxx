@@ -11,15 +11,15 @@ namespace morph
 {
 namespace
 {
-constexpr int Rings[] = { 5, 15 }; // of cells
+constexpr int Rings[] = { 2, 5, 15 }; // of cells
 constexpr int Stages = 15;
 constexpr double MostTangled = 0.1; // of all cells: the rings around them then span the mesh
 }
 
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& free, const std::vector<Index>& inverted, const Aim& aim,
-  FoldoverContinuation::Minimizer minimizer, Points& points, MinimizerEffort& effort,
-  Monitor& monitor)
+  const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
+  const Aim& aim, FoldoverContinuation::Minimizer minimizer, Points& points,
+  MinimizerEffort& effort, Monitor& monitor)
 {
   if (inverted.empty() || static_cast<double>(inverted.size()) >
                             MostTangled * static_cast<double>(mesh.numberOfCells()))
@@ -31,6 +31,10 @@ bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   std::vector<Index> seeds = inverted;
   for (const int rings : Rings)
   {
+    if (rings < firstRings)
+    {
+      continue;
+    }
     const KRing ring = kRingOfCells(mesh, around, free, seeds, rings);
     const SubMesh part(mesh, ring.cells);
     std::vector<std::int8_t> signs;
