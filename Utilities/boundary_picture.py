@@ -7,8 +7,6 @@
 Writes classify-boundary.png and morph-boundary.png into Documentation/images, or the directory
 given. Needs the plugin; not Gmsh."""
 
-import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -25,6 +23,7 @@ from Models.model_mesh import add_array  # noqa: E402
 from built_plugin import load_plugin  # noqa: E402
 from models_folds import MovedSurfaces, output  # noqa: E402
 from models_picture import Look, Panel, paint, save_picture  # noqa: E402
+from picture_arguments import add_plugin, parse, picture_parser  # noqa: E402
 
 RED = (214, 39, 40)
 
@@ -93,26 +92,14 @@ def morph_picture(path):
         moved(mesh, "Weighted residual, onto a target", look, "Weighted residual", target)]])
 
 
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--output", type=Path, default=ROOT / "Documentation" / "images",
-                        help="directory to write to (default: %(default)s)")
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
-    arguments = parser.parse_args()
-    if not os.environ.get("DISPLAY"):
-        parser.error("no display: run under xvfb-run -a")
-    return arguments
-
-
 def main():
-    arguments = parse_arguments()
+    parser = picture_parser(__doc__)
+    add_plugin(parser)
+    arguments = parse(parser)
     load_plugin(arguments.plugin)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # the filter warns of folded faces
-    folder = arguments.output.resolve()
-    folder.mkdir(parents=True, exist_ok=True)
     for name, draw in (("classify-boundary", classify_picture), ("morph-boundary", morph_picture)):
-        path = folder / f"{name}.png"
+        path = arguments.output / f"{name}.png"
         draw(path)
         print(f"Written {path}")
 

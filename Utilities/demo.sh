@@ -17,23 +17,5 @@ meshes, series and a picture (see demo.py).
 END
 }
 
-install=yes
-options=()
-for option in "$@"; do
-  case "$option" in
-    -h | --help) usage; exit 0 ;;
-    --no-install) install=no ;;
-    *) options+=("$option") ;;
-  esac
-done
-
-if [ "$install" = yes ]; then "$here/install-packages.sh"; fi
-(
-  cd "$here/.."
-  cmake --preset paraview
-  cmake --build --preset paraview --target MeshMorphing
-)
-# Debian's ParaView draws through X, offscreen too. -noreset: an X server that resets itself when
-# ParaView closes its first, trial connection can miss the next one.
-exec xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \
-  /usr/bin/pvpython --force-offscreen-rendering "$here/demo.py" ${options[@]+"${options[@]}"}
+. "$here/run-built.sh"
+run_built "$here/demo.py" "$@"

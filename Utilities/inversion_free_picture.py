@@ -10,8 +10,6 @@ height, and above them the inverted cells alone.
 Writes inversion-free.png into Documentation/images, or the directory given. Needs the plugin; not
 Gmsh."""
 
-import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -23,6 +21,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, save_picture  # noqa: E402  (needs the path above)
 from inversion_free_table import CANISTER_OFFSET, Case, morphed, number  # noqa: E402
 from built_plugin import load_plugin  # noqa: E402
+from picture_arguments import add_plugin, parse, picture_parser  # noqa: E402
 
 CASE = Case("canister", "hex", True, 1.2)
 
@@ -45,24 +44,12 @@ def panel(title, mesh, grid):
     return Panel(title, note, grid, shown(mesh, grid))
 
 
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--output", type=Path, default=ROOT / "Documentation" / "images",
-                        help="directory to write to (default: %(default)s)")
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
-    arguments = parser.parse_args()
-    if not os.environ.get("DISPLAY"):
-        parser.error("no display: run under xvfb-run -a")
-    return arguments
-
-
 def main():
-    arguments = parse_arguments()
+    parser = picture_parser(__doc__)
+    add_plugin(parser)
+    arguments = parse(parser)
     load_plugin(arguments.plugin)
-    folder = arguments.output.resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "inversion-free.png"
+    path = arguments.output / "inversion-free.png"
     mesh = CASE.mesh()
     silent = {"Validity": "None"}  # the picture shows the inverted cells
     save_picture(

@@ -8,9 +8,7 @@ at its final shape, a color for each surface and dark lines for the curves.
 Writes models-<name>.png into Documentation/images, or the directory given. Needs neither plugin nor
 Gmsh."""
 
-import argparse
 import colorsys
-import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +26,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import INK, OVERSAMPLING, average_pixels, move, producer, text  # noqa: E402
 import Models  # noqa: E402  (needs the path above)
 from Models.model_mesh import add_array  # noqa: E402
+from picture_arguments import parse, picture_parser  # noqa: E402
 
 WIDTH = 1600
 TITLE, LABEL = 0.055, 0.05  # heights of heading and labels as fractions of the width
@@ -172,13 +171,9 @@ def _show(view, panel, shift):
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = picture_parser(__doc__)
     parser.add_argument("models", nargs="*", metavar="MODEL", help="default: all")
-    parser.add_argument("--output", type=Path, default=ROOT / "Documentation" / "images",
-                        help="directory to write to (default: %(default)s)")
-    arguments = parser.parse_args()
-    if not os.environ.get("DISPLAY"):
-        parser.error("no display: run under xvfb-run -a")
+    arguments = parse(parser)
     unknown = [name for name in arguments.models if name not in Models.NAMES]
     if unknown:
         parser.error(f"no model {', '.join(unknown)}: choose from {', '.join(Models.NAMES)}")
@@ -187,8 +182,6 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    output = arguments.output.resolve()
-    output.mkdir(parents=True, exist_ok=True)
     for name in arguments.models or Models.NAMES:
         look, model = LOOKS[name], Models.get(name)
         rows = []
@@ -197,7 +190,7 @@ def main():
             rows.append([make_panel(mesh, cell_name, t, state, look) for t, state in SHAPES])
         if look.rows == 1:
             rows = [rows[0] + rows[1]]
-        path = output / f"models-{name}.png"
+        path = arguments.output / f"models-{name}.png"
         save_picture(path, look, rows)
         print(f"Written {path}")
 

@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 usage() {
   cat <<END
 Usage: study.sh [--no-install] [--quick] [--output DIR] [option of study.py ...]
-From a bare Debian 12 to the tables and plots of the paper's experiment: installs the packages,
+From a bare Debian 12 or 13 to the tables and plots of the experiment: installs the packages,
 builds the plugin under build/paraview and runs study.py, which takes many hours on two cores. An
 interrupted run resumes where it was.
   --no-install   leave the packages alone
@@ -16,22 +16,5 @@ See pvpython Utilities/study.py --help for the rest.
 END
 }
 
-install=yes
-options=()
-for option in "$@"; do
-  case "$option" in
-    -h | --help) usage; exit 0 ;;
-    --no-install) install=no ;;
-    *) options+=("$option") ;;
-  esac
-done
-
-if [ "$install" = yes ]; then "$here/install-packages.sh"; fi
-(
-  cd "$here/.."
-  cmake --preset paraview
-  cmake --build --preset paraview --target MeshMorphing
-)
-# Debian's ParaView opens a display although nothing is drawn on it.
-exec xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \
-  /usr/bin/pvpython --force-offscreen-rendering "$here/study.py" ${options[@]+"${options[@]}"}
+. "$here/run-built.sh"
+run_built "$here/study.py" "$@"

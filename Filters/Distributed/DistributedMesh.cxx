@@ -79,10 +79,13 @@ struct DistributedMesh::Builder
   std::vector<std::vector<Node>> nodes;         ///< for each rank
   std::vector<std::set<Index>> nodesSent;       ///< by rank
   std::vector<std::vector<std::int64_t>> cells; ///< for each rank
+  std::vector<std::vector<Index>> packed, unpacked; ///< cells of all layers, for each rank
 
   explicit Builder(DistributedMesh& owner)
     : mesh(owner)
     , nodesSent(owner.ranks_->count())
+    , packed(owner.ranks_->count())
+    , unpacked(owner.ranks_->count())
   {
   }
 
@@ -101,6 +104,7 @@ struct DistributedMesh::Builder
       return;
     }
     const Mesh& m = this->mesh.mesh_;
+    this->packed[rank].push_back(cell);
     std::vector<std::int64_t>& stream = this->cells[rank];
     stream.push_back(this->mesh.cellIds_[cell]);
     stream.push_back(m.types[cell]);
@@ -163,10 +167,12 @@ struct DistributedMesh::Builder
       added.push_back(n);
     }
     std::sort(this->mesh.byId_.begin(), this->mesh.byId_.end());
-    for (const auto& stream : newCells)
+    for (std::size_t rank = 0; rank < newCells.size(); ++rank)
     {
+      const std::vector<std::int64_t>& stream = newCells[rank];
       for (std::size_t at = 0; at < stream.size();)
       {
+        this->unpacked[rank].push_back(static_cast<Index>(m.types.size()));
         this->mesh.cellIds_.push_back(stream[at++]);
         const auto type = static_cast<std::uint8_t>(stream[at++]);
         m.types.push_back(type);
@@ -229,7 +235,7 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
       }
     });
   this->measure();
-  this->directory_ = std::make_unique<Directory>(ranks, this->numberNodes(), 1e-6 * this->size_);
+  this->directory_ = std::make_shared<Directory>(ranks, this->numberNodes(), 1e-6 * this->size_);
   this->owner_ = this->directory_->owners(this->nodeIds_);
   for (const auto& pair : this->doubles_)
   {
@@ -240,6 +246,13 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
     Halo(ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
   this->findBodies();
   this->findOuter(monitor);
+}
+
+DistributedMesh DistributedMesh::at(Points points) const
+{
+  DistributedMesh result = *this;
+  result.mesh_.points = std::move(points);
+  return result;
 }
 
 /// Fills byId_ and doubles_; returns what the directory is to know.
@@ -380,6 +393,7 @@ void DistributedMesh::addGhosts(int layers, Monitor&)
       wanted.push_back(this->nodeIds_[node]);
     }
   }
+  this->cellHalo_ = Halo(builder.packed, builder.unpacked);
 }
 
 void DistributedMesh::findBodies()

@@ -31,6 +31,11 @@ public:
   /// Cost: messages of the size of the interfaces, and a directory of 40 bytes a node.
   DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
 
+  /// The same mesh with its nodes elsewhere: what follows from cells, bodies, their orientation, the
+  /// outer boundary and the size stay those of this one. `points`: #nodes x 3, ghosts as their
+  /// owners have them. Not collective.
+  DistributedMesh at(Points points) const;
+
   const Ranks& ranks() const { return *this->ranks_; }
   const Mesh& mesh() const { return this->mesh_; }
   Index pieceNodes() const { return this->pieceNodes_; }
@@ -40,6 +45,8 @@ public:
   /// node; #nodes x 3. They take part in nothing else.
   void copyToDoubles(Points& values) const;
   bool owns(Index node) const { return this->owner_[node] == this->ranks_->rank(); }
+  /// The rank that owns a node, -1 for none.
+  int owner(Index node) const { return this->owner_[node]; }
   /// #cells: nonzero for ghosts.
   const std::vector<std::uint8_t>& isGhost() const { return this->isGhost_; }
   std::int64_t nodeId(Index node) const { return this->nodeIds_[node]; }
@@ -52,6 +59,8 @@ public:
   Index nodeOf(std::int64_t id) const;
 
   const Halo& halo() const { return this->halo_; }
+  /// Of cells.
+  const Halo& cellHalo() const { return this->cellHalo_; }
   const Directory& directory() const { return *this->directory_; }
 
   /// The bodies of the whole mesh, by the same numbers on all ranks.
@@ -89,8 +98,8 @@ private:
   std::vector<int> owner_;
   std::vector<std::pair<std::int64_t, Index>> byId_; ///< sorted
   std::vector<std::pair<Index, Index>> doubles_;     ///< a node, and the one that stands for it
-  std::unique_ptr<Directory> directory_;
-  Halo halo_;
+  std::shared_ptr<const Directory> directory_;
+  Halo halo_, cellHalo_;
   ConnectedComponents bodies_;
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;

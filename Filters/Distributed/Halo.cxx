@@ -78,6 +78,47 @@ Halo::Halo(const Ranks& ranks, const std::vector<std::int64_t>& ids, const std::
   }
 }
 
+Halo::Halo(
+  const std::vector<std::vector<Index>>& sends, const std::vector<std::vector<Index>>& receives)
+{
+  for (std::size_t r = 0; r < sends.size(); ++r)
+  {
+    if (!sends[r].empty())
+    {
+      this->targets_.push_back(static_cast<int>(r));
+      this->sends_.push_back(sends[r]);
+    }
+    if (!receives[r].empty())
+    {
+      this->sources_.push_back(static_cast<int>(r));
+      this->receives_.push_back(receives[r]);
+    }
+  }
+}
+
+void Halo::update(const Ranks& ranks, std::vector<double>& values) const
+{
+  carry(
+    ranks, 1, this->targets_, this->sends_, this->sources_, this->receives_,
+    [&](Index node, int) { return values[node]; },
+    [&](Index node, int, double value) { values[node] = value; });
+}
+
+void Halo::add(const Ranks& ranks, Points& values) const
+{
+  carry(
+    ranks, 3, this->sources_, this->receives_, this->targets_, this->sends_,
+    [&](Index node, int j) { return values(node, j); },
+    [&](Index node, int j, double value) { values(node, j) += value; });
+  for (const std::vector<Index>& list : this->receives_)
+  {
+    for (const Index node : list)
+    {
+      values.row(node).setZero();
+    }
+  }
+}
+
 void Halo::update(const Ranks& ranks, Points& values) const
 {
   carry(

@@ -9,6 +9,7 @@
 #include <HYPRE_parcsr_ls.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -18,6 +19,13 @@ namespace morph::distributed
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 void startHypre()
 {
   static const bool started = []
@@ -183,6 +191,7 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
 {
   startHypre();
   const Index rows = own.rows();
+  this->rows_ = rows;
   this->first_ = ranks.sumBefore(rows);
   this->unknowns_ = ranks.sum(rows);
   const std::int64_t most = std::numeric_limits<HYPRE_BigInt>::max();
@@ -240,7 +249,10 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
   Vector b(ranks.communicator(), this->first_, rows), x(ranks.communicator(), this->first_, rows);
   const std::vector<double> zeros(rows, 0.);
   HYPRE_ParVector pb = b.set(zeros);
-  handles.setUp(pb, x.set(zeros));
+  HYPRE_ParVector px = x.set(zeros);
+  const auto start = Clock::now();
+  handles.setUp(pb, px);
+  this->seconds_.setUp += secondsSince(start);
 }
 
 SolveReport HypreSolver::solve(
@@ -267,7 +279,9 @@ SolveReport HypreSolver::solve(
     HYPRE_ParVector pb = b.set(column);
     Eigen::Map<Eigen::VectorXd>(column.data(), rows) = x.col(j);
     HYPRE_ParVector pu = u.set(column);
+    const auto start = Clock::now();
     report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
+    this->seconds_.solve += secondsSince(start);
     u.get(column);
     x.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
     // b - A x, in place of b: what the iteration reports may have drifted.
@@ -285,5 +299,74 @@ SolveReport HypreSolver::solve(
     }
   }
   return report;
+}
+
+std::unique_ptr<HypreSolver> HypreSolver::transposed(const Ranks& ranks) const
+{
+  struct Entry
+  {
+    std::int64_t row, column;
+    double value;
+  };
+  auto result = std::make_unique<HypreSolver>();
+  const Index rows = this->rows_;
+  // The first row of each rank, which says whose a column is.
+  const std::vector<std::int64_t> first = ranks.gather(std::vector<std::int64_t>{ this->first_ });
+  std::vector<std::vector<Entry>> to(ranks.count());
+  for (Index i = 0; i < rows && this->unknowns_ > 0; ++i)
+  {
+    HYPRE_Int size = 0;
+    HYPRE_BigInt* columns = nullptr;
+    HYPRE_Complex* values = nullptr;
+    const std::int64_t row = this->first_ + i;
+    HYPRE_ParCSRMatrixGetRow(
+      this->handles_->matrix, static_cast<HYPRE_BigInt>(row), &size, &columns, &values);
+    for (HYPRE_Int k = 0; k < size; ++k)
+    {
+      // The last of the ranks that begin here has rows.
+      const auto after = std::upper_bound(first.begin(), first.end(), std::int64_t(columns[k]));
+      to[after - first.begin() - 1].push_back({ columns[k], row, values[k] });
+    }
+    HYPRE_ParCSRMatrixRestoreRow(
+      this->handles_->matrix, static_cast<HYPRE_BigInt>(row), &size, &columns, &values);
+  }
+  std::vector<Eigen::Triplet<double, int>> own, others;
+  std::vector<std::int64_t> ghosts;
+  const auto received = ranks.exchange(to);
+  const auto isOwn = [&](std::int64_t column)
+  { return column >= this->first_ && column < this->first_ + rows; };
+  for (const std::vector<Entry>& part : received)
+  {
+    for (const Entry& entry : part)
+    {
+      if (!isOwn(entry.column))
+      {
+        ghosts.push_back(entry.column);
+      }
+    }
+  }
+  std::sort(ghosts.begin(), ghosts.end());
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  for (const std::vector<Entry>& part : received)
+  {
+    for (const Entry& entry : part)
+    {
+      const int row = static_cast<int>(entry.row - this->first_);
+      if (isOwn(entry.column))
+      {
+        own.emplace_back(row, static_cast<int>(entry.column - this->first_), entry.value);
+      }
+      else
+      {
+        const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), entry.column);
+        others.emplace_back(row, static_cast<int>(found - ghosts.begin()), entry.value);
+      }
+    }
+  }
+  CsrMatrix matrix(rows, rows), outside(rows, static_cast<Index>(ghosts.size()));
+  matrix.setFromTriplets(own.begin(), own.end());
+  outside.setFromTriplets(others.begin(), others.end());
+  result->prepare(ranks, Kind::General, matrix, outside, ghosts);
+  return result;
 }
 }

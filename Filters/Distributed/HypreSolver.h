@@ -40,12 +40,24 @@ public:
   SolveReport solve(
     const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const;
 
+  /// Returns a solver of the transposed matrix, prepared. Collective. Cost: messages of the
+  /// entries in other ranks' columns, and prepare().
+  std::unique_ptr<HypreSolver> transposed(const Ranks& ranks) const;
+
+  /// Wall-clock seconds in hypre since construction, for benchmarks.
+  struct Seconds
+  {
+    double setUp = 0, solve = 0;
+  };
+  const Seconds& seconds() const { return this->seconds_; }
+
   /// The number of unknowns of all ranks.
   std::int64_t unknowns() const { return this->unknowns_; }
 
 private:
   struct Handles;
   std::unique_ptr<Handles> handles_;
-  std::int64_t first_ = 0, unknowns_ = 0;
+  mutable Seconds seconds_;
+  std::int64_t rows_ = 0, first_ = 0, unknowns_ = 0;
 };
 }

@@ -90,6 +90,46 @@ EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor
   return report;
 }
 
+EvaluateReport Method::applyTranspose(
+  const Points& gradient, Points& prescribed, Monitor& monitor) const
+{
+  const DistributedMesh& mesh = *this->mesh_;
+  const Ranks& ranks = mesh.ranks();
+  Points all = Points::Zero(gradient.rows(), 3);
+  for (Index n = 0; n < all.rows(); ++n)
+  {
+    if (mesh.owns(n))
+    {
+      all.row(n) = gradient.row(n);
+    }
+  }
+  if (ranks.sum(Index(!this->higherOrderNodes_.empty())) > 0)
+  {
+    // Ghosts' rows are zero; what the owned nodes give to ghosts goes to their owners.
+    this->higherOrderNodes_.applyTranspose(all);
+    mesh.halo().add(ranks, all);
+  }
+  ProgressRange whole(monitor, 0, 1);
+  const std::vector<Index>& nodes = this->partition_.prescribed;
+  Points result = Points::Zero(static_cast<Index>(nodes.size()), 3);
+  const EvaluateReport report =
+    this->displaceTranspose(all(this->ownFree_, allColumns), result, whole);
+  Points sums = Points::Zero(all.rows(), 3);
+  sums(nodes, allColumns) = result;
+  mesh.halo().add(ranks, sums);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+  {
+    result.row(static_cast<Index>(k)) = sums.row(nodes[k]) + all.row(nodes[k]);
+    if (!mesh.owns(nodes[k]))
+    {
+      result.row(static_cast<Index>(k)).setZero();
+    }
+  }
+  prescribed.swap(result);
+  monitor.progress(1);
+  return report;
+}
+
 void requirePrescribedBodies(const DistributedMesh& mesh, const NodePartition& partition)
 {
   const Ranks& ranks = mesh.ranks();

@@ -26,6 +26,9 @@ public:
   /// option that prepare() reads.
   virtual void takeEvaluateOptions(const Morpher& serial) = 0;
 
+  /// See morph::Morpher::setReference(). #local nodes x 3.
+  virtual void setReference(Points) {}
+
   /// Prepares the method. `partition`: of mesh.mesh(), with the owner's choice at ghosts. `mesh`
   /// has to outlive this object's use. Throws Error on all ranks.
   void prepare(const DistributedMesh& mesh, const NodePartition& partition, Monitor& monitor);
@@ -35,6 +38,12 @@ public:
   /// ranks. The counts in the report are those of the whole mesh.
   EvaluateReport evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
 
+  /// morph::LinearMorpher::applyTranspose(). `gradient`: #local nodes x 3, read at the nodes that
+  /// this rank owns. `prescribed`: becomes #prescribed x 3, the derivatives at the nodes that this
+  /// rank owns, and zero at the others. Throws Error on all ranks.
+  EvaluateReport applyTranspose(
+    const Points& gradient, Points& prescribed, Monitor& monitor) const;
+
   const NodePartition& partition() const { return this->partition_; }
 
 protected:
@@ -43,6 +52,11 @@ protected:
   /// displacements.
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
+
+  /// Adds M^T free to rows of `prescribed`, #prescribed x 3: those of ghosts are added to their
+  /// owners' afterwards. `free`: #ownFree x 3.
+  virtual EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const = 0;
 
   const DistributedMesh& mesh() const { return *this->mesh_; }
   /// The free nodes that this rank owns, ascending.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Methods.h"
 
+#include "Distributed/InversionFree.h"
 #include "Distributed/SiteMethod.h"
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
@@ -10,7 +11,6 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
 #include "Morpher/CellStiffness.h"
-#include "Support/Error.h"
 
 #include <utility>
 
@@ -19,15 +19,10 @@ namespace morph::distributed
 std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
 {
   const auto* stiff = dynamic_cast<const StiffMorpher*>(serial.get());
-  if (stiff && (stiff->stiffness().kind != CellStiffness::Kind::Uniform ||
-                 !stiff->stiffness().values.empty()))
-  {
-    throw Error("A stiffness of the cells needs all of the mesh on one process. Run on one, or set "
-                "Stiffness to Uniform and StiffnessArray to none.");
-  }
   if (dynamic_cast<const morph::FemWarp*>(serial.get()))
   {
     auto method = std::make_unique<FemWarp>();
+    method->setStiffness(stiff->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }
@@ -35,6 +30,7 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
   {
     auto method = std::make_unique<LogBarrierWarp>(
       warp->outsideHull() == morph::LogBarrierWarp::OutsideHull::Relax);
+    method->setStiffness(stiff->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }
@@ -44,6 +40,12 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
       dynamic_cast<const SimplexNaturalNeighbor*>(serial.get()))
   {
     return std::make_unique<SiteMethod>(std::move(serial));
+  }
+  if (const auto* inversionFree = dynamic_cast<const morph::InversionFree*>(serial.get()))
+  {
+    auto method = std::make_unique<InversionFree>(*inversionFree);
+    method->takeEvaluateOptions(*serial);
+    return method;
   }
   return nullptr;
 }

@@ -10,7 +10,7 @@
 namespace morph::distributed
 {
 /// The distributed form of a serial method, with its options: FEMWARP, LBWARP, weighted residual,
-/// simplex-linear, simplex natural neighbor or radial basis. Null for the others, which need one
-/// rank.
+/// simplex-linear, simplex natural neighbor, radial basis or inversion-free. Null for the others,
+/// which need one rank.
 std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial);
 }

@@ -23,9 +23,10 @@ struct Piece
 std::vector<std::uint8_t> usedNodes(const Mesh& mesh, const std::vector<std::uint8_t>& isGhost);
 
 /// Gives each node a global id where no rank has ids: nodes of different ranks at the same position
-/// are one node. Throws Error on all ranks where ids are there on some ranks with nodes only, and
-/// where the own cells of a rank have several nodes at a position that another rank has too: ids
-/// alone tell which of them are one. Collective. Cost: 32 bytes a node through a directory.
+/// are one node. Throws Error on all ranks if some ranks with nodes have ids and others have none.
+/// Throws too if the own cells of a rank have several nodes at a position that another rank has
+/// too: ids alone tell which of them are one. Collective. Cost: 32 bytes a node through a
+/// directory.
 void requireNodeIds(const Ranks& ranks, Piece& piece);
 
 /// Gives each cell that is not a ghost a global id where no rank has ids, rank by rank; ghosts get

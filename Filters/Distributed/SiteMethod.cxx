@@ -60,6 +60,7 @@ void SiteMethod::doPrepare(Monitor& monitor)
       ids.push_back(mesh.nodeId(prescribed[i]));
     }
   }
+  this->firstPlace_ = ranks.sumBefore(static_cast<Index>(ids.size()));
   ids = ranks.gather(ids);
   std::vector<Index> order(ids.size());
   std::iota(order.begin(), order.end(), Index(0));
@@ -104,6 +105,26 @@ EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Moni
       free = moved.bottomRows(free.rows()) - rest.bottomRows(free.rows());
     });
   report.statistics.clear(); // of this rank's nodes alone
+  return report;
+}
+
+EvaluateReport SiteMethod::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  const Ranks& ranks = this->mesh().ranks();
+  const auto& linear = dynamic_cast<const LinearMorpher&>(*this->serial_);
+  Points gradient = Points::Zero(this->serial_->restPoints().rows(), 3);
+  gradient.bottomRows(free.rows()) = free;
+  Points sites;
+  EvaluateReport report;
+  Silent silent(monitor);
+  ranks.together([&] { report = linear.applyTranspose(gradient, sites, silent); });
+  ranks.sum(sites.data(), static_cast<std::size_t>(sites.size()));
+  for (std::size_t i = 0; i < this->owned_.size(); ++i)
+  {
+    prescribed.row(this->owned_[i]) += sites.row(this->place_[this->firstPlace_ + i]);
+  }
+  report.statistics.clear();
   return report;
 }
 }

@@ -28,6 +28,8 @@ public:
 protected:
   void doPrepare(Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
   /// Gathers a row of each prescribed node that its owner has, in the order of the global ids.
@@ -36,6 +38,7 @@ private:
   std::unique_ptr<Morpher> serial_;
   std::vector<Index> owned_; ///< numbers in partition().prescribed of the nodes this rank owns
   std::vector<Index> place_; ///< of each gathered node in the order of ids
+  std::size_t firstPlace_ = 0; ///< of this rank's nodes in place_
   std::size_t gatheredBytes_ = 0;
 };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SystemMethod.h"
 
+#include "Distributed/Stiffness.h"
 #include "LinearMethods/DirichletSystem.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
@@ -9,9 +10,9 @@
 #include "Support/Error.h"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace morph::distributed
 {
@@ -34,13 +35,6 @@ std::string noVolume(const std::vector<Index>& ids)
   return "Every cell around node ids " + listIds(ids) +
          " has zero volume, so nothing says where they go. Prescribe them or repair the cells.";
 }
-
-/// Sums over prescribed nodes, from which AffineFit is made.
-struct Moments
-{
-  std::array<double, 7> first{};   ///< count, sums of x and of d
-  std::array<double, 18> second{}; ///< of (x - c)^T (x - c), and (x - c)^T (d - m)
-};
 }
 
 void SystemMethod::setTolerance(double tolerance)
@@ -64,7 +58,11 @@ void SystemMethod::doPrepare(Monitor& monitor)
     }
   }
   columns.insert(columns.end(), ghosts.begin(), ghosts.end());
-  Rows rows = this->assemble(columns, monitor);
+  this->transposed_.reset();
+  const std::vector<double> factors =
+    stiffnessFactors(mesh, prescribed, this->stiffness_, monitor);
+  this->isUniform_ = ranks.sum(Index(!factors.empty())) == 0;
+  Rows rows = this->assemble(columns, factors, monitor);
 
   const Index count = static_cast<Index>(this->ownFree().size());
   std::vector<Index> singular;
@@ -95,77 +93,25 @@ void SystemMethod::doPrepare(Monitor& monitor)
   }
   const Index held = static_cast<Index>(prescribed.size());
   this->coupling_ = rows.coupling.middleCols(0, held);
+  this->parts_ =
+    AffineParts(mesh, this->ownFree(), rows.interior, rows.coupling, prescribed, ghosts);
   const CsrMatrix others = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
   monitor.progress(0.5);
   ranks.together([&] { monitor.check(); });
   this->solver_.prepare(ranks, this->kind_, rows.interior, others, ghostNumbers);
 }
 
-/// The affine displacement of each body that fits its prescribed nodes best: affine motions solve
-/// the equations, so the iteration finds only the remainder.
-std::vector<AffineFit> SystemMethod::fits(const Points& prescribed) const
+EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor) const
 {
-  const DistributedMesh& mesh = this->mesh();
-  const std::vector<Index>& nodes = this->partition().prescribed;
-  const Points& rest = mesh.mesh().points;
-  const ConnectedComponents& bodies = mesh.bodies();
-  std::vector<Moments> sums(bodies.count);
-  const auto forEach = [&](const auto& visit)
+  EvaluateReport report;
+  report.iterations = solved.iterations;
+  report.relativeResidual = solved.relativeResidual;
+  report.statistics = this->counts();
+  if (this->mesh().ranks().rank() == 0)
   {
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-    {
-      const Index body = bodies.ofNode[nodes[i]];
-      if (body >= 0 && mesh.owns(nodes[i]))
-      {
-        visit(sums[body], Eigen::RowVector3d(rest.row(nodes[i])),
-          Eigen::RowVector3d(prescribed.row(static_cast<Index>(i))));
-      }
-    }
-  };
-  const auto reduce = [&](auto member)
-  {
-    std::vector<double> flat;
-    for (Moments& sum : sums)
-    {
-      flat.insert(flat.end(), (sum.*member).begin(), (sum.*member).end());
-    }
-    mesh.ranks().sum(flat.data(), flat.size());
-    const double* value = flat.data();
-    for (Moments& sum : sums)
-    {
-      std::copy_n(value, (sum.*member).size(), (sum.*member).begin());
-      value += (sum.*member).size();
-    }
-  };
-  forEach(
-    [](Moments& sum, const Eigen::RowVector3d& x, const Eigen::RowVector3d& d)
-    {
-      sum.first[0] += 1;
-      Eigen::Map<Eigen::RowVector3d>(sum.first.data() + 1) += x;
-      Eigen::Map<Eigen::RowVector3d>(sum.first.data() + 4) += d;
-    });
-  reduce(&Moments::first);
-  const auto mean = [](const Moments& sum, int at)
-  {
-    return Eigen::RowVector3d(
-      Eigen::Map<const Eigen::RowVector3d>(sum.first.data() + at) / std::max(sum.first[0], 1.));
-  };
-  forEach(
-    [&](Moments& sum, const Eigen::RowVector3d& x, const Eigen::RowVector3d& d)
-    {
-      const Eigen::RowVector3d arm = x - mean(sum, 1);
-      Eigen::Map<Eigen::Matrix3d>(sum.second.data()) += arm.transpose() * arm;
-      Eigen::Map<Eigen::Matrix3d>(sum.second.data() + 9) += arm.transpose() * (d - mean(sum, 4));
-    });
-  reduce(&Moments::second);
-  std::vector<AffineFit> result;
-  for (const Moments& sum : sums)
-  {
-    result.emplace_back(mean(sum, 1), mean(sum, 4),
-      Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix3d>(sum.second.data())),
-      Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix3d>(sum.second.data() + 9)));
+    reportRounding(solved, this->tolerance_, monitor);
   }
-  return result;
+  return report;
 }
 
 EvaluateReport SystemMethod::displace(
@@ -173,24 +119,82 @@ EvaluateReport SystemMethod::displace(
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
-  const Points rhs = -(this->coupling_ * prescribed);
-  const std::vector<AffineFit> fits = this->fits(prescribed);
+  const Points& rest = mesh.mesh().points;
+  // Affine motions solve the equations of a uniform stiffness, so the iteration finds only the
+  // remainder. With another stiffness the solution is the fit plus the answer to the rest.
+  const std::vector<AffineFit> fits = this->parts_.fits(mesh, prescribed);
+  Points fitted(free.rows(), 3);
   for (Index i = 0; i < free.rows(); ++i)
   {
-    const Index node = this->ownFree()[i];
-    free.row(i) = fits[mesh.bodies().ofNode[node]].displacement(mesh.mesh().points.row(node));
+    fitted.row(i) =
+      fits[this->parts_.ofRow()[i]].displacement(rest.row(this->ownFree()[i]));
+  }
+  Points rhs = Points::Zero(free.rows(), 3);
+  const std::vector<Index>& held = this->partition().prescribed;
+  for (Index i = 0; i < free.rows(); ++i)
+  {
+    const AffineFit& fit = fits[this->parts_.ofRow()[i]];
+    for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+    {
+      Eigen::RowVector3d motion = prescribed.row(entry.col());
+      if (!this->isUniform_)
+      {
+        motion -= fit.displacement(rest.row(held[entry.col()]));
+      }
+      rhs.row(i) -= entry.value() * motion;
+    }
   }
   ranks.together([&] { monitor.check(); });
-  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
-  EvaluateReport report;
-  report.iterations = solved.iterations;
-  report.relativeResidual = solved.relativeResidual;
-  report.statistics = this->counts();
-  if (ranks.rank() == 0)
+  if (this->isUniform_)
   {
-    reportRounding(solved, this->tolerance_, monitor);
+    free = fitted;
   }
-  return report;
+  else
+  {
+    free.setZero();
+  }
+  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
+  if (!this->isUniform_)
+  {
+    free += fitted;
+  }
+  return this->report(solved, monitor);
+}
+
+EvaluateReport SystemMethod::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  // u_I = -A_I^-1 A_B u_B, so M^T g = -A_B^T y with A_I^T y = g.
+  const DistributedMesh& mesh = this->mesh();
+  const Ranks& ranks = mesh.ranks();
+  if (this->kind_ == HypreSolver::Kind::General && !this->transposed_)
+  {
+    this->transposed_ = this->solver_.transposed(ranks);
+  }
+  const HypreSolver& solver = this->transposed_ ? *this->transposed_ : this->solver_;
+  ranks.together([&] { monitor.check(); });
+  Points solution = Points::Zero(free.rows(), 3);
+  const SolveReport solved =
+    solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
+  prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    // The fit F has F_I^T g + F_B^T A_B^T y.
+    const Points& rest = mesh.mesh().points;
+    std::vector<AffineParts::Load> loads(this->parts_.count());
+    for (Index i = 0; i < free.rows(); ++i)
+    {
+      const Index part = this->parts_.ofRow()[i];
+      this->parts_.add(loads[part], part, rest.row(this->ownFree()[i]), free.row(i));
+      for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+      {
+        this->parts_.add(loads[part], part, rest.row(this->partition().prescribed[entry.col()]),
+          entry.value() * solution.row(i));
+      }
+    }
+    this->parts_.addTranspose(mesh, std::move(loads), prescribed);
+  }
+  return this->report(solved, monitor);
 }
 
 void FemWarp::takeEvaluateOptions(const Morpher& serial)
@@ -198,7 +202,8 @@ void FemWarp::takeEvaluateOptions(const Morpher& serial)
   this->setTolerance(static_cast<const morph::FemWarp&>(serial).tolerance());
 }
 
-SystemMethod::Rows FemWarp::assemble(const std::vector<Index>& columns, Monitor& monitor)
+SystemMethod::Rows FemWarp::assemble(
+  const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
@@ -207,7 +212,7 @@ SystemMethod::Rows FemWarp::assemble(const std::vector<Index>& columns, Monitor&
   ranks.together(
     [&]
     {
-      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, {}, monitor);
+      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -240,14 +245,15 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
   this->setTolerance(static_cast<const morph::LogBarrierWarp&>(serial).tolerance());
 }
 
-SystemMethod::Rows LogBarrierWarp::assemble(const std::vector<Index>& columns, Monitor& monitor)
+SystemMethod::Rows LogBarrierWarp::assemble(
+  const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
   ranks.together(
     [&] {
-      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, {}, monitor);
+      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Distributed/AffineParts.h"
 #include "Distributed/HypreSolver.h"
 #include "Distributed/Method.h"
 
-#include "Geometry/AffineFit.h"
+#include "Morpher/CellStiffness.h"
 #include "Solvers/CsrMatrix.h"
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace morph::distributed
@@ -18,6 +21,9 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
+  const HypreSolver& solver() const { return this->solver_; }
+  /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
+  void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
 
 protected:
   explicit SystemMethod(HypreSolver::Kind kind)
@@ -30,22 +36,29 @@ protected:
     CsrMatrix interior; ///< #ownFree x #ownFree
     CsrMatrix coupling; ///< #ownFree x #columns
   };
-  /// Assembles the rows of ownFree(). `columns`: the local nodes of the other columns. Communicates
-  /// where it has to, and throws on all ranks.
-  virtual Rows assemble(const std::vector<Index>& columns, Monitor& monitor) = 0;
+  /// Assembles the rows of ownFree(). `columns`: the local nodes of the other columns. `factors`:
+  /// of the cells, see stiffnessFactors(). Communicates where it has to, and throws on all ranks.
+  virtual Rows assemble(const std::vector<Index>& columns, const std::vector<double>& factors,
+    Monitor& monitor) = 0;
   /// The method's own counts, of the whole mesh.
   virtual std::vector<Statistic> counts() const { return {}; }
 
   void doPrepare(Monitor& monitor) final;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const final;
+  EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const final;
 
 private:
-  std::vector<AffineFit> fits(const Points& prescribed) const;
+  EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   HypreSolver::Kind kind_;
   double tolerance_ = 1e-10;
+  CellStiffness stiffness_;
+  bool isUniform_ = true;
   CsrMatrix coupling_; ///< #ownFree x #prescribed
+  AffineParts parts_;
   HypreSolver solver_;
+  mutable std::unique_ptr<HypreSolver> transposed_; ///< of a General solver, once it is asked for
 };
 
 /// FEMWARP; see morph::FemWarp.
@@ -59,7 +72,8 @@ public:
   void takeEvaluateOptions(const Morpher& serial) override;
 
 protected:
-  Rows assemble(const std::vector<Index>& columns, Monitor& monitor) override;
+  Rows assemble(const std::vector<Index>& columns, const std::vector<double>& factors,
+    Monitor& monitor) override;
 };
 
 /// LBWARP; see morph::LogBarrierWarp.
@@ -78,7 +92,8 @@ public:
   int layers() const override { return 2; }
 
 protected:
-  Rows assemble(const std::vector<Index>& columns, Monitor& monitor) override;
+  Rows assemble(const std::vector<Index>& columns, const std::vector<double>& factors,
+    Monitor& monitor) override;
   std::vector<Statistic> counts() const override { return this->counts_; }
 
 private:

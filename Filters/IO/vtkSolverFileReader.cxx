@@ -2,146 +2,18 @@
 #include "vtkSolverFileReader.h"
 
 #include "Formats/SolverFile.h"
+#include "SolverGrids.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkIdList.h>
-#include <vtkIdTypeArray.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <algorithm>
 #include <exception>
-
-namespace
-{
-using morph::Index;
-using morph::io::SolverMesh;
-
-vtkSmartPointer<vtkIdTypeArray> idArray(const char* name, const std::vector<Index>& values)
-{
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> mask(
-  const std::string& name, const std::vector<Index>& members, Index size)
-{
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfValues(size);
-  array->FillValue(0);
-  for (const Index member : members)
-  {
-    array->SetValue(member, 1);
-  }
-  return array;
-}
-
-vtkSmartPointer<vtkStringArray> stringArray(const char* name)
-{
-  auto array = vtkSmartPointer<vtkStringArray>::New();
-  array->SetName(name);
-  return array;
-}
-
-void setPoints(const SolverMesh& mesh, vtkUnstructuredGrid* grid)
-{
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(mesh.nodes());
-  std::copy(mesh.coordinates.begin(), mesh.coordinates.end(), coordinates->GetPointer(0));
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  grid->SetPoints(points);
-}
-
-/// One by one: a polyhedron is the list of its faces, in every VTK.
-void insertCells(const SolverMesh& mesh, vtkUnstructuredGrid* grid)
-{
-  grid->Allocate(mesh.cells());
-  vtkNew<vtkIdList> ids;
-  for (Index c = 0; c < mesh.cells(); ++c)
-  {
-    ids->Reset();
-    if (mesh.cellTypes[c] == VTK_POLYHEDRON)
-    {
-      const Index end = mesh.faceOffsets[c + 1];
-      ids->InsertNextId(0);
-      for (Index at = mesh.faceOffsets[c]; at < end; at += mesh.faces[at] + 1)
-      {
-        ids->SetId(0, ids->GetId(0) + 1);
-        for (Index k = 0; k <= mesh.faces[at]; ++k)
-        {
-          ids->InsertNextId(mesh.faces[at + k]);
-        }
-      }
-    }
-    else
-    {
-      for (Index k = mesh.offsets[c]; k < mesh.offsets[c + 1]; ++k)
-      {
-        ids->InsertNextId(mesh.connectivity[k]);
-      }
-    }
-    grid->InsertNextCell(mesh.cellTypes[c], ids);
-  }
-}
-
-void setCells(const SolverMesh& mesh, vtkUnstructuredGrid* grid)
-{
-  if (!mesh.faceOffsets.empty())
-  {
-    insertCells(mesh, grid);
-    return;
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(idArray("offsets", mesh.offsets), idArray("connectivity", mesh.connectivity));
-  vtkNew<vtkUnsignedCharArray> types;
-  types->SetNumberOfValues(mesh.cells());
-  std::copy(mesh.cellTypes.begin(), mesh.cellTypes.end(), types->GetPointer(0));
-  grid->SetCells(types, cells);
-}
-
-void setArrays(const SolverMesh& mesh, const std::string& path, vtkUnstructuredGrid* grid)
-{
-  grid->GetPointData()->SetGlobalIds(idArray("NodeNumber", mesh.nodeNumbers));
-  grid->GetCellData()->AddArray(idArray("ElementNumber", mesh.cellNumbers));
-  const auto names = stringArray("SurfaceNames");
-  for (const morph::io::NamedSet& set : mesh.sets)
-  {
-    if (!set.nodes.empty())
-    {
-      grid->GetPointData()->AddArray(mask(set.name, set.nodes, mesh.nodes()));
-    }
-    if (!set.cells.empty())
-    {
-      grid->GetCellData()->AddArray(mask(set.name, set.cells, mesh.cells()));
-    }
-    if (!set.nodes.empty() || !set.cells.empty())
-    {
-      names->InsertNextValue(set.name);
-    }
-  }
-  grid->GetFieldData()->AddArray(names);
-  const auto file = stringArray("SolverFile");
-  file->InsertNextValue(path);
-  grid->GetFieldData()->AddArray(file);
-}
-}
 
 vtkStandardNewMacro(vtkSolverFileReader);
 
@@ -172,10 +44,41 @@ std::string vtkSolverFileReader::FormatOf(const char* name)
   }
 }
 
+int vtkSolverFileReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+vtkTypeBool vtkSolverFileReader::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+  }
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const char* type = this->SetsAsBlocks ? "vtkPartitionedDataSetCollection" : "vtkUnstructuredGrid";
+  if (!output || !output->IsA(type))
+  {
+    vtkSmartPointer<vtkDataObject> fresh;
+    if (this->SetsAsBlocks)
+    {
+      fresh = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+    }
+    else
+    {
+      fresh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    }
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
 int vtkSolverFileReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
   if (!this->FileName || !this->FileName[0])
   {
     vtkErrorMacro("No file is named that is to be read: set FileName.");
@@ -184,9 +87,14 @@ int vtkSolverFileReader::RequestData(
   try
   {
     const auto file = morph::io::readSolverFile(this->FileName);
-    setPoints(file->mesh(), output);
-    setCells(file->mesh(), output);
-    setArrays(file->mesh(), this->FileName, output);
+    if (auto* blocks = vtkPartitionedDataSetCollection::SafeDownCast(output))
+    {
+      morph::io::fillBlocks(file->mesh(), this->FileName, blocks);
+    }
+    else
+    {
+      morph::io::fillGrid(file->mesh(), this->FileName, vtkUnstructuredGrid::SafeDownCast(output));
+    }
     for (const std::string& warning : file->mesh().warnings)
     {
       vtkWarningMacro(<< warning);
@@ -206,5 +114,6 @@ int vtkSolverFileReader::RequestData(
 void vtkSolverFileReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
+     << indent << "SetsAsBlocks: " << this->SetsAsBlocks << "\n";
 }

@@ -5,7 +5,8 @@
  *
  * The formats are those of Documentation/SolverFiles.md; extension and content tell which it is.
  * The output is one grid in the unit of the file. Its points are the nodes of the file in their
- * order, those that no cell uses included, at the file's own coordinates.
+ * order, those that no cell uses included, at the file's own coordinates. SetsAsBlocks gives sets
+ * and patches as blocks beside the mesh.
  *
  * - Point array `NodeNumber` (vtkIdType, the global ids): the number of each node in the file.
  * - Cell array `ElementNumber` (vtkIdType): the number of each element; -1 for a face that is no
@@ -45,6 +46,18 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output is a vtkPartitionedDataSetCollection in place of one grid. Default off. Its
+   * first block, "Mesh", has all nodes and elements. A block for each named set has its cells, and
+   * a vertex for each other node of it. Points of blocks coincide, and have equal node numbers, so
+   * that morph filters move them as one. GetOutput() is null then: take GetOutputDataObject(0).
+   */
+  vtkSetMacro(SetsAsBlocks, bool);
+  vtkGetMacro(SetsAsBlocks, bool);
+  vtkBooleanMacro(SetsAsBlocks, bool);
+  ///@}
+
   /**
    * Whether this class reads the file: 1 or 0. It reads the first bytes.
    */
@@ -60,6 +73,9 @@ protected:
   vtkSolverFileReader();
   ~vtkSolverFileReader() override;
 
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -68,6 +84,7 @@ private:
   void operator=(const vtkSolverFileReader&) = delete;
 
   char* FileName = nullptr;
+  bool SetsAsBlocks = false;
 };
 
 #endif

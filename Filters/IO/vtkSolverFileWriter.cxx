@@ -4,6 +4,8 @@
 #include "Formats/SolverFile.h"
 #include "Support/Error.h"
 
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
@@ -11,43 +13,121 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <exception>
+#include <unordered_map>
+#include <vector>
 
 namespace
 {
-std::string originalOf(vtkPointSet* input, const char* given)
+/// The data sets of the input: itself, or its blocks that have points.
+std::vector<vtkPointSet*> partsOf(vtkDataObject* input)
+{
+  std::vector<vtkPointSet*> parts;
+  const auto add = [&parts](vtkDataObject* data)
+  {
+    auto* part = vtkPointSet::SafeDownCast(data);
+    if (part && part->GetNumberOfPoints() > 0)
+    {
+      parts.push_back(part);
+    }
+  };
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      add(iterator->GetCurrentDataObject());
+    }
+  }
+  else
+  {
+    add(input);
+  }
+  return parts;
+}
+
+std::string originalOf(
+  vtkDataObject* input, const std::vector<vtkPointSet*>& parts, const char* given)
 {
   if (given && given[0])
   {
     return given;
   }
-  auto* file = vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SolverFile"));
-  if (!file || file->GetNumberOfValues() != 1)
+  std::vector<vtkDataObject*> all(parts.begin(), parts.end());
+  all.insert(all.begin(), input);
+  for (vtkDataObject* data : all)
   {
-    throw morph::Error("No file is named whose coordinates are to be replaced: set "
-                       "OriginalFileName.");
+    auto* file = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SolverFile"));
+    if (file && file->GetNumberOfValues() == 1)
+    {
+      return file->GetValue(0);
+    }
   }
-  return file->GetValue(0);
+  throw morph::Error("No file is named whose coordinates are to be replaced: set "
+                     "OriginalFileName.");
 }
 
-std::vector<morph::Index> numbersOf(vtkPointSet* input)
+vtkDataArray* numbersOf(vtkPointSet* part)
 {
-  vtkPointData* arrays = input->GetPointData();
+  vtkPointData* arrays = part->GetPointData();
   vtkDataArray* numbers = arrays->GetArray("NodeNumber");
   numbers = numbers ? numbers : arrays->GetGlobalIds();
-  if (!numbers || numbers->GetNumberOfTuples() != input->GetNumberOfPoints())
+  if (!numbers || numbers->GetNumberOfTuples() != part->GetNumberOfPoints())
   {
     throw morph::Error("The mesh has no node numbers (the point array NodeNumber), which tell its "
                        "points in the file. Read the mesh from that file.");
   }
-  std::vector<morph::Index> result(static_cast<std::size_t>(input->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < result.size(); ++i)
+  return numbers;
+}
+
+struct Nodes
+{
+  std::vector<morph::Index> Numbers;
+  std::vector<double> Coordinates; ///< 3 x #nodes
+};
+
+/// The nodes of all parts. Nodes of several parts are one; within a part none is.
+Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
+{
+  Nodes nodes;
+  std::unordered_map<morph::Index, std::size_t> known; // places of the nodes of earlier parts
+  std::vector<morph::Index> apart;
+  for (vtkPointSet* part : parts)
   {
-    result[i] = static_cast<morph::Index>(numbers->GetComponent(static_cast<vtkIdType>(i), 0));
+    vtkDataArray* numbers = numbersOf(part);
+    const std::size_t first = nodes.Numbers.size();
+    for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
+    {
+      const auto number = static_cast<morph::Index>(numbers->GetComponent(i, 0));
+      double x[3];
+      part->GetPoint(i, x);
+      const auto found = known.find(number);
+      if (found == known.end())
+      {
+        nodes.Numbers.push_back(number);
+        nodes.Coordinates.insert(nodes.Coordinates.end(), x, x + 3);
+      }
+      else if (!std::equal(x, x + 3, nodes.Coordinates.data() + 3 * found->second))
+      {
+        apart.push_back(number);
+      }
+    }
+    for (std::size_t i = first; parts.size() > 1 && i < nodes.Numbers.size(); ++i)
+    {
+      known.emplace(nodes.Numbers[i], i);
+    }
   }
-  return result;
+  if (!apart.empty())
+  {
+    throw morph::Error(
+      "Blocks have different coordinates for the same nodes: " + morph::listIds(apart) +
+      ". Move all blocks alike, or write the block \"Mesh\" alone.");
+  }
+  return nodes;
 }
 }
 
@@ -64,6 +144,7 @@ vtkSolverFileWriter::~vtkSolverFileWriter()
 int vtkSolverFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
 
@@ -85,7 +166,7 @@ void vtkSolverFileWriter::WriteData()
   this->LargestRounding = -1;
   try
   {
-    this->WriteCopy(vtkPointSet::SafeDownCast(this->GetInput()));
+    this->WriteCopy(this->GetInput());
   }
   catch (const std::bad_alloc&)
   {
@@ -99,22 +180,19 @@ void vtkSolverFileWriter::WriteData()
   }
 }
 
-void vtkSolverFileWriter::WriteCopy(vtkPointSet* input)
+void vtkSolverFileWriter::WriteCopy(vtkDataObject* input)
 {
   if (!this->FileName || !this->FileName[0])
   {
     throw morph::Error("No file is named that is to be written: set FileName.");
   }
-  const std::string original = originalOf(input, this->OriginalFileName);
+  const std::vector<vtkPointSet*> parts = partsOf(input);
+  const std::string original = originalOf(input, parts, this->OriginalFileName);
   morph::io::requireWritable(original, this->FileName);
-  const std::vector<morph::Index> numbers = numbersOf(input);
-  std::vector<double> coordinates(3 * numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    input->GetPoint(static_cast<vtkIdType>(i), coordinates.data() + 3 * i);
-  }
-  this->LargestRounding = morph::io::writeSolverFile(original, numbers, coordinates, this->FileName,
-    this->HandleSignals ? morph::io::Signals::RemoveTemporaries : morph::io::Signals::Leave);
+  const Nodes nodes = nodesOf(parts);
+  this->LargestRounding =
+    morph::io::writeSolverFile(original, nodes.Numbers, nodes.Coordinates, this->FileName,
+      this->HandleSignals ? morph::io::Signals::RemoveTemporaries : morph::io::Signals::Leave);
 }
 
 void vtkSolverFileWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -10,7 +10,8 @@
  *
  * The input is the grid of a vtkSolverFileReader with other points: any filters may have changed
  * it that keep the points and their array `NodeNumber` (the global ids). Its cells and other arrays
- * have no effect.
+ * have no effect. It may have blocks, as with SetsAsBlocks: those with the same node give it the
+ * same coordinates.
  *
  * The file is written as a whole, or the old one stays: after an error, on a full disk and after a
  * kill. FileName may be OriginalFileName.
@@ -28,7 +29,7 @@
 
 #include <vtkWriter.h>
 
-class vtkPointSet;
+class vtkDataObject;
 
 class VTKMESHMORPHINGFILTERSIO_EXPORT vtkSolverFileWriter : public vtkWriter
 {
@@ -86,7 +87,7 @@ private:
   vtkSolverFileWriter(const vtkSolverFileWriter&) = delete;
   void operator=(const vtkSolverFileWriter&) = delete;
 
-  void WriteCopy(vtkPointSet* input);
+  void WriteCopy(vtkDataObject* input);
 
   char* FileName = nullptr;
   char* OriginalFileName = nullptr;

@@ -8,6 +8,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
 
@@ -43,36 +44,21 @@ vtkMTimeType timeOf(vtkObject* object)
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
 {
-  this->SetNumberOfInputPorts(4);
+  this->Shared = this->Internals.get();
   this->ResetResults();
 }
 
-vtkBoundaryDisplacement::~vtkBoundaryDisplacement()
+vtkBoundaryDisplacement::~vtkBoundaryDisplacement() = default;
+
+vtkPolyData* vtkBoundaryDisplacement::GetOutput()
 {
-  this->SetMovingArray(nullptr);
-  this->SetLayersArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-  this->SetSurfaceIdArray(nullptr);
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
-void vtkBoundaryDisplacement::SetSelectionConnection(vtkAlgorithmOutput* output)
+int vtkBoundaryDisplacement::FillOutputPortInformation(int, vtkInformation* info)
 {
-  this->SetInputConnection(1, output);
-}
-
-void vtkBoundaryDisplacement::SetSelectionData(vtkSelection* selection)
-{
-  this->SetInputDataObject(1, selection);
-}
-
-void vtkBoundaryDisplacement::SetTargetConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(2, output);
-}
-
-void vtkBoundaryDisplacement::SetTargetData(vtkDataObject* target)
-{
-  this->SetInputDataObject(2, target);
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
 }
 
 vtkPolyData* vtkBoundaryDisplacement::GetFittedTarget()
@@ -101,7 +87,14 @@ void vtkBoundaryDisplacement::FindPatches(
   vtkInternals& own = *this->Internals;
   try
   {
-    filters::Pick::Find(shown, selection, own.Extractor, own.Blocks, own.Model, names);
+    const bool isPicked = own.Whole && selection && selection->GetNumberOfNodes() > 0;
+    filters::Pick::Find(
+      shown, isPicked ? nullptr : selection, own.Extractor, own.Blocks, own.Model, names);
+    if (isPicked)
+    {
+      throw morph::Error("The mesh is on several MPI ranks, each of which shows a part. Choose "
+                         "surfaces by their names.");
+    }
   }
   catch (const std::exception& error)
   {
@@ -111,7 +104,13 @@ void vtkBoundaryDisplacement::FindPatches(
 
 void vtkBoundaryDisplacement::CopyPatches(vtkDataArraySelection* names, vtkPolyData* output)
 {
-  filters::Pick::Write(this->Internals->Model, names, this->GetOutput(), output);
+  const vtkInternals& own = *this->Internals;
+  filters::Pick::Write(
+    own.Model, names, own.Whole ? own.WholeOutput.Get() : this->GetOutput(), output);
+  if (own.Whole && !filters::Ranks::IsFirst())
+  {
+    output->Initialize(); // the first rank has it all
+  }
 }
 
 void vtkBoundaryDisplacement::SetPick(vtkAlgorithm* selection)
@@ -134,72 +133,6 @@ vtkDataArraySelection* vtkBoundaryDisplacement::GetPickedPatches()
   filters::Picker& picker = this->Internals->Picker;
   this->FindPatches(picker.Shown(this), picker.Update(), picker.Names);
   return picker.Names;
-}
-
-void vtkBoundaryDisplacement::SetRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->Region != region)
-  {
-    this->Internals->Region = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkBoundaryDisplacement::GetRegion()
-{
-  return this->Internals->Region;
-}
-
-void vtkBoundaryDisplacement::SetTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->Transform != transform)
-  {
-    this->Internals->Transform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkBoundaryDisplacement::GetTransform()
-{
-  return this->Internals->Transform;
-}
-
-void vtkBoundaryDisplacement::SetZoneSelectionConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(3, output);
-}
-
-void vtkBoundaryDisplacement::SetZoneSelectionData(vtkSelection* selection)
-{
-  this->SetInputDataObject(3, selection);
-}
-
-void vtkBoundaryDisplacement::SetZoneRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->ZoneRegion != region)
-  {
-    this->Internals->ZoneRegion = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkBoundaryDisplacement::GetZoneRegion()
-{
-  return this->Internals->ZoneRegion;
-}
-
-void vtkBoundaryDisplacement::SetRigidTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->RigidTransform != transform)
-  {
-    this->Internals->RigidTransform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkBoundaryDisplacement::GetRigidTransform()
-{
-  return this->Internals->RigidTransform;
 }
 
 vtkStringArray* vtkBoundaryDisplacement::GetPatchSizes()
@@ -234,30 +167,18 @@ vtkMTimeType vtkBoundaryDisplacement::GetMTime()
   {
     time = std::max(time, timeOf(this->Internals->Region));
   }
-  if (this->ZoneRegionType != ZONE_NONE)
-  {
-    time = std::max(time, timeOf(this->Internals->ZoneRegion));
-  }
-  time = std::max(time, timeOf(this->Internals->RigidTransform));
   return time;
-}
-
-int vtkBoundaryDisplacement::FillInputPortInformation(int port, vtkInformation* info)
-{
-  // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
-    port == 1 || port == 3 ? "vtkSelection" : "vtkDataObject");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // A user who is about to choose patches wants to see their names before the first execution.
+  // A user who is about to choose patches wants to see their names before the first execution. On
+  // several ranks they are known after it: a request for information need not come to all of them.
+  if (filters::Ranks::Processes() > 1)
+  {
+    return 1;
+  }
   filters::Monitor monitor(nullptr, this->NumberOfThreads);
   try
   {
@@ -287,26 +208,46 @@ int vtkBoundaryDisplacement::RequestData(
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* given = vtkDataObject::GetData(inputVector[2]);
   vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
+  vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
   filters::Monitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
-    vtkPointSet* input =
-      filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
-    if (!mesh.IsElsewhere)
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    vtkPointSet* input = nullptr;
+    vtkPolyData* target = nullptr;
+    const auto check = [&]
     {
+      if (mesh.IsDistributed)
+      {
+        filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
+      }
+      input =
+        filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
-      vtkPolyData* target =
-        fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
-      if (fits && !target)
+      target = fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
+      if (fits && !target && (mesh.IsDistributed || !mesh.IsElsewhere))
       {
         throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
                            "from an STL file for instance.");
       }
-      this->Internals->Displace(this, input, selection, target, zone, output, monitor);
+    };
+    if (mesh.IsDistributed)
+    {
+      filters::Ranks::Together(check);
+      this->Internals->DisplaceOnRanks(
+        this, input, { selection, target, zone, control }, output, monitor);
+      return;
+    }
+    check();
+    this->Internals->Whole.reset();
+    this->Internals->WholeOutput->Initialize();
+    if (!mesh.IsElsewhere)
+    {
+      this->Internals->Displace(
+        this, input, { selection, target, zone, control }, output, monitor);
     }
   };
   const auto clear = [&]
@@ -315,9 +256,13 @@ int vtkBoundaryDisplacement::RequestData(
     this->ResetResults();
   };
   filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
+  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    vtkWarningMacro(<< warning);
+    if (isTeller)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   return 1;
 }
@@ -331,54 +276,17 @@ void vtkBoundaryDisplacement::ResetResults()
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
   const auto list = [&](const char* name, const filters::NameSet::Names& values)
   { filters::NameSet::Print(os, indent, name, values); };
   os << indent << "Moving: " << this->Moving << "\n";
-  os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   list("Patches", this->Internals->Patches);
   list("HeldPatches", this->Internals->HeldPatches);
   list("SlidingPatches", this->Internals->SlidingPatches);
   list("FreePatches", this->Internals->FreePatches);
-  list("FrozenZones", this->Internals->FrozenZones);
-  list("RigidZones", this->Internals->RigidZones);
-  os << indent << "ZoneRegion: " << this->Internals->ZoneRegion.Get() << "\n";
-  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
-  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
-  os << indent << "RigidTransform: " << this->Internals->RigidTransform.Get() << "\n";
-  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
-  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
-  os << indent << "Region: " << this->Internals->Region.Get() << "\n";
   os << indent << "Motion: " << this->Motion << "\n";
-  os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
-  os << indent << "Vector: " << this->Vector[0] << " " << this->Vector[1] << " " << this->Vector[2]
-     << "\n";
-  os << indent << "Distance: " << this->Distance << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  const auto triple = [&](const char* name, const double* v)
-  { os << indent << name << ": " << v[0] << " " << v[1] << " " << v[2] << "\n"; };
-  triple("Translation", this->Translation);
-  triple("Rotation", this->Rotation);
-  triple("Scale", this->Scale);
-  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
-  triple("Center", this->Center);
-  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
-  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
-  os << indent << "TargetReach: " << this->TargetReach << "\n";
-  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "Surroundings: " << this->Surroundings << "\n";
-  os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
   os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
   os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";
   os << indent << "HeldPoints: " << this->HeldPoints << "\n";
   os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
@@ -394,18 +302,3 @@ morphNameSetMacro(vtkBoundaryDisplacement, Patch, Patches);
 morphNameSetMacro(vtkBoundaryDisplacement, HeldPatch, HeldPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, SlidingPatch, SlidingPatches);
 morphNameSetMacro(vtkBoundaryDisplacement, FreePatch, FreePatches);
-morphNameSetMacro(vtkBoundaryDisplacement, FrozenZone, FrozenZones);
-morphNameSetMacro(vtkBoundaryDisplacement, RigidZone, RigidZones);
-morphSetNumberMacro(vtkBoundaryDisplacement, Distance);
-morphSetNumberMacro(vtkBoundaryDisplacement, ScaleFactor);
-morphSetNumberMacro(vtkBoundaryDisplacement, RadiusChange);
-morphSetNumberMacro(vtkBoundaryDisplacement, TargetReach, 0.0, 10.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, TargetAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, FalloffRadius, 0.0, 10.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, FeatureAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkBoundaryDisplacement, CornerAngle, 0.0, 180.0);
-morphSetVectorMacro(vtkBoundaryDisplacement, Vector);
-morphSetVectorMacro(vtkBoundaryDisplacement, Translation);
-morphSetVectorMacro(vtkBoundaryDisplacement, Rotation);
-morphSetVectorMacro(vtkBoundaryDisplacement, Scale);
-morphSetVectorMacro(vtkBoundaryDisplacement, Center);

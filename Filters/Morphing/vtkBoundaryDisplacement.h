@@ -10,20 +10,19 @@
  *   surfaces and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a
  *   box for instance.
  * - Motion defines how: by a transform, by a vector, along the normals, by a point vector array of
- *   the input, or onto a target surface; each times ScaleFactor.
+ *   the input, onto a target surface, by handles, or by a lattice; each times ScaleFactor.
  * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
  *   HeldPatches stay in any case, except for the nodes that they share with what moves.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm), or its
- * boundary (vtkPolyData) as
- * vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
+ * boundary (vtkPolyData) as vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
  * in a row move several parts, each in its own way. Such a boundary moves from its current
  * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
  * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
  * move all of their nodes that are on the boundary. Port 2, optional, takes the target of
  * MOTION_TARGET (vtkPolyData, an STL file for instance). Port 3, optional, takes the selection of
- * a zone.
+ * a zone. Port 4, optional, takes the control points of MOTION_HANDLES and MOTION_LATTICE.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:
@@ -40,70 +39,54 @@
  * patches, so that a window can list their names before the first execution, and keeps what it
  * finds for that execution. On a large mesh this takes as long as the first execution would.
  *
- * Warnings: nodes that do not reach the target, faces that the motion leaves without area (a scale
- * of zero, for instance), surfaces that it would reflect, and a mesh without any outer face, whose
+ * Warnings: nodes that do not reach the target; faces that the motion leaves without area (a scale
+ * of zero, for instance); surfaces that it would reflect; a mesh without any outer face, whose
  * boundary is empty. Errors: those of vtkClassifyBoundary; a surface without polygons, MorphPointId
  * or RestPosition; nothing chosen, or nothing on the boundary; a target without polygons, with
  * coordinates that are not finite, or that no node reaches; patches or arrays that do not exist;
  * positions that are not finite, beyond 1e50, or in single precision beyond 3.4e38; nodes without a
  * normal. The output is then empty: a morph would take an unchanged boundary for a motion of zero.
- * An execution that is aborted gives an empty output and no message. With several MPI processes an
- * execution is collective. Cost, where everything is kept: a few passes over the boundary.
+ * An execution that is aborted gives an empty output and no message. With several MPI ranks all of
+ * them have to execute it. Cost, where everything is kept: a few passes over the boundary.
+ *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
  *
- * @sa vtkMorphBoundary vtkClassifyBoundary vtkExtractMorphBoundary vtkMorphAlgorithm
+ * Errors of handles and lattices: none at all, those in the same place, arrays or columns that are
+ * missing, not numeric or of the wrong length, and control points outside of LatticeSize.
+ *
+ * @sa vtkDisplacementAlgorithm vtkMorphBoundary vtkClassifyBoundary vtkExtractMorphBoundary vtkMorphAlgorithm
  */
 #ifndef vtkBoundaryDisplacement_h
 #define vtkBoundaryDisplacement_h
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
-
-#include <vtkPolyDataAlgorithm.h>
+#include "vtkDisplacementAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
-class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkDataObject;
 class vtkDoubleArray;
 class vtkExtractSelection;
-class vtkImplicitFunction;
 class vtkPointSet;
 class vtkPolyData;
 class vtkSelection;
 class vtkStringArray;
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkPolyDataAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkDisplacementAlgorithm
 {
 public:
   static vtkBoundaryDisplacement* New();
-  vtkTypeMacro(vtkBoundaryDisplacement, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkBoundaryDisplacement, vtkDisplacementAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkMTimeType GetMTime() override;
-
-  ///@{
-  /**
-   * The selection (port 1): the same as SetInputConnection() and SetInputData() on that port.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output);
-  void SetSelectionData(vtkSelection* selection);
-  ///@}
-
-  ///@{
-  /**
-   * The target surface (port 2) of MOTION_TARGET: the same as SetInputConnection() and
-   * SetInputData() on that port. A null target removes it.
-   */
-  void SetTargetConnection(vtkAlgorithmOutput* output);
-  void SetTargetData(vtkDataObject* target);
-  ///@}
+  void SetSelectionExtractor(vtkExtractSelection* extractor) override;
 
   /**
-   * The filter that evaluates the selection, for applications whose selections vtkExtractSelection
-   * does not support. Null: a vtkExtractSelection. Default: null.
+   * The displaced boundary.
    */
-  void SetSelectionExtractor(vtkExtractSelection* extractor);
+  vtkPolyData* GetOutput();
 
   enum MovingParts
   {
@@ -172,83 +155,6 @@ public:
   void RemoveAllFreePatches();
   ///@}
 
-  ///@{
-  /**
-   * Zones: parts of the mesh, inner nodes too, that a morph leaves as they are. Frozen zones stay
-   * where they are; rigid ones each move as one body. A name is that of a point array or cell array
-   * of the input, which marks nodes or cells by values other than 0, or of a block. A zone wins
-   * over what moves; a node of several is in the first, frozen ones before rigid ones. The input
-   * has to be the volume mesh. The output then has the inner nodes, too, as points without cells,
-   * with Role 5, so that every morph filter prescribes them. Default: none.
-   */
-  void SetFrozenZoneStatus(const char* name, int status);
-  void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }
-  void RemoveAllFrozenZones();
-  void SetRigidZoneStatus(const char* name, int status);
-  void AddRigidZone(const char* name) { this->SetRigidZoneStatus(name, 1); }
-  void RemoveAllRigidZones();
-  ///@}
-
-  enum ZoneType
-  {
-    ZONE_NONE = 0,
-    ZONE_FROZEN = 1,
-    ZONE_RIGID = 2
-  };
-  ///@{
-  /**
-   * One more zone: the nodes where an implicit function, a box for instance, is zero or less.
-   * Default: null, ZONE_NONE.
-   */
-  void SetZoneRegion(vtkImplicitFunction* region);
-  vtkImplicitFunction* GetZoneRegion();
-  vtkSetClampMacro(ZoneRegionType, int, ZONE_NONE, ZONE_RIGID);
-  vtkGetMacro(ZoneRegionType, int);
-  ///@}
-
-  ///@{
-  /**
-   * One more zone: the selected points or cells (port 3) of the input. Default ZONE_NONE.
-   */
-  void SetZoneSelectionConnection(vtkAlgorithmOutput* output);
-  void SetZoneSelectionData(vtkSelection* selection);
-  vtkSetClampMacro(ZoneSelectionType, int, ZONE_NONE, ZONE_RIGID);
-  vtkGetMacro(ZoneSelectionType, int);
-  ///@}
-
-  ///@{
-  /**
-   * The motion of all rigid zones, times ScaleFactor. Null: each zone takes the rigid motion that
-   * fits, by least squares, its nodes on the mesh's boundary as they move. Where these are none, or
-   * on a line, it fits the zone's edge as FEMWARP would move it, for which this filter solves once.
-   * Default: null.
-   */
-  void SetRigidTransform(vtkAbstractTransform* transform);
-  vtkAbstractTransform* GetRigidTransform();
-  ///@}
-
-  ///@{
-  /**
-   * The most layers of hexahedra, and of wedges on triangles, that are kept on faces that move.
-   * Their nodes follow the wall's displacement and local rotation, so that heights and angles to
-   * the wall stay; a morph prescribes them (Role 6). Layers are found from the wall outwards: they
-   * end at cells of other shapes, at other layers and before the opposite boundary. Nodes of layers
-   * on other surfaces move in the tangent plane of these. An error where no layer is found. Default
-   * 0, range [0, VTK_INT_MAX].
-   */
-  vtkSetClampMacro(KeepLayers, int, 0, VTK_INT_MAX);
-  vtkGetMacro(KeepLayers, int);
-  ///@}
-
-  ///@{
-  /**
-   * Name of a cell array of the input: layers have only cells where it is not zero. Empty or
-   * "None": all. Default: none.
-   */
-  vtkSetStringMacro(LayersArray);
-  vtkGetStringMacro(LayersArray);
-  ///@}
-
   /**
    * Names of all patches, surfaces first, as a list to choose from, with nothing enabled. They are
    * those of the last execution or, after an update of the information, of input data that are up
@@ -297,23 +203,6 @@ public:
    */
   vtkDoubleArray* GetPatchBounds();
 
-  ///@{
-  /**
-   * The implicit function of MOVE_REGION: nodes at which it is zero or less move. Default: null.
-   */
-  void SetRegion(vtkImplicitFunction* region);
-  vtkImplicitFunction* GetRegion();
-  ///@}
-
-  ///@{
-  /**
-   * Name of the point array of MOVE_ARRAY: a node moves where one of its components is not zero.
-   * Empty or "None": none. Default: none.
-   */
-  vtkSetStringMacro(MovingArray);
-  vtkGetStringMacro(MovingArray);
-  ///@}
-
   enum Motions
   {
     MOTION_TRANSFORM = 0,
@@ -323,6 +212,8 @@ public:
     MOTION_PLACEMENT = 4,
     MOTION_RADIUS = 5,
     MOTION_TARGET = 6,
+    MOTION_HANDLES = 7,
+    MOTION_LATTICE = 8,
     // The old names, until version 0.2.
     TRANSFORM = MOTION_TRANSFORM,
     VECTOR = MOTION_VECTOR,
@@ -332,7 +223,7 @@ public:
   ///@{
   /**
    * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray, by
-   * Translation, Rotation and Scale, by RadiusChange, or onto the target.
+   * Translation, Rotation and Scale, by RadiusChange, onto the target, by handles, or by a lattice.
    *
    * MOTION_TARGET: vertices go to the target's vertices, then curves to its feature edges, then
    * surfaces follow and go to the target, as with vtkMorphBoundary. What has no such place within
@@ -341,7 +232,7 @@ public:
    * move. With MOVE_PATCHES and no patch, the surfaces move that the target belongs to: each is
    * the nearest one for an area of the target of at least half its own. Default MOTION_TRANSFORM.
    */
-  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_TARGET);
+  vtkSetClampMacro(Motion, int, MOTION_TRANSFORM, MOTION_LATTICE);
   vtkGetMacro(Motion, int);
   void SetMotionToTransform() { this->SetMotion(MOTION_TRANSFORM); }
   void SetMotionToVector() { this->SetMotion(MOTION_VECTOR); }
@@ -350,166 +241,14 @@ public:
   void SetMotionToPlacement() { this->SetMotion(MOTION_PLACEMENT); }
   void SetMotionToRadius() { this->SetMotion(MOTION_RADIUS); }
   void SetMotionToTarget() { this->SetMotion(MOTION_TARGET); }
-  ///@}
-
-  ///@{
-  /**
-   * The transform of the moving nodes; null is the identity. A scale of zero is allowed: a warning
-   * names the faces that it collapses. Default: null.
-   */
-  void SetTransform(vtkAbstractTransform* transform);
-  vtkAbstractTransform* GetTransform();
-  ///@}
-
-  ///@{
-  /**
-   * The displacement of all moving nodes, in the unit of the points: finite numbers. Default 0, 0,
-   * 0.
-   */
-  virtual void SetVector(double x, double y, double z);
-  virtual void SetVector(const double vector[3]);
-  vtkGetVector3Macro(Vector, double);
-  ///@}
-
-  ///@{
-  /**
-   * How far nodes move along their normal, in the unit of the points. The normal points out of the
-   * mesh; negative is inwards. Normals are area-weighted over the faces that move or, at nodes
-   * without such a face, over all faces of the node. Default 0.
-   */
-  virtual void SetDistance(double value);
-  vtkGetMacro(Distance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Name of a point array of the input with three components, in the unit of the points. Empty or
-   * "None": none. Default: none.
-   */
-  vtkSetStringMacro(DisplacementArray);
-  vtkGetStringMacro(DisplacementArray);
-  ///@}
-
-  ///@{
-  /**
-   * The numbers of MOTION_PLACEMENT: a scale and a rotation about the centre, then a
-   * translation. Translation: in the unit of the points. Rotation: degrees about the axes, z first,
-   * then x, then y. Defaults 0 0 0, 0 0 0, 1 1 1.
-   */
-  virtual void SetTranslation(double x, double y, double z);
-  virtual void SetTranslation(const double vector[3]);
-  vtkGetVector3Macro(Translation, double);
-  virtual void SetRotation(double x, double y, double z);
-  virtual void SetRotation(const double vector[3]);
-  vtkGetVector3Macro(Rotation, double);
-  virtual void SetScale(double x, double y, double z);
-  virtual void SetScale(const double vector[3]);
-  vtkGetVector3Macro(Scale, double);
-  ///@}
-
-  ///@{
-  /**
-   * The centre about which it is scaled and turned. AutoCenter, the default: the centre of the
-   * bounding box of what moves. Off: Center, by default the origin.
-   */
-  vtkSetMacro(AutoCenter, bool);
-  vtkGetMacro(AutoCenter, bool);
-  vtkBooleanMacro(AutoCenter, bool);
-  virtual void SetCenter(double x, double y, double z);
-  virtual void SetCenter(const double vector[3]);
-  vtkGetVector3Macro(Center, double);
-  ///@}
-
-  ///@{
-  /**
-   * How much the radius of the cylinders grows that move (MOTION_RADIUS), in the unit of the
-   * points. A surface that is no cylinder, or that would lose its radius, is an error. Default 0.
-   */
-  virtual void SetRadiusChange(double value);
-  vtkGetMacro(RadiusChange, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether the target is first rotated and shifted onto what moves, or onto the whole boundary
-   * where the target says what moves. The mesh is not. See vtkIterativeClosestPointTransform; the
-   * starts are the target's place, equal centres and equal principal axes. Default off.
-   */
-  vtkSetMacro(AlignTarget, bool);
-  vtkGetMacro(AlignTarget, bool);
-  vtkBooleanMacro(AlignTarget, bool);
-  ///@}
-
-  ///@{
-  /**
-   * How far a node may go to the target, in units of the diagonal of the boundary's bounding box.
-   * Default 0.2, range [0, 10].
-   */
-  virtual void SetTargetReach(double value);
-  vtkGetMacro(TargetReach, double);
-  ///@}
-
-  ///@{
-  /**
-   * The largest angle between the normals of the target and of the surface that goes there. The
-   * target's normals may all point inwards. Degrees, default 60, range [0, 180].
-   */
-  virtual void SetTargetAngle(double value);
-  vtkGetMacro(TargetAngle, double);
+  void SetMotionToHandles() { this->SetMotion(MOTION_HANDLES); }
+  void SetMotionToLattice() { this->SetMotion(MOTION_LATTICE); }
   ///@}
 
   /**
    * The target of the last execution in triangles, as aligned; null without MOTION_TARGET.
    */
   vtkPolyData* GetFittedTarget();
-
-  ///@{
-  /**
-   * The factor of the motion; 0 leaves the boundary where it is. Default 1, any finite number.
-   */
-  virtual void SetScaleFactor(double value);
-  vtkGetMacro(ScaleFactor, double);
-  ///@}
-
-  enum SurroundingsMotions
-  {
-    SURROUNDINGS_STAY = 0,
-    SURROUNDINGS_FOLLOW = 1,
-    SURROUNDINGS_FADE = 2,
-    SURROUNDINGS_FOLLOW_ALL = 3,
-    // The old names, until version 0.2.
-    STAY = SURROUNDINGS_STAY,
-    FOLLOW = SURROUNDINGS_FOLLOW,
-    FADE = SURROUNDINGS_FADE
-  };
-  ///@{
-  /**
-   * What the nodes do that neither move nor are held. They stay. Or the surfaces follow that touch
-   * what moves along an edge, curves first, as with vtkMorphBoundary, vertices being held, and the
-   * others stay: a surface that only shares a vertex does not touch. Where the motion allows it to
-   * 1 % of the largest displacement, a following surface keeps its own shape (plane, cylinder, or
-   * its facets); else a warning says how far it leaves it. Or nodes fade: they follow the motion
-   * the less, the farther they are from the nearest moving node, up to FalloffRadius. Or all
-   * surfaces follow, whether they touch or not. Default SURROUNDINGS_FOLLOW.
-   */
-  vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FOLLOW_ALL);
-  vtkGetMacro(Surroundings, int);
-  void SetSurroundingsToStay() { this->SetSurroundings(SURROUNDINGS_STAY); }
-  void SetSurroundingsToFollow() { this->SetSurroundings(SURROUNDINGS_FOLLOW); }
-  void SetSurroundingsToFade() { this->SetSurroundings(SURROUNDINGS_FADE); }
-  void SetSurroundingsToFollowAll() { this->SetSurroundings(SURROUNDINGS_FOLLOW_ALL); }
-  ///@}
-
-  ///@{
-  /**
-   * The distance at which SURROUNDINGS_FADE reaches zero, in units of the diagonal of the
-   * boundary's bounding box. At the distance d the displacement is that of the 20 nearest moving
-   * nodes, by inverse squared distance, times (1 - t)^4 (4 t + 1) with t = d / radius. Default 0.1,
-   * range [0, 10]; 0 is as SURROUNDINGS_STAY.
-   */
-  virtual void SetFalloffRadius(double value);
-  vtkGetMacro(FalloffRadius, double);
-  ///@}
 
   enum SurfaceMethods
   {
@@ -552,51 +291,6 @@ public:
 
   ///@{
   /**
-   * How the geometry is found: see vtkClassifyBoundary. If port 0 takes a boundary, SurfaceIdArray
-   * is one of its cell arrays.
-   */
-  virtual void SetFeatureAngle(double value);
-  vtkGetMacro(FeatureAngle, double);
-  virtual void SetCornerAngle(double value);
-  vtkGetMacro(CornerAngle, double);
-  vtkSetStringMacro(SurfaceIdArray);
-  vtkGetStringMacro(SurfaceIdArray);
-  vtkSetMacro(UseGeometryArrays, bool);
-  vtkGetMacro(UseGeometryArrays, bool);
-  vtkBooleanMacro(UseGeometryArrays, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION for that of the input's (double where they are neither). Default
-   * DEFAULT_PRECISION.
-   */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
-  ///@}
-
-  ///@{
-  /**
-   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
-   * [0, VTK_INT_MAX].
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * Which points of the blocks of composite data are one node:
-   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
-   * node.
-   */
-  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
-  vtkGetMacro(CoincidentPoints, int);
-  ///@}
-
-  ///@{
-  /**
    * The number of points with each Role in the last execution. 0 where there was no result.
    */
   vtkGetMacro(MovingPoints, vtkIdType);
@@ -621,7 +315,7 @@ protected:
   vtkBoundaryDisplacement();
   ~vtkBoundaryDisplacement() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -639,36 +333,9 @@ private:
   void Choose(vtkPointSet* input, vtkSelection* selection);
 
   int Moving = MOVE_EVERYTHING;
-  char* MovingArray = nullptr;
-  int ZoneRegionType = ZONE_NONE;
-  int ZoneSelectionType = ZONE_NONE;
-  int KeepLayers = 0;
-  char* LayersArray = nullptr;
   int Motion = MOTION_TRANSFORM;
-  double Vector[3] = { 0, 0, 0 };
-  double Distance = 0;
-  char* DisplacementArray = nullptr;
-  double Translation[3] = { 0, 0, 0 };
-  double Rotation[3] = { 0, 0, 0 };
-  double Scale[3] = { 1, 1, 1 };
-  bool AutoCenter = true;
-  double Center[3] = { 0, 0, 0 };
-  double RadiusChange = 0;
-  bool AlignTarget = false;
-  double TargetReach = 0.2;
-  double TargetAngle = 60;
-  double ScaleFactor = 1;
-  int Surroundings = SURROUNDINGS_FOLLOW;
-  double FalloffRadius = 0.1;
   int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
   int UnattachedMotion = UNATTACHED_AFFINELY;
-  double FeatureAngle = 25;
-  double CornerAngle = 45;
-  char* SurfaceIdArray = nullptr;
-  bool UseGeometryArrays = true;
-  int OutputPointsPrecision = DEFAULT_PRECISION;
-  int NumberOfThreads = 0;
-  int CoincidentPoints = 0;
 
   vtkIdType MovingPoints;
   vtkIdType HeldPoints;

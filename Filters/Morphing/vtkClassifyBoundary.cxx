@@ -6,11 +6,13 @@
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkDataObject.h>
@@ -21,7 +23,11 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <cstdint>
+#include <memory>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace filters = morph::filters;
 
@@ -31,7 +37,39 @@ class vtkClassifyBoundary::vtkInternals
 {
 public:
   filters::Blocks Blocks;
+  std::unique_ptr<filters::WholeSurface> Whole; ///< of a mesh on several MPI ranks, or null
+
+  static filters::Geometry::Options Options(const vtkClassifyBoundary* filter);
+  /// Fills the ports of the boundary. `orientation`: as for Surface::Write().
+  static void Write(vtkClassifyBoundary* filter, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+    const morph::BoundaryFaces& faces, const morph::Classification& geometry,
+    vtkInformationVector* outputVector, const std::vector<std::int8_t>* orientation = nullptr);
+  void ClassifyOnRanks(vtkClassifyBoundary* filter, vtkUnstructuredGrid* piece,
+    vtkInformationVector* outputVector, morph::Monitor& monitor);
 };
+
+namespace
+{
+std::vector<morph::Index> firstNumbers(morph::Index count)
+{
+  std::vector<morph::Index> all(count);
+  std::iota(all.begin(), all.end(), morph::Index(0));
+  return all;
+}
+
+/// The geometry where each body has a node of its own behind the boundary's, and then no body.
+morph::Classification withBodies(morph::Classification geometry, morph::Index bodies)
+{
+  for (morph::Index body = 0; body <= bodies; ++body)
+  {
+    const bool isNone = body == bodies;
+    geometry.dimension.push_back(isNone ? -1 : 3);
+    geometry.entity.push_back(isNone ? -1 : body);
+    geometry.parameter.push_back(0);
+  }
+  return geometry;
+}
+}
 
 vtkClassifyBoundary::vtkClassifyBoundary()
   : Internals(new vtkInternals)
@@ -83,8 +121,21 @@ int vtkClassifyBoundary::RequestData(
   const auto classify = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
-    vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    vtkUnstructuredGrid* grid = nullptr;
+    if (mesh.IsDistributed)
+    {
+      filters::Ranks::Together(
+        [&]
+        {
+          filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
+          grid = filters::Input::RequireGrid(mesh.Data, "The input");
+        });
+      this->Internals->ClassifyOnRanks(this, grid, outputVector, monitor);
+      return;
+    }
+    grid = filters::Input::RequireGrid(mesh.Data, "The input");
+    this->Internals->Whole.reset();
     if (!mesh.IsElsewhere)
     {
       this->Classify(grid, outputVector, monitor);
@@ -92,9 +143,13 @@ int vtkClassifyBoundary::RequestData(
   };
   filters::Execution::Run(
     this, "classify this mesh's boundary", classify, [&] { this->Clear(outputVector); });
+  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    vtkWarningMacro(<< warning);
+    if (isTeller)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   this->Internals->Blocks.Scatter(outputVector);
   return 1;
@@ -109,32 +164,74 @@ void vtkClassifyBoundary::Classify(
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   filters::Surface::WarnOfNone(faces, monitor);
 
-  filters::Geometry::Options options;
-  options.FeatureAngle = this->FeatureAngle;
-  options.CornerAngle = this->CornerAngle;
-  options.FeaturesInside = this->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(this->SurfaceIdArray);
-  options.UseGeometryArrays = this->UseGeometryArrays;
   morph::ProgressRange classifying(monitor, 0.3, 0.8);
   const morph::Classification geometry =
-    filters::Geometry::Classify(grid, mesh, faces, options, classifying);
+    filters::Geometry::Classify(grid, mesh, faces, vtkInternals::Options(this), classifying);
   monitor.check();
 
   vtkUnstructuredGrid* classified = this->Internals->Blocks.Output(outputVector);
   classified->ShallowCopy(grid);
-  std::vector<morph::Index> all(mesh.numberOfNodes());
-  std::iota(all.begin(), all.end(), morph::Index(0));
-  filters::Geometry::AddPointArrays(geometry, all, classified->GetPointData());
+  filters::Geometry::AddPointArrays(
+    geometry, firstNumbers(mesh.numberOfNodes()), classified->GetPointData());
+  vtkInternals::Write(this, grid, mesh, faces, geometry, outputVector);
+}
 
+filters::Geometry::Options vtkClassifyBoundary::vtkInternals::Options(
+  const vtkClassifyBoundary* filter)
+{
+  filters::Geometry::Options options;
+  options.FeatureAngle = filter->FeatureAngle;
+  options.CornerAngle = filter->CornerAngle;
+  options.FeaturesInside = filter->FeaturesInside;
+  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
+  options.UseGeometryArrays = filter->UseGeometryArrays;
+  return options;
+}
+
+void vtkClassifyBoundary::vtkInternals::Write(vtkClassifyBoundary* filter,
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const morph::BoundaryFaces& faces,
+  const morph::Classification& geometry, vtkInformationVector* outputVector,
+  const std::vector<std::int8_t>* orientation)
+{
   auto* surfaces = vtkPolyData::GetData(outputVector, 1);
-  const std::vector<morph::Index> faceOf = filters::Surface::Write(grid, mesh, faces, surfaces);
+  const std::vector<morph::Index> faceOf =
+    filters::Surface::Write(grid, mesh, faces, surfaces, orientation);
   filters::Geometry::AddPointArrays(geometry, faces.nodes, surfaces->GetPointData());
   filters::Geometry::AddSurfaceIds(geometry, faceOf, surfaces);
 
   filters::Geometry::WriteCurves(grid, geometry, vtkPolyData::GetData(outputVector, 2));
-  this->NumberOfVertices = static_cast<vtkIdType>(geometry.vertices.size());
-  this->NumberOfCurves = static_cast<vtkIdType>(geometry.curves.size());
-  this->NumberOfSurfaces = static_cast<vtkIdType>(geometry.surfaces.size());
+  filter->NumberOfVertices = static_cast<vtkIdType>(geometry.vertices.size());
+  filter->NumberOfCurves = static_cast<vtkIdType>(geometry.curves.size());
+  filter->NumberOfSurfaces = static_cast<vtkIdType>(geometry.surfaces.size());
+}
+
+/// The whole boundary on each process, of which each keeps the surfaces and curves of its cells.
+void vtkClassifyBoundary::vtkInternals::ClassifyOnRanks(vtkClassifyBoundary* filter,
+  vtkUnstructuredGrid* piece, vtkInformationVector* outputVector, morph::Monitor& monitor)
+{
+  if (!this->Whole)
+  {
+    this->Whole = std::make_unique<filters::WholeSurface>();
+  }
+  filters::WholeSurface& whole = *this->Whole;
+  whole.Take(piece, monitor);
+  whole.Together(
+    [&]
+    {
+      filters::Surface::WarnOfNone(whole.Faces(), monitor);
+      morph::ProgressRange classifying(monitor, 0.3, 0.8);
+      morph::Classification geometry = filters::Geometry::Classify(
+        whole.Grid(), whole.Mesh(), whole.Faces(), Options(filter), classifying);
+      monitor.check();
+      Write(filter, whole.Grid(), whole.Mesh(), whole.Faces(), geometry, outputVector,
+        &whole.Orientation());
+      whole.KeepOwn(vtkPolyData::GetData(outputVector, 1));
+      whole.KeepOwn(vtkPolyData::GetData(outputVector, 2));
+      vtkUnstructuredGrid* classified = this->Blocks.Output(outputVector);
+      classified->ShallowCopy(piece);
+      filters::Geometry::AddPointArrays(withBodies(std::move(geometry), whole.NumberOfBodies()),
+        whole.Places(), classified->GetPointData());
+    });
 }
 
 void vtkClassifyBoundary::Clear(vtkInformationVector* outputVector)

@@ -26,11 +26,12 @@
  * mesh, and the cell array `MorphBlockId` has the flat index of the block.
  *
  * A mesh without any outer face, for instance with every cell twice, gives a warning. Errors, with
- * an empty output: overlapping AMR, no points, no volume cells, cells that
- * a morph does not support, arrays shorter than there are points or cells, coordinates that are not
- * finite or above 1e50, an extent below 1e-50. An execution that is aborted gives an empty output
- * and no message. On several MPI ranks it is collective: cuts between pieces are no boundary, ids
- * are global, and each rank has its cells' faces. Cost: about 0.4 microseconds a cell.
+ * an empty output: overlapping AMR, no points, no volume cells, cells that a morph does not
+ * support. Also arrays shorter than there are points or cells, coordinates that are not finite or
+ * above 1e50, and an extent below 1e-50. An execution that is aborted gives an empty output and no
+ * message. On several MPI ranks all of them have to execute it: cuts between pieces are no
+ * boundary, ids are global, and each rank has its cells' faces. Cost: about 0.4 microseconds a
+ * cell.
  *
  * @sa vtkMorphAlgorithm vtkDataSetSurfaceFilter
  */

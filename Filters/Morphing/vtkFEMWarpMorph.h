@@ -17,8 +17,8 @@
  * gradients in about a dozen iterations. Memory: about 0.7 kB a node of a hexahedral mesh, 0.5 kB
  * of a tetrahedral one.
  *
- * T. J. Baker, "Mesh movement and metamorphosis", Proc. 10th Int. Meshing Roundtable (2001)
- * 387-396; S. M. Shontz, S. A. Vavasis, "Analysis of and workarounds for element reversal for a
+ * T. J. Baker, "Mesh movement and metamorphosis", Engineering with Computers 18 (2002)
+ * 188-198; S. M. Shontz, S. A. Vavasis, "Analysis of and workarounds for element reversal for a
  * finite element-based algorithm for warping triangular and tetrahedral meshes", BIT 50 (2010)
  * 863-884.
  *

@@ -6,6 +6,7 @@
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphShapes.h"
@@ -223,8 +224,19 @@ int vtkMorphAdjoint::RequestData(
       }
       else
       {
-        this->Execute(morph, rest, boundary, holder, output, monitor);
+        this->Execute(morph, rest, boundary, holder, output, false, monitor);
       }
+    },
+    {},
+    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
+    {
+      if (shapes)
+      {
+        throw morph::Error("vtkMorphAdjoint of vtkMorphShapes needs one MPI rank, and the mesh is "
+                           "distributed over several. Run on one, or take the derivatives with "
+                           "respect to the boundary.");
+      }
+      this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, true, monitor);
     } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
@@ -265,30 +277,47 @@ void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid*
 }
 
 void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest,
-  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor)
+  vtkDataObject* boundary, vtkDataObject* carrier, vtkPointSet* output, bool onRanks,
+  morph::Monitor& monitor)
 {
-  if (!morph)
+  vtkPointSet* points = nullptr;
+  vtkDataArray* gradient = nullptr;
+  const auto check = [&]
   {
-    throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or give "
-                       "the gradient on port 2 by a pipeline with that filter in it.");
+    if (!morph)
+    {
+      throw morph::Error("There is no method: set Morph to the filter that morphs the mesh, or "
+                         "give the gradient on port 2 by a pipeline with that filter in it.");
+    }
+    points = filters::Input::RequireBoundary(boundary);
+    // The mesh was checked before.
+    vtkPointSet* holder =
+      carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
+    if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
+    {
+      gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
+    }
+    // With a DisplacementArray the method does not use the points, but the output has them.
+    if (const auto wrong =
+          filters::DataCheck::Immoderate(filters::GridMesh::FromPoints(points->GetPoints()));
+        !wrong.empty())
+    {
+      throw morph::Error(
+        "The boundary has coordinates that are not finite (NaN or infinite), at its points " +
+        morph::listIds(wrong) + ". Correct them.");
+    }
+  };
+  if (onRanks)
+  {
+    filters::Ranks::Together(check);
   }
-  vtkPointSet* points = filters::Input::RequireBoundary(boundary);
-  // The mesh was checked before.
-  vtkPointSet* holder =
-    carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
-  vtkDataArray* gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
-  // With a DisplacementArray the method does not use the points, but the output has them.
-  if (const auto wrong =
-        filters::DataCheck::Immoderate(filters::GridMesh::FromPoints(points->GetPoints()));
-      !wrong.empty())
+  else
   {
-    throw morph::Error("The boundary has coordinates that are not finite (NaN or infinite), at its "
-                       "points " +
-                       morph::listIds(wrong) + ". Correct them.");
+    check();
   }
   vtkNew<vtkDoubleArray> result;
   result->SetName("MorphGradient");
-  morph->Transpose(rest, points, gradient, result, monitor);
+  morph->Transpose(rest, points, gradient, result, onRanks, monitor);
   output->ShallowCopy(points);
   output->GetPointData()->AddArray(result);
   output->GetPointData()->SetActiveVectors("MorphGradient");

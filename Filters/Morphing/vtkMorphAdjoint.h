@@ -141,7 +141,7 @@ private:
   void ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid* rest, vtkDataObject* carrier,
     vtkPointSet* output, morph::Monitor& monitor);
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-    vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor);
+    vtkDataObject* carrier, vtkPointSet* output, bool onRanks, morph::Monitor& monitor);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -33,7 +33,9 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 
 namespace filters = morph::filters;
 
@@ -68,8 +70,10 @@ public:
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   /// Morph() where the mesh has pieces on several MPI processes.
-  void MorphOnRanks(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
-    vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+  std::string MorphOnRanks(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
+    vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
+    morph::Monitor& monitor);
+  filters::OnRanks::Morphing& OnRanks();
   /// Makes `output` the undeformed mesh, where that can be read, without a result.
   void WriteUndeformed(
     vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface);
@@ -77,6 +81,8 @@ public:
 private:
   vtkMorphAlgorithm* Filter;
 
+  /// The steps of a motion. `boundary`: returns that of a step.
+  filters::Session::Motion Motion(std::function<vtkPointSet*(int step)> boundary) const;
   std::shared_ptr<const filters::StepResult> MorphSeries(
     vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor);
 };
@@ -155,6 +161,11 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
       boundary ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(1, 0)) : nullptr;
     kept.Session.CheckSeries(
       this->GetMTime(), kept.Steps.FromBoundary(), upstream ? upstream->GetPipelineMTime() : 0);
+    if (kept.Distributed)
+    {
+      kept.Distributed->CheckSeries(
+        this->GetMTime(), kept.Steps.FromBoundary(), upstream ? upstream->GetPipelineMTime() : 0);
+    }
     const int last = kept.Session.LastStepUntil(kept.Step);
     kept.BoundaryStep = std::min(kept.Step, last + 1);
     time = kept.Steps.Time(kept.BoundaryStep);
@@ -179,16 +190,6 @@ int vtkMorphAlgorithm::RequestData(
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
   std::string partial;
-  // A process without cells has no series, and would not know which step to ask the boundary for.
-  if (kept.IsSeries() && kept.Steps.FromBoundary() && filters::Ranks::Count(true) > 1)
-  {
-    kept.Results.Reset();
-    vtkErrorMacro("Relative steps after a boundary that varies in time need a single MPI process. "
-                  "Run on one, or set Stepping to Absolute.");
-    kept.WriteUndeformed(nullptr, "Failed", output, surface);
-    kept.Ports.WriteOutput(outputVector);
-    return 1;
-  }
   const auto noteInfeasible = [&](const auto& morph)
   {
     try
@@ -213,7 +214,7 @@ int vtkMorphAlgorithm::RequestData(
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       noteInfeasible(
-        [&] { kept.MorphOnRanks(grid, boundary, output, badCells, surface, monitor); });
+        [&] { partial = kept.MorphOnRanks(grid, boundary, output, badCells, surface, monitor); });
     } };
   kept.BoundaryInverted = 0;
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
@@ -297,45 +298,67 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   return result->Valid.Error;
 }
 
-void vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* grid,
-  vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
-  vtkPolyData* surface, morph::Monitor& monitor)
+filters::OnRanks::Morphing& vtkMorphAlgorithm::vtkInternals::OnRanks()
 {
-  if (this->IsSeries())
-  {
-    throw morph::Error(std::string("Stepping Relative of ") + this->Filter->GetClassName() +
-                       " needs one MPI rank, and the mesh is distributed over several. Run on one, "
-                       "or set Stepping to Absolute.");
-  }
   if (!this->Distributed)
   {
     this->Distributed = std::make_unique<filters::OnRanks::Morphing>(this->Results);
   }
+  return *this->Distributed;
+}
+
+std::string vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* grid,
+  vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
+  vtkPolyData* surface, morph::Monitor& monitor)
+{
   filters::Session::Options options;
   filters::Ranks::Together([&] { options = this->Options(grid, boundary); });
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
-  this->Distributed->Run({ grid, boundary, fraction, this->Filter->OutputPointsPrecision,
-                           { options.MeasureAll, this->Filter->Certify },
-                           this->Filter->FeatureLines, output, badCells, surface },
+  // All processes ask for the same steps, whatever time the boundary has here.
+  const filters::Session::Motion motion = this->Motion(
+    [&](int step)
+    {
+      return filters::Input::RequireBoundary(
+        this->Steps.FromBoundary() ? this->Ports.Fetch(1, this->Steps.Time(step)) : boundary);
+    });
+  return this->OnRanks().Run({ grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
+                               this->Filter->OutputPointsPrecision,
+                               { options.MeasureAll, this->Filter->Certify },
+                               this->Filter->FeatureLines, output, badCells, surface },
     options, monitor);
 }
 
-std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(
-  vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor)
+filters::Session::Motion vtkMorphAlgorithm::vtkInternals::Motion(
+  std::function<vtkPointSet*(int step)> boundary) const
 {
   filters::Session::Motion motion;
   motion.Step = this->Step;
   motion.Varies = this->Steps.FromBoundary();
   motion.Fraction = [this](int step) { return this->Steps.Fraction(step); };
-  motion.Boundary = [&](int step)
+  motion.Boundary = std::move(boundary);
+  return motion;
+}
+
+std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(
+  vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor)
+{
+  // A process without cells has no series, and would not know which step to ask the boundary for.
+  if (this->Steps.FromBoundary() && filters::Ranks::Processes() > 1)
   {
-    if (motion.Varies && step != this->BoundaryStep)
+    throw morph::Error("Relative steps after a boundary that varies in time need a mesh with cells "
+                       "on several MPI processes, or a single process. Distribute the mesh, or set "
+                       "Stepping to Absolute.");
+  }
+  const filters::Session::Motion motion = this->Motion(
+    [&](int step)
     {
-      displaced = filters::Input::RequireBoundary(this->Ports.Fetch(1, this->Steps.Time(step)));
-      this->BoundaryStep = step;
-    }
-    return displaced;
-  };
+      if (this->Steps.FromBoundary() && step != this->BoundaryStep)
+      {
+        displaced = filters::Input::RequireBoundary(this->Ports.Fetch(1, this->Steps.Time(step)));
+        this->BoundaryStep = step;
+      }
+      return displaced;
+    });
   return this->Session.MorphSeries(motion, options, monitor);
 }
 
@@ -348,7 +371,7 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
     [&]
     {
       this->Transpose(filters::Input::RequireGrid(rest, "The mesh"), boundary, gradient,
-        boundaryGradient, monitor);
+        boundaryGradient, false, monitor);
     },
     [&] { boundaryGradient->Initialize(); });
   for (const std::string& warning : monitor.TakeWarnings())
@@ -359,13 +382,20 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
 }
 
 void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, bool onRanks, morph::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
   if (this->Stepping == STEPPING_RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
   {
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
+  }
+  if (onRanks)
+  {
+    filters::Session::Options options;
+    filters::Ranks::Together([&] { options = kept.Options(rest, boundary); });
+    kept.OnRanks().Transpose(rest, boundary, gradient, options, boundaryGradient, monitor);
+    return;
   }
   kept.Session.Transpose(
     rest, boundary, gradient, kept.Options(rest, boundary), boundaryGradient, monitor);

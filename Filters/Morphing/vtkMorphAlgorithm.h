@@ -72,27 +72,27 @@
  *
  * After an error there is one message, and output 0 is the undeformed mesh of port 0, or empty if
  * that cannot be read. MorphStatus is then "Failed", and InvertedCells and MinScaledJacobian are
- * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Among
- * the errors: overlapping AMR, no points, no volume cells, cells of other
- * types (tetrahedra, hexahedra, wedges, pyramids, quadratic ones and polyhedra are read), no way to
- * match the boundary, a node with two targets, ids that RestPosition contradicts, on several MPI
- * ranks nonlinear methods, relative steps, Validity SubStep or Repair, and composite data. Data
- * sets on any port are refused if an array has fewer values than there are points or cells, if
- * cells name points that do not exist, or if coordinates are not finite or above 1e50. An extent
- * below 1e-50 other than 0 is refused too. So are motions beyond 1e50, and in single precision
- * beyond 3.4e38. An execution that is aborted gives the undeformed mesh (MorphStatus "Cancelled",
- * the same -1) and no message. Inverted cells are no error by themselves: see Validity.
+ * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Errors:
+ * overlapping AMR; no points or no volume cells; cells other than tetrahedra, hexahedra, wedges,
+ * pyramids, quadratic ones and polyhedra; no way to match the boundary; a node with two targets;
+ * ids that RestPosition contradicts. On several MPI ranks also nonlinear methods, relative steps,
+ * Validity SubStep or Repair, and composite data. On any port: an array with fewer values than
+ * there are points or cells; cells that name points that do not exist; coordinates that are not
+ * finite or above 1e50; an extent below 1e-50 other than 0; motions beyond 1e50, and in single
+ * precision beyond 3.4e38. An execution that is aborted gives the undeformed mesh
+ * (MorphStatus "Cancelled", the same -1) and no message. Inverted cells alone are no error: see
+ * Validity.
  *
  * A property that is a floating-point number accepts neither NaN, nor infinity, nor values outside
  * its range: the setter raises an error, and the old value stays. Integers outside their range
  * become the nearest bound, as usual in VTK.
  *
- * If a port's data are needed at another time than the pipeline has left them at (one reader on
- * both ports, relative steps that were skipped), this filter updates its input from within
- * RequestData. CONTINUE_EXECUTING is not used: VTK's executive repeats without end if the input
- * fails in a repeated execution.
+ * The pipeline may have left a port's data at another time than is needed: one reader feeds both
+ * ports, or relative steps were skipped. The filter then updates its input from within RequestData.
+ * CONTINUE_EXECUTING is not used: VTK's executive repeats without end if the input fails in a
+ * repeated execution.
  *
- * With several MPI ranks an execution is collective, and results are those of the whole mesh.
+ * With several MPI ranks all of them have to execute it. Results are those of the whole mesh.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A comparison of mesh
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -495,8 +495,8 @@ public:
 
   /**
    * The adjoint of a linear method, for shape optimisation. It takes the derivatives of an
-   * objective with respect to the position of each node of the morphed mesh, and computes those
-   * with respect to the position (or displacement) of each point of the boundary. `rest` and
+   * objective with respect to the position of each node of the morphed mesh. It computes those with
+   * respect to the position (or displacement) of each point of the boundary. `rest` and
    * `boundary`: as on the two ports, which are not used. `gradient`: #nodes tuples of 3.
    * `boundaryGradient`: becomes #points of the boundary tuples of 3, with the factor ScaleFactor; a
    * point that stands for no node gets 0, and so does each but the first of several points of one
@@ -579,9 +579,9 @@ private:
 
   friend class vtkMorphAdjoint;
 
-  /// ApplyTranspose() that throws.
+  /// ApplyTranspose() that throws. `onRanks`: all MPI processes call it, each with its piece.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
+    vtkDoubleArray* boundaryGradient, bool onRanks, morph::Monitor& monitor);
   ///@{
   /// A result of the last execution, by its name in Results.txt.
   double GetNumber(const char* name) const;

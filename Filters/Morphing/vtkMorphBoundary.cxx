@@ -11,11 +11,13 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Project/Target.h"
 #include "Support/Error.h"
 
@@ -33,7 +35,10 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <vector>
 
 namespace filters = morph::filters;
 
@@ -49,6 +54,8 @@ morphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
 
               class vtkMorphBoundary::vtkInternals
 {
+  using Index = morph::Index;
+
 public:
   filters::Results Results{ filters::ResultTables::vtkMorphBoundary() };
   filters::Ports Ports;
@@ -61,9 +68,29 @@ public:
 
   void Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkDataObject* target,
     vtkPolyData* output, filters::Monitor& monitor);
+  /// For a mesh on several MPI processes: each gets the part that its cells have. Collective.
+  void MorphOnRanks(vtkUnstructuredGrid* piece, vtkDataObject* boundary, vtkDataObject* target,
+    vtkPolyData* output, filters::Monitor& given);
 
 private:
+  /// The boundary of a mesh, and what it is to follow.
+  struct Task
+  {
+    vtkUnstructuredGrid* Grid;
+    const morph::Mesh& Mesh;
+    const morph::BoundaryFaces& Faces;
+    const std::vector<Index>& BodyOfNode;
+    const std::vector<std::int8_t>* Orientation; ///< as for Surface::Write()
+    double Size;
+    std::function<filters::BoundaryMatch::Result()> Match;
+    vtkPolyData* Target;
+  };
+
   vtkMorphBoundary* Filter;
+  std::unique_ptr<filters::WholeSurface> Whole; ///< of a mesh on several MPI processes, or null
+
+  filters::BoundaryMatch::Options Matching() const;
+  void Run(const Task& task, vtkPolyData* output, filters::Monitor& monitor);
 
   void ReportProjection(const morph::ProjectionReport& onCurves,
     const morph::ProjectionReport& onSurfaces, const filters::Target& target,
@@ -245,19 +272,79 @@ int vtkMorphBoundary::RequestData(
     this->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     { kept.Morph(grid, boundary, target, output, monitor); },
-    [&](vtkDataObject*, const char*) { kept.Results.Write(output); } };
+    [&](vtkDataObject*, const char*) { kept.Results.Write(output); },
+    [&](vtkUnstructuredGrid* piece, vtkDataObject* boundary, filters::Monitor& monitor)
+    { kept.MorphOnRanks(piece, boundary, target, output, monitor); } };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
 void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
   vtkDataObject* target, vtkPolyData* output, filters::Monitor& monitor)
 {
+  this->Whole.reset();
   vtkPointSet* given = filters::Input::RequireBoundary(boundary);
-  vtkPolyData* targetSurface =
-    target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
+  vtkPolyData* surface = target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   filters::Input::RequireVolumeCells(mesh);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
+  const std::vector<Index> bodyOfNode = morph::connectedComponents(mesh).ofNode;
+  const double size = filters::GridMesh::Size(mesh);
+  const auto match = [&]
+  { return filters::BoundaryMatch::Match(given, mesh, faces, size, this->Matching()); };
+  this->Run({ grid, mesh, faces, bodyOfNode, nullptr, size, match, surface }, output, monitor);
+}
+
+void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
+  vtkDataObject* boundary, vtkDataObject* target, vtkPolyData* output, filters::Monitor& given)
+{
+  // All processes find the same, and the first one tells it.
+  filters::Monitor silent(this->Filter, this->Filter->NumberOfThreads);
+  filters::Monitor& monitor = filters::Ranks::IsFirst() ? given : silent;
+  if (!this->Whole)
+  {
+    this->Whole = std::make_unique<filters::WholeSurface>();
+  }
+  const filters::WholeSurface& whole = *this->Whole;
+  vtkPointSet* points = nullptr;
+  vtkSmartPointer<vtkPolyData> surface;
+  filters::Ranks::Together(
+    [&]
+    {
+      points = filters::Input::RequireBoundary(boundary);
+      surface = target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
+    });
+  this->Whole->Take(piece, monitor);
+  const filters::BoundaryMatch::Result match = whole.Match(points, this->Matching());
+  if (surface)
+  {
+    surface = filters::WholeSurface::Gather(surface);
+  }
+  whole.Together(
+    [&]
+    {
+      this->Run({ whole.Grid(), whole.Mesh(), whole.Faces(), whole.BodyOfNode(),
+                  &whole.Orientation(), whole.Size(), [&match] { return match; }, surface },
+        output, monitor);
+      whole.KeepOwn(output);
+    });
+}
+
+filters::BoundaryMatch::Options vtkMorphBoundary::vtkInternals::Matching() const
+{
+  filters::BoundaryMatch::Options matching;
+  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
+  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
+  matching.ScaleFactor = this->Filter->ScaleFactor;
+  matching.MatchTolerance = this->Filter->MatchTolerance;
+  matching.HoldUnnamedBoundary = false;
+  return matching;
+}
+
+void vtkMorphBoundary::vtkInternals::Run(
+  const Task& task, vtkPolyData* output, filters::Monitor& monitor)
+{
+  const morph::Mesh& mesh = task.Mesh;
+  const morph::BoundaryFaces& faces = task.Faces;
   filters::Surface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
   filters::Geometry::Options options;
@@ -267,17 +354,9 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   options.SurfaceIdArray = filters::Input::ArrayName(this->Filter->SurfaceIdArray);
   options.UseGeometryArrays = this->Filter->UseGeometryArrays;
   const morph::Classification geometry =
-    filters::Geometry::Classify(grid, mesh, faces, options, monitor);
+    filters::Geometry::Classify(task.Grid, mesh, faces, options, monitor);
 
-  filters::BoundaryMatch::Options matching;
-  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
-  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
-  matching.ScaleFactor = this->Filter->ScaleFactor;
-  matching.MatchTolerance = this->Filter->MatchTolerance;
-  matching.HoldUnnamedBoundary = false;
-  const double size = filters::GridMesh::Size(mesh);
-  const filters::BoundaryMatch::Result named =
-    filters::BoundaryMatch::Match(given, mesh, faces, size, matching);
+  const filters::BoundaryMatch::Result named = task.Match();
   for (const std::string& warning : named.Warnings)
   {
     monitor.warn(warning);
@@ -290,7 +369,8 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   how.neighbors = this->Filter->NumberOfNeighbors;
   how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->UnattachedMotion);
   morph::BoundaryMotion motion =
-    morph::beginMotion(mesh, faces, geometry, match.Ids, match.Targets);
+    morph::beginMotion(
+      mesh.points, task.BodyOfNode, faces, geometry, match.Ids, match.Targets);
   this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.Ids.size()));
   this->Results.SetInteger("HeldVertices", motion.count(morph::BoundaryMotion::Held));
   this->Results.SetInteger("ProjectedPoints", 0);
@@ -300,11 +380,11 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   morph::morphCurves(geometry, how.unattached, motion, monitor);
   std::unique_ptr<filters::Target> place;
   morph::ProjectionReport onCurves, onSurfaces;
-  if (targetSurface)
+  if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(targetSurface, this->Filter->FeatureAngle,
-      this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * size, monitor);
+    place = std::make_unique<filters::Target>(task.Target, this->Filter->FeatureAngle,
+      this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * task.Size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
   monitor.SetRange(0.4, 0.7);
@@ -325,14 +405,15 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   }
   monitor.SetRange(0.9, 1);
 
-  const bool isFloat = filters::Output::IsFloat(grid, this->Filter->OutputPointsPrecision);
+  const bool isFloat = filters::Output::IsFloat(task.Grid, this->Filter->OutputPointsPrecision);
   morph::Points moved = motion.moved();
   filters::Output::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
   if (isFloat)
   {
     moved = moved.cast<float>().cast<double>().eval();
   }
-  const std::vector<Index> faceOf = filters::Surface::Write(grid, mesh, faces, output);
+  const std::vector<Index> faceOf =
+    filters::Surface::Write(task.Grid, mesh, faces, output, task.Orientation);
   filters::Geometry::AddPointArrays(geometry, faces.nodes, output->GetPointData());
   filters::Geometry::AddSurfaceIds(geometry, faceOf, output);
   writeMotion(mesh.points, moved, faces.nodes, isFloat, output);

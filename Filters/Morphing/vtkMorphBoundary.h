@@ -45,7 +45,7 @@
  * port 1 names no node of a dimension up to PrescribedDimension; a target without polygons. The
  * output is then empty: a morph would take an unchanged boundary for a motion of zero.
  * MinScaledJacobian and FoldedFaces are then -1. An execution that is aborted gives the same, and
- * no message. With several MPI processes an execution is collective. Cost: for each surface node a
+ * no message. With several MPI ranks all of them have to execute it. Cost: for each surface node a
  * search for the nearest curve nodes, and a few searches in the target.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh

@@ -75,48 +75,26 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
 vtkMorphMesh::vtkMorphMesh()
   : Internals(new vtkInternals(this))
 {
-  this->SetNumberOfInputPorts(4);
+  this->Shared = this->Internals.get();
+  this->LargestZoneType = ZONE_SOFT;
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
 vtkMorphMesh::~vtkMorphMesh()
 {
-  this->SetMovingArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-  this->SetSurfaceIdArray(nullptr);
-  this->SetLayersArray(nullptr);
   this->SetStiffnessArray(nullptr);
   this->SetWallArray(nullptr);
 }
 
-void vtkMorphMesh::SetSelectionConnection(vtkAlgorithmOutput* output)
+vtkUnstructuredGrid* vtkMorphMesh::GetOutput()
 {
-  this->SetInputConnection(1, output);
+  return this->GetOutput(0);
 }
 
-void vtkMorphMesh::SetSelectionData(vtkSelection* selection)
+vtkUnstructuredGrid* vtkMorphMesh::GetOutput(int port)
 {
-  this->SetInputDataObject(1, selection);
-}
-
-void vtkMorphMesh::SetTargetConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(2, output);
-}
-
-void vtkMorphMesh::SetTargetData(vtkDataObject* target)
-{
-  this->SetInputDataObject(2, target);
-}
-
-void vtkMorphMesh::SetSelectionExtractor(vtkExtractSelection* extractor)
-{
-  if (this->Internals->Extractor != extractor)
-  {
-    this->Internals->Extractor = extractor;
-    this->Modified();
-  }
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(port));
 }
 
 vtkDataArraySelection* vtkMorphMesh::GetSurfaceList()
@@ -178,72 +156,6 @@ vtkDoubleArray* vtkMorphMesh::GetSurfaceBounds()
   return this->Internals->Displacement->GetPatchBounds();
 }
 
-void vtkMorphMesh::SetRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->Region != region)
-  {
-    this->Internals->Region = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkMorphMesh::GetRegion()
-{
-  return this->Internals->Region;
-}
-
-void vtkMorphMesh::SetTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->Transform != transform)
-  {
-    this->Internals->Transform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkMorphMesh::GetTransform()
-{
-  return this->Internals->Transform;
-}
-
-void vtkMorphMesh::SetZoneSelectionConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(3, output);
-}
-
-void vtkMorphMesh::SetZoneSelectionData(vtkSelection* selection)
-{
-  this->SetInputDataObject(3, selection);
-}
-
-void vtkMorphMesh::SetZoneRegion(vtkImplicitFunction* region)
-{
-  if (this->Internals->ZoneRegion != region)
-  {
-    this->Internals->ZoneRegion = region;
-    this->Modified();
-  }
-}
-
-vtkImplicitFunction* vtkMorphMesh::GetZoneRegion()
-{
-  return this->Internals->ZoneRegion;
-}
-
-void vtkMorphMesh::SetRigidTransform(vtkAbstractTransform* transform)
-{
-  if (this->Internals->RigidTransform != transform)
-  {
-    this->Internals->RigidTransform = transform;
-    this->Modified();
-  }
-}
-
-vtkAbstractTransform* vtkMorphMesh::GetRigidTransform()
-{
-  return this->Internals->RigidTransform;
-}
-
 vtkIdType vtkMorphMesh::GetZonePoints() const
 {
   return this->Internals->Displacement->GetZonePoints();
@@ -294,14 +206,6 @@ vtkMTimeType vtkMorphMesh::GetMTime()
   {
     time = std::max(time, own.Region->GetMTime());
   }
-  if (this->ZoneRegionType != ZONE_NONE && own.ZoneRegion)
-  {
-    time = std::max(time, own.ZoneRegion->GetMTime());
-  }
-  if (own.RigidTransform)
-  {
-    time = std::max(time, own.RigidTransform->GetMTime());
-  }
   return time;
 }
 
@@ -310,18 +214,6 @@ vtkTypeBool vtkMorphMesh::ProcessRequest(
 {
   return filters::Ports::MakeOutput(request, inputVector, outputVector) ||
          this->Superclass::ProcessRequest(request, inputVector, outputVector);
-}
-
-int vtkMorphMesh::FillInputPortInformation(int port, vtkInformation* info)
-{
-  // Any other type would make the executive run the filter block by block; see filters::Input.h.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
-    port == 1 || port == 3 ? "vtkSelection" : "vtkDataObject");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 int vtkMorphMesh::FillOutputPortInformation(int port, vtkInformation* info)
@@ -340,8 +232,12 @@ int vtkMorphMesh::RequestInformation(
     output->Remove(Pipeline::TIME_RANGE());
     steps.Write(output);
   }
-  // A user who is about to choose surfaces wants to see their names before the first execution.
-  this->Internals->List(filters::upToDateInput(this, inputVector));
+  // A user who is about to choose surfaces wants to see their names before the first execution. See
+  // vtkBoundaryDisplacement for several ranks.
+  if (filters::Ranks::Processes() == 1)
+  {
+    this->Internals->List(filters::upToDateInput(this, inputVector));
+  }
   return 1;
 }
 
@@ -360,6 +256,7 @@ int vtkMorphMesh::RequestData(
   vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
+  vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkUnstructuredGrid* output = own.Blocks.Output(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
@@ -368,23 +265,31 @@ int vtkMorphMesh::RequestData(
   own.Results.Reset();
   const auto work = [&]
   {
-    if (filters::Ranks::Count(true) > 1)
-    {
-      throw morph::Error("vtkMorphMesh needs a single MPI rank. Run on one, or use Extract Morph "
-                         "Boundary and a method's filter.");
-    }
-    input = own.Blocks.Gather(
-      input, this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    if (!grid)
-    {
-      filters::Input::RequireGrid(input, "The input"); // has the message
-    }
-    own.TakeGrid(grid);
-    own.TakeTarget(target);
-    own.TakeZone(zone);
-    partial = own.Run(own.OfGrid(selection), filters::Ports::Asked(request, outputVector), output,
-      badCells, surface, monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, own.Blocks,
+      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    input = mesh.Data;
+    vtkSelection* ofGrid = nullptr;
+    filters::Ranks::Together(
+      [&]
+      {
+        if (mesh.IsDistributed)
+        {
+          filters::Input::RequireNoBlocks(own.Blocks, this->GetClassName());
+        }
+        auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+        if (!grid)
+        {
+          filters::Input::RequireGrid(input, "The input"); // has the message
+        }
+        own.IsDistributed = mesh.IsDistributed;
+        own.TakeGrid(grid);
+        own.TakeTarget(target);
+        own.TakeControlPoints(control);
+        own.TakeZone(zone);
+        ofGrid = own.OfGrid(selection);
+      });
+    partial = own.Run(ofGrid, filters::Ports::Asked(request, outputVector), output, badCells,
+      surface, monitor);
   };
   const auto clear = [&]
   {
@@ -466,42 +371,13 @@ void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
   list("FixedSurfaces", this->Internals->FixedSurfaces);
   list("SlidingSurfaces", this->Internals->SlidingSurfaces);
   list("FreeSurfaces", this->Internals->FreeSurfaces);
-  list("FrozenZones", this->Internals->FrozenZones);
-  list("RigidZones", this->Internals->RigidZones);
   list("SoftZones", this->Internals->SoftZones);
-  os << indent << "ZoneRegion: " << this->Internals->ZoneRegion.Get() << "\n";
-  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
-  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
-  os << indent << "RigidTransform: " << this->Internals->RigidTransform.Get() << "\n";
   os << indent << "SoftStiffness: " << this->SoftStiffness << "\n";
-  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
-  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
   os << indent << "Stiffness: " << this->Stiffness << "\n";
   os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
   os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
   os << indent << "WallArray: " << text(this->WallArray) << "\n";
-  os << indent << "Region: " << this->Internals->Region.Get() << "\n";
-  os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
   os << indent << "Displacement: " << this->Displacement << "\n";
-  os << indent << "Transform: " << this->Internals->Transform.Get() << "\n";
-  os << indent << "Vector: " << this->Vector[0] << " " << this->Vector[1] << " " << this->Vector[2]
-     << "\n";
-  os << indent << "Distance: " << this->Distance << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  const auto triple = [&](const char* name, const double* v)
-  { os << indent << name << ": " << v[0] << " " << v[1] << " " << v[2] << "\n"; };
-  triple("Translation", this->Translation);
-  triple("Rotation", this->Rotation);
-  triple("Scale", this->Scale);
-  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
-  triple("Center", this->Center);
-  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
-  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
-  os << indent << "TargetReach: " << this->TargetReach << "\n";
-  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "Surroundings: " << this->Surroundings << "\n";
-  os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Validity: " << this->Validity << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
@@ -510,14 +386,7 @@ void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Stepping: " << this->Stepping << "\n";
   os << indent << "RestTime: " << this->RestTime << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   this->Internals->Results.Print(os, indent);
 }
 
@@ -525,22 +394,7 @@ morphNameSetMacro(vtkMorphMesh, Surface, Surfaces);
 morphNameSetMacro(vtkMorphMesh, FixedSurface, FixedSurfaces);
 morphNameSetMacro(vtkMorphMesh, SlidingSurface, SlidingSurfaces);
 morphNameSetMacro(vtkMorphMesh, FreeSurface, FreeSurfaces);
-morphNameSetMacro(vtkMorphMesh, FrozenZone, FrozenZones);
-morphNameSetMacro(vtkMorphMesh, RigidZone, RigidZones);
 morphNameSetMacro(vtkMorphMesh, SoftZone, SoftZones);
 morphSetNumberMacro(vtkMorphMesh, SoftStiffness, 1e-6, 1.0);
 morphSetNumberMacro(vtkMorphMesh, StiffnessExponent, 0.0, 4.0);
 morphSetNumberMacro(vtkMorphMesh, RestTime);
-morphSetNumberMacro(vtkMorphMesh, Distance);
-morphSetNumberMacro(vtkMorphMesh, ScaleFactor);
-morphSetNumberMacro(vtkMorphMesh, RadiusChange);
-morphSetNumberMacro(vtkMorphMesh, TargetReach, 0.0, 10.0);
-morphSetNumberMacro(vtkMorphMesh, TargetAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkMorphMesh, FalloffRadius, 0.0, 10.0);
-morphSetNumberMacro(vtkMorphMesh, FeatureAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkMorphMesh, CornerAngle, 0.0, 180.0);
-morphSetVectorMacro(vtkMorphMesh, Vector);
-morphSetVectorMacro(vtkMorphMesh, Translation);
-morphSetVectorMacro(vtkMorphMesh, Rotation);
-morphSetVectorMacro(vtkMorphMesh, Scale);
-morphSetVectorMacro(vtkMorphMesh, Center);

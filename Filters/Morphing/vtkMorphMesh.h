@@ -36,58 +36,40 @@
  * "Failed", and InvertedCells and MinScaledJacobian are -1. The errors and warnings are those of
  * vtkBoundaryDisplacement and vtkMorphAlgorithm. A mesh on several MPI ranks is an error.
  *
- * @sa vtkBoundaryDisplacement vtkMorphAlgorithm vtkFEMWarpMorph
+ * @sa vtkDisplacementAlgorithm vtkBoundaryDisplacement vtkMorphAlgorithm vtkFEMWarpMorph
  */
 #ifndef vtkMorphMesh_h
 #define vtkMorphMesh_h
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
-
-#include <vtkUnstructuredGridAlgorithm.h>
+#include "vtkDisplacementAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
-class vtkAbstractTransform;
 class vtkDataArraySelection;
 class vtkDataObject;
 class vtkDoubleArray;
-class vtkExtractSelection;
-class vtkImplicitFunction;
 class vtkMorphAlgorithm;
 class vtkPolyData;
 class vtkSelection;
 class vtkStringArray;
+class vtkUnstructuredGrid;
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphMesh : public vtkUnstructuredGridAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkMorphMesh : public vtkDisplacementAlgorithm
 {
 public:
   static vtkMorphMesh* New();
-  vtkTypeMacro(vtkMorphMesh, vtkUnstructuredGridAlgorithm);
+  vtkTypeMacro(vtkMorphMesh, vtkDisplacementAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkMTimeType GetMTime() override;
 
   ///@{
   /**
-   * The selection (port 1): the same as SetInputConnection() and SetInputData() on that port. Its
-   * ids are those of the mesh on port 0.
+   * The morphed mesh, and its inverted cells.
    */
-  void SetSelectionConnection(vtkAlgorithmOutput* output);
-  void SetSelectionData(vtkSelection* selection);
+  vtkUnstructuredGrid* GetOutput();
+  vtkUnstructuredGrid* GetOutput(int port);
   ///@}
-
-  ///@{
-  /**
-   * The target surface (port 2, vtkPolyData) of DISPLACEMENT_TARGET: the same as
-   * SetInputConnection() and SetInputData() on that port. A null target removes it.
-   */
-  void SetTargetConnection(vtkAlgorithmOutput* output);
-  void SetTargetData(vtkDataObject* target);
-  ///@}
-
-  /**
-   * The filter that evaluates the selection. Null: a vtkExtractSelection. Default: null.
-   */
-  void SetSelectionExtractor(vtkExtractSelection* extractor);
 
   enum MovingParts
   {
@@ -154,57 +136,14 @@ public:
 
   ///@{
   /**
-   * Zones: parts of the mesh, inner nodes too, that stay (frozen), each move as one body (rigid),
-   * or give way more than the rest (soft), by the name of a point array, a cell array or a block.
-   * See vtkBoundaryDisplacement. The stiffness of soft cells is multiplied by SoftStiffness; with
-   * methods other than FEMWARP and LBWARP, soft zones are an error. Default: none.
+   * Zones that give way more than the rest, by the name of a point array, a cell array or a block.
+   * ZoneRegionType and ZoneSelectionType may be ZONE_SOFT, too. The stiffness of soft cells is
+   * multiplied by SoftStiffness; with methods other than FEMWARP and LBWARP, soft zones are an
+   * error. Default: none.
    */
-  void SetFrozenZoneStatus(const char* name, int status);
-  void AddFrozenZone(const char* name) { this->SetFrozenZoneStatus(name, 1); }
-  void RemoveAllFrozenZones();
-  void SetRigidZoneStatus(const char* name, int status);
-  void AddRigidZone(const char* name) { this->SetRigidZoneStatus(name, 1); }
-  void RemoveAllRigidZones();
   void SetSoftZoneStatus(const char* name, int status);
   void AddSoftZone(const char* name) { this->SetSoftZoneStatus(name, 1); }
   void RemoveAllSoftZones();
-  ///@}
-
-  enum ZoneType
-  {
-    ZONE_NONE = 0,
-    ZONE_FROZEN = 1,
-    ZONE_RIGID = 2,
-    ZONE_SOFT = 3
-  };
-  ///@{
-  /**
-   * One more zone: the nodes where an implicit function, a box for instance, is zero or less, and
-   * the cells that have no others. Default: null, ZONE_NONE.
-   */
-  void SetZoneRegion(vtkImplicitFunction* region);
-  vtkImplicitFunction* GetZoneRegion();
-  vtkSetClampMacro(ZoneRegionType, int, ZONE_NONE, ZONE_SOFT);
-  vtkGetMacro(ZoneRegionType, int);
-  ///@}
-
-  ///@{
-  /**
-   * One more zone: the selected points or cells (port 3) of the input. Default ZONE_NONE.
-   */
-  void SetZoneSelectionConnection(vtkAlgorithmOutput* output);
-  void SetZoneSelectionData(vtkSelection* selection);
-  vtkSetClampMacro(ZoneSelectionType, int, ZONE_NONE, ZONE_SOFT);
-  vtkGetMacro(ZoneSelectionType, int);
-  ///@}
-
-  ///@{
-  /**
-   * The motion of all rigid zones, times ScaleFactor; null: the motion of their boundary. See
-   * vtkBoundaryDisplacement. Default: null.
-   */
-  void SetRigidTransform(vtkAbstractTransform* transform);
-  vtkAbstractTransform* GetRigidTransform();
   ///@}
 
   ///@{
@@ -213,17 +152,6 @@ public:
    */
   virtual void SetSoftStiffness(double value);
   vtkGetMacro(SoftStiffness, double);
-  ///@}
-
-  ///@{
-  /**
-   * The layers of cells that are kept on faces that move: see vtkBoundaryDisplacement. Defaults 0,
-   * none.
-   */
-  vtkSetClampMacro(KeepLayers, int, 0, VTK_INT_MAX);
-  vtkGetMacro(KeepLayers, int);
-  vtkSetStringMacro(LayersArray);
-  vtkGetStringMacro(LayersArray);
   ///@}
 
   ///@{
@@ -285,23 +213,6 @@ public:
    */
   vtkDoubleArray* GetSurfaceBounds();
 
-  ///@{
-  /**
-   * The implicit function of MOVE_REGION: nodes at which it is zero or less move. Default: null.
-   */
-  void SetRegion(vtkImplicitFunction* region);
-  vtkImplicitFunction* GetRegion();
-  ///@}
-
-  ///@{
-  /**
-   * Name of the point array of MOVE_ARRAY: a node moves where one of its components is not zero.
-   * Empty or "None": none. Default: none.
-   */
-  vtkSetStringMacro(MovingArray);
-  vtkGetStringMacro(MovingArray);
-  ///@}
-
   enum Displacements
   {
     DISPLACEMENT_TRANSFORM = 0,
@@ -310,19 +221,24 @@ public:
     DISPLACEMENT_ARRAY = 3,
     DISPLACEMENT_PLACEMENT = 4,
     DISPLACEMENT_RADIUS = 5,
-    DISPLACEMENT_TARGET = 6
+    DISPLACEMENT_TARGET = 6,
+    DISPLACEMENT_HANDLES = 7,
+    DISPLACEMENT_LATTICE = 8
   };
   ///@{
   /**
    * How it moves: by Transform, by Vector, by Distance along its normals, by DisplacementArray,
-   * by Translation, Rotation and Scale, by RadiusChange, or onto the target; each times
-   * ScaleFactor. See vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   * by Translation, Rotation and Scale, by RadiusChange, onto the target, by handles, or by a
+   * lattice; each times ScaleFactor. See vtkBoundaryDisplacement. Default DISPLACEMENT_TRANSFORM.
+   *
+   * With handles or a lattice, MOVE_SURFACES, no surface chosen and no selection that moves,
+   * everything moves.
    *
    * DISPLACEMENT_TARGET with no surface chosen and no selection moves the surfaces that the target
    * belongs to. The mesh then has the point arrays `TargetDistanceBefore` and
    * `TargetDistance`, NaN where nodes do not move.
    */
-  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_TARGET);
+  vtkSetClampMacro(Displacement, int, DISPLACEMENT_TRANSFORM, DISPLACEMENT_LATTICE);
   vtkGetMacro(Displacement, int);
   void SetDisplacementToTransform() { this->SetDisplacement(DISPLACEMENT_TRANSFORM); }
   void SetDisplacementToVector() { this->SetDisplacement(DISPLACEMENT_VECTOR); }
@@ -331,122 +247,8 @@ public:
   void SetDisplacementToPlacement() { this->SetDisplacement(DISPLACEMENT_PLACEMENT); }
   void SetDisplacementToRadius() { this->SetDisplacement(DISPLACEMENT_RADIUS); }
   void SetDisplacementToTarget() { this->SetDisplacement(DISPLACEMENT_TARGET); }
-  ///@}
-
-  ///@{
-  /**
-   * The transform of what moves; null is the identity. Default: null.
-   */
-  void SetTransform(vtkAbstractTransform* transform);
-  vtkAbstractTransform* GetTransform();
-  ///@}
-
-  ///@{
-  /**
-   * The displacement, in the unit of the points: finite numbers. Default 0, 0, 0.
-   */
-  virtual void SetVector(double x, double y, double z);
-  virtual void SetVector(const double vector[3]);
-  vtkGetVector3Macro(Vector, double);
-  ///@}
-
-  ///@{
-  /**
-   * How far nodes move along their normal, in the unit of the points. The normal points out of the
-   * mesh; negative is inwards. Default 0.
-   */
-  virtual void SetDistance(double value);
-  vtkGetMacro(Distance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Name of a point array of the input with three components, in the unit of the points. Empty or
-   * "None": none. Default: none.
-   */
-  vtkSetStringMacro(DisplacementArray);
-  vtkGetStringMacro(DisplacementArray);
-  ///@}
-
-  ///@{
-  /**
-   * The numbers of DISPLACEMENT_PLACEMENT: a scale and a rotation about the centre, then a
-   * translation. Translation: in the unit of the points. Rotation: degrees about the axes, z first,
-   * then x, then y. Defaults 0 0 0, 0 0 0, 1 1 1.
-   */
-  virtual void SetTranslation(double x, double y, double z);
-  virtual void SetTranslation(const double vector[3]);
-  vtkGetVector3Macro(Translation, double);
-  virtual void SetRotation(double x, double y, double z);
-  virtual void SetRotation(const double vector[3]);
-  vtkGetVector3Macro(Rotation, double);
-  virtual void SetScale(double x, double y, double z);
-  virtual void SetScale(const double vector[3]);
-  vtkGetVector3Macro(Scale, double);
-  ///@}
-
-  ///@{
-  /**
-   * The centre about which it is scaled and turned. AutoCenter, the default: the centre of the
-   * bounding box of what moves. Off: Center, by default the origin.
-   */
-  vtkSetMacro(AutoCenter, bool);
-  vtkGetMacro(AutoCenter, bool);
-  vtkBooleanMacro(AutoCenter, bool);
-  virtual void SetCenter(double x, double y, double z);
-  virtual void SetCenter(const double vector[3]);
-  vtkGetVector3Macro(Center, double);
-  ///@}
-
-  ///@{
-  /**
-   * How much the radius of the cylinders grows that move (DISPLACEMENT_RADIUS), in the unit of the
-   * points. A surface that is no cylinder, or that would lose its radius, is an error. Default 0.
-   */
-  virtual void SetRadiusChange(double value);
-  vtkGetMacro(RadiusChange, double);
-  ///@}
-
-  ///@{
-  /**
-   * DISPLACEMENT_TARGET: whether the target is first rotated and shifted onto what moves; how far a
-   * node may go, in units of the diagonal of the boundary's bounding box; the largest angle between
-   * the normals of target and mesh, degrees. See vtkBoundaryDisplacement. Defaults off, 0.2, 60;
-   * ranges [0, 10], [0, 180].
-   */
-  vtkSetMacro(AlignTarget, bool);
-  vtkGetMacro(AlignTarget, bool);
-  vtkBooleanMacro(AlignTarget, bool);
-  virtual void SetTargetReach(double value);
-  vtkGetMacro(TargetReach, double);
-  virtual void SetTargetAngle(double value);
-  vtkGetMacro(TargetAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * The factor of the motion; 0 leaves the mesh as it is. Default 1, any finite number.
-   */
-  virtual void SetScaleFactor(double value);
-  vtkGetMacro(ScaleFactor, double);
-  ///@}
-
-  ///@{
-  /**
-   * What the rest of the boundary does: vtkBoundaryDisplacement::SURROUNDINGS_STAY and so on.
-   * Default SURROUNDINGS_FOLLOW.
-   */
-  vtkSetClampMacro(Surroundings, int, 0, 3);
-  vtkGetMacro(Surroundings, int);
-  ///@}
-
-  ///@{
-  /**
-   * The distance at which SURROUNDINGS_FADE reaches zero, in units of the diagonal of the
-   * boundary's bounding box. Default 0.1, range [0, 10].
-   */
-  virtual void SetFalloffRadius(double value);
-  vtkGetMacro(FalloffRadius, double);
+  void SetDisplacementToHandles() { this->SetDisplacement(DISPLACEMENT_HANDLES); }
+  void SetDisplacementToLattice() { this->SetDisplacement(DISPLACEMENT_LATTICE); }
   ///@}
 
   enum Methods
@@ -542,48 +344,6 @@ public:
 
   ///@{
   /**
-   * How surfaces and curves are found: see vtkClassifyBoundary.
-   */
-  virtual void SetFeatureAngle(double value);
-  vtkGetMacro(FeatureAngle, double);
-  virtual void SetCornerAngle(double value);
-  vtkGetMacro(CornerAngle, double);
-  vtkSetStringMacro(SurfaceIdArray);
-  vtkGetStringMacro(SurfaceIdArray);
-  vtkSetMacro(UseGeometryArrays, bool);
-  vtkGetMacro(UseGeometryArrays, bool);
-  vtkBooleanMacro(UseGeometryArrays, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Type of the output's points, as in vtkMorphAlgorithm. Default DEFAULT_PRECISION.
-   */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
-  ///@}
-
-  ///@{
-  /**
-   * Threads to compute with. 0 means all cores. The result does not depend on it. Default 0, range
-   * [0, VTK_INT_MAX].
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * Which points of the blocks of composite data are one node:
-   * vtkMorphAlgorithm::CoincidentPointsType. The same in all filters of a pipeline. Default 0, one
-   * node.
-   */
-  vtkSetClampMacro(CoincidentPoints, int, 0, 2);
-  vtkGetMacro(CoincidentPoints, int);
-  ///@}
-
-  ///@{
-  /**
    * Results of the last execution; see vtkMorphAlgorithm.
    */
   const char* GetMorphStatus() const;
@@ -630,7 +390,6 @@ protected:
   vtkMorphMesh();
   ~vtkMorphMesh() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -647,32 +406,12 @@ private:
   std::unique_ptr<vtkInternals> Internals;
 
   int Moving = MOVE_SURFACES;
-  char* MovingArray = nullptr;
-  int ZoneRegionType = ZONE_NONE;
-  int ZoneSelectionType = ZONE_NONE;
   double SoftStiffness = 0.01;
-  int KeepLayers = 0;
-  char* LayersArray = nullptr;
   int Stiffness = 0;
   double StiffnessExponent = 1;
   char* StiffnessArray = nullptr;
   char* WallArray = nullptr;
   int Displacement = DISPLACEMENT_TRANSFORM;
-  double Vector[3] = { 0, 0, 0 };
-  double Distance = 0;
-  char* DisplacementArray = nullptr;
-  double Translation[3] = { 0, 0, 0 };
-  double Rotation[3] = { 0, 0, 0 };
-  double Scale[3] = { 1, 1, 1 };
-  bool AutoCenter = true;
-  double Center[3] = { 0, 0, 0 };
-  double RadiusChange = 0;
-  bool AlignTarget = false;
-  double TargetReach = 0.2;
-  double TargetAngle = 60;
-  double ScaleFactor = 1;
-  int Surroundings = 1;
-  double FalloffRadius = 0.1;
   int Method = METHOD_FEMWARP;
   int Validity = 3;
   int Quality = QUALITY_ALL;
@@ -681,13 +420,6 @@ private:
   int NumberOfSteps = 0;
   int Stepping = 0;
   double RestTime = -1e300;
-  double FeatureAngle = 25;
-  double CornerAngle = 45;
-  char* SurfaceIdArray = nullptr;
-  bool UseGeometryArrays = true;
-  int OutputPointsPrecision = DEFAULT_PRECISION;
-  int NumberOfThreads = 0;
-  int CoincidentPoints = 0;
 };
 
 #endif

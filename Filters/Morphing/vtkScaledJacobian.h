@@ -44,19 +44,19 @@
  * The output is the input with the cell array `ScaledJacobian` (double, active cell scalars) and
  * the field data MinScaledJacobian, MeanScaledJacobian, InvertedCells, DegenerateCells, WorstCellId
  * and MirroredBodies. With several MPI ranks the numbers are those of the whole mesh, or of each
- * rank's own piece in a build without MESHMORPHING_USE_MPI. An execution is then collective: it has
- * to take place on all ranks.
+ * rank's own piece in a build without MESHMORPHING_USE_MPI. All ranks then have to execute the
+ * filter.
  *
  * The input may be composite data, see vtkMorphAlgorithm: its blocks are measured as one mesh, and
  * come out with their own types.
  *
  * A grid without cells gives a warning. Errors: overlapping AMR, cells but no points, node ids or
- * coordinates that are not valid, arrays shorter than there are points or cells, coordinates above
- * 1e50, and a largest extent below 1e-50. The output is then empty, and InvertedCells and
- * MinScaledJacobian are -1. The same holds, without a message, for an execution that was aborted.
- * Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic volume cell), and a
- * copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a curved quadratic
- * cell.
+ * coordinates that are not valid, and arrays shorter than there are points or cells. Also
+ * coordinates above 1e50, and a largest extent below 1e-50. The output is then empty, and
+ * InvertedCells and MinScaledJacobian are -1. The same holds, without a message, for an execution
+ * that was aborted. Cost: one pass over the cells, about 0.1 microseconds each (5 for a quadratic
+ * volume cell), and a copy of the connectivity; with Certify 0.1 to 1.5 microseconds more, 5 for a
+ * curved quadratic cell.
  *
  * P. M. Knupp, "Achieving finite element mesh quality via optimization of the Jacobian matrix norm
  * and associated quantities. Part II", Int. J. Numer. Meth. Engng 48 (2000) 1165-1185; C. J.

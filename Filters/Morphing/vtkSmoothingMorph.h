@@ -88,9 +88,9 @@ public:
 
   ///@{
   /**
-   * As of the last execution: steps of L-BFGS and of Newton's method, rounds of the latter in which
-   * only the nodes around bad cells moved, iterations of its linear solver, evaluations of the
-   * objectives, nodes that were moved back to keep the minimum, and cells that the boundary itself
+   * As of the last execution: steps of L-BFGS and of Newton's method; rounds of the latter in which
+   * only the nodes around bad cells moved; iterations of its linear solver; evaluations of the
+   * objectives; nodes that were moved back to keep the minimum; cells that the boundary itself
    * inverts.
    */
   vtkIdType GetUntangleSteps() { return this->GetCount("UntangleSteps"); }

@@ -46,8 +46,9 @@ vtkDataArray* require(
   return array;
 }
 
-/// The nodes that a displaced boundary moves, as its filter says; none where it does not.
-Indices movingNodes(vtkDataObject* boundary, vtkIdType nodes)
+/// The nodes that a displaced boundary moves, as its filter says; none where it does not. On MPI
+/// ranks these are global ids, of any number.
+Indices movingNodes(vtkDataObject* boundary)
 {
   Indices moving;
   auto* points = vtkPointSet::SafeDownCast(boundary);
@@ -56,7 +57,7 @@ Indices movingNodes(vtkDataObject* boundary, vtkIdType nodes)
   for (vtkIdType i = 0; ids && roles && i < roles->GetNumberOfTuples(); ++i)
   {
     const double id = ids->GetComponent(i, 0);
-    if (roles->GetComponent(i, 0) == 1 && id >= 0 && id < static_cast<double>(nodes))
+    if (roles->GetComponent(i, 0) == 1 && id >= 0)
     {
       moving.push_back(static_cast<morph::Index>(id));
     }
@@ -107,13 +108,7 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
   next.exponent = this->StiffnessExponent;
   const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
   const std::string name = filters::Input::ArrayName(this->StiffnessArray);
-  if (cells == 0 && !name.empty())
-  {
-    next.values = {
-      1
-    }; // a rank without cells has no arrays, and refuses a stiffness as the others
-  }
-  else if (!name.empty())
+  if (cells > 0 && !name.empty()) // a rank without cells has no arrays
   {
     multiply(require(rest->GetCellData(), name, cells, "StiffnessArray"), cells, next.values);
   }
@@ -124,11 +119,16 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
   if (this->Stiffness == STIFFNESS_WALL_DISTANCE)
   {
     const std::string walls = filters::Input::ArrayName(this->WallArray);
-    if (walls.empty() || cells == 0)
+    if (walls.empty())
     {
-      next.walls = movingNodes(boundary, nodes);
+      next.walls = movingNodes(boundary);
     }
     else
+    {
+      next.areWallsGlobal = false;
+      next.noWalls = "WallArray names '" + walls + "', which is zero at all nodes.";
+    }
+    if (!walls.empty() && cells > 0)
     {
       vtkDataArray* marks = require(rest->GetPointData(), walls, nodes, "WallArray");
       for (vtkIdType i = 0; i < nodes; ++i)
@@ -138,15 +138,12 @@ void vtkStiffnessMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bou
           next.walls.push_back(i);
         }
       }
-      if (next.walls.empty())
-      {
-        throw morph::Error("WallArray names '" + walls + "', which is zero at all nodes.");
-      }
     }
   }
   vtkTaken& taken = *this->Taken;
   if (next.kind != taken.Stiffness.kind || next.exponent != taken.Stiffness.exponent ||
-      next.walls != taken.Stiffness.walls || next.values != taken.Stiffness.values)
+      next.walls != taken.Stiffness.walls || next.noWalls != taken.Stiffness.noWalls ||
+      next.values != taken.Stiffness.values)
   {
     taken.Stiffness = std::move(next);
     ++taken.Version;

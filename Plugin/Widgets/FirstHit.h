@@ -2,14 +2,16 @@
 #ifndef FirstHit_h
 #define FirstHit_h
 
-#include <QList>
 #include <QObject>
+#include <QPointer>
 
 class QListWidget;
 
-/// Puts Morph Mesh before the plugin's other filters in ParaView's quick launch (Ctrl+Space), which
-/// orders what it finds by the alphabet: Morph Adjoint would be the first hit of "morph". Entries
-/// of others stay where they are.
+/// Makes Morph Mesh the first hit of ParaView's quick launch (Ctrl+Space) for what its name starts
+/// with. The quick launch orders what it finds by the alphabet, and Morph Adjoint would be the
+/// first hit of "morph". Up to ParaView 5.12 Morph Mesh moves before the other filters of the
+/// plugin. From 5.13 on the list sorts itself, so Morph Mesh is selected where it is. Entries of
+/// others stay where they are, and are taken as before.
 class FirstHit : public QObject
 {
   Q_OBJECT
@@ -26,9 +28,12 @@ private Q_SLOTS:
   void aboutToShow();
 
 private:
-  QList<QListWidget*> Lists; ///< of the dialog that is open
+  QPointer<QObject> Dialog; ///< that is open, up to ParaView 5.12
 
-  static void order(QListWidget* hits);
+  /// The lists of `dialog`: filters that are available, and those that are not.
+  static void order(QObject* dialog);
+  /// Selects as soon as something is typed; `dialog`: from ParaView 5.13 on.
+  static void selectIn(QObject* dialog);
 };
 
 #endif

@@ -27,6 +27,18 @@ QLabel* labelOf(QWidget* widget)
   QLayoutItem* left = column > 0 ? grid->itemAtPosition(row, 0) : nullptr;
   return left ? qobject_cast<QLabel*>(left->widget()) : nullptr;
 }
+
+/// Puts a label above what a widget without one shows, a list of texts for instance.
+void putAbove(QWidget* widget, const QString& text)
+{
+  auto* const label = new QLabel(text, widget);
+  label->setObjectName("PanelLabel");
+  label->adjustSize();
+  label->show();
+  QMargins margins = widget->contentsMargins();
+  margins.setTop(margins.top() + label->height());
+  widget->setContentsMargins(margins);
+}
 }
 
 PanelLabel::PanelLabel(vtkPVXMLElement* hint, pqPropertyWidget* widget)
@@ -54,6 +66,10 @@ bool PanelLabel::eventFilter(QObject* object, QEvent* event)
     else if (auto* box = this->parentWidget()->findChild<QCheckBox*>())
     {
       box->setText(this->Text);
+    }
+    else if (!this->parentWidget()->findChild<QLabel*>("PanelLabel"))
+    {
+      putAbove(this->parentWidget(), this->Text);
     }
   }
   return this->Superclass::eventFilter(object, event);

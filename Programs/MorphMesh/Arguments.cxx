@@ -20,6 +20,7 @@ const char* const Usage =
   "       morph-mesh --move <surface> --translate <x,y,z> [options] "
   "<grid> <output>\n"
   "       morph-mesh --target <surface file> [options] <grid> <output>\n"
+  "       morph-mesh --handles <csv> | --lattice <csv> [options] <grid> <output>\n"
   "       morph-mesh --displacements <csv> [options] <grid> <output>\n"
   "       morph-mesh --list-surfaces <grid>\n"
   "       morph-mesh --extract-boundary <grid> <boundary>\n"
@@ -75,25 +76,48 @@ int threadCount(const std::string& text)
   return static_cast<int>(value);
 }
 
-/// "1,2,3"; `alone`: a single number stands for all three.
-std::array<double, 3> triple(const std::string& option, const std::string& text, bool alone)
+template <std::size_t Count>
+std::array<double, Count> numbers(const std::string& option, const std::string& text)
 {
-  std::vector<double> values;
+  std::array<double, Count> values = {};
   std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');)
+  std::size_t found = 0;
+  for (std::string part; std::getline(parts, part, ','); ++found)
   {
-    values.push_back(number(option, part));
+    values[std::min(found, Count - 1)] = number(option, part);
   }
-  if (alone && values.size() == 1)
+  if (found != Count)
   {
-    values.assign(3, values.front());
+    throw UsageError(option + " needs " + (Count == 3 ? "three" : "six") +
+                     " numbers with commas between them, not '" + text + "'.");
   }
-  if (values.size() != 3)
+  return values;
+}
+
+/// A single number stands for all three.
+std::array<double, 3> tripleOrOne(const std::string& option, const std::string& text)
+{
+  if (text.find(',') == std::string::npos)
   {
-    throw UsageError(option + " needs three numbers with commas between them" +
-                     (alone ? ", or one," : ",") + " not '" + text + "'.");
+    const double value = number(option, text);
+    return { value, value, value };
   }
-  return { values[0], values[1], values[2] };
+  return numbers<3>(option, text);
+}
+
+std::array<int, 3> latticeSize(const std::string& text)
+{
+  const std::array<double, 3> values = numbers<3>("--lattice-size", text);
+  std::array<int, 3> size = {};
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!(values[i] >= 2 && values[i] <= 30) || values[i] != std::floor(values[i]))
+    {
+      throw UsageError("--lattice-size needs whole numbers from 2 to 30, not '" + text + "'.");
+    }
+    size[i] = static_cast<int>(values[i]);
+  }
+  return size;
 }
 
 /// "z,30": degrees about an axis.
@@ -125,9 +149,10 @@ int wholeNumber(const char* option, const std::string& text)
 void checkMotion(const Arguments& arguments)
 {
   const Motion& motion = arguments.motion;
-  if (!motion.displacements.empty() && (!motion.moving.empty() || !motion.target.empty()))
+  if (!motion.displacements.empty() && motion.isMade())
   {
-    throw UsageError("--displacements cannot be combined with --move or --target.");
+    throw UsageError(
+      "--displacements cannot be combined with --move, --target, --handles or --lattice.");
   }
   const Motion none;
   const bool hasNumbers = motion.translation != none.translation ||
@@ -136,15 +161,15 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--translate, --rotate, --scale and --radius need --move.");
   }
-  if (motion.moving.empty() && motion.target.empty() &&
+  if (!motion.isMade() &&
       (!motion.fixed.empty() || !motion.sliding.empty() || !motion.free.empty()))
   {
-    throw UsageError("--fix, --slide and --free need --move or --target.");
+    throw UsageError("--fix, --slide and --free need --move, --target, --handles or --lattice.");
   }
-  if (motion.moving.empty() && motion.target.empty() &&
+  if (!motion.isMade() &&
       (!motion.frozen.empty() || !motion.rigid.empty() || motion.keepLayers > 0))
   {
-    throw UsageError("--freeze, --rigid and --keep-layers need --move or --target.");
+    throw UsageError("--freeze, --rigid and --keep-layers need --move, --target, --handles or --lattice.");
   }
   if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
   {
@@ -159,9 +184,23 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
   }
-  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0 && motion.target.empty())
+  if (motion.byControlPoints() &&
+      (hasNumbers || motion.radius != 0 || !motion.target.empty() ||
+        (!motion.handles.empty() && !motion.lattice.empty())))
   {
-    throw UsageError("--move needs --translate, --rotate, --scale, --radius or --target.");
+    throw UsageError("Only one of --handles, --lattice, --target, --radius, and --translate, "
+                     "--rotate and --scale is possible.");
+  }
+  if (motion.lattice.empty() &&
+      (motion.latticeSize != none.latticeSize || motion.hasLatticeBox || motion.bSplines))
+  {
+    throw UsageError("--lattice-size, --lattice-box and --b-splines need --lattice.");
+  }
+  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0 && motion.target.empty() &&
+      !motion.byControlPoints())
+  {
+    throw UsageError("--move needs --translate, --rotate, --scale, --radius, --target, --handles "
+                     "or --lattice.");
   }
 }
 
@@ -285,15 +324,15 @@ std::vector<Option> optionsOf(Arguments& result)
       [&](const std::string& value) { result.motion.moving.push_back(value); } },
     { "--translate", "<x,y,z>", "how far it moves",
       [&](const std::string& value)
-      { result.motion.translation = triple("--translate", value, false); } },
+      { result.motion.translation = numbers<3>("--translate", value); } },
     { "--rotate", "<axis,degrees>", "how it turns about its centre: z,30",
       [&](const std::string& value) { result.motion.rotation = rotation(value); } },
     { "--scale", "<factor>|<x,y,z>", "how it is scaled about its centre",
-      [&](const std::string& value) { result.motion.scale = triple("--scale", value, true); } },
+      [&](const std::string& value) { result.motion.scale = tripleOrOne("--scale", value); } },
     { "--center", "<x,y,z>", "another centre",
       [&](const std::string& value)
       {
-        result.motion.center = triple("--center", value, false);
+        result.motion.center = numbers<3>("--center", value);
         result.motion.hasCenter = true;
       } },
     { "--radius", "<change>", "how much the radius of the cylinders grows that move",
@@ -319,6 +358,24 @@ std::vector<Option> optionsOf(Arguments& result)
       text(result.motion.target) },
     { "--align", nullptr, "rotate and shift the target onto what moves first",
       flag(result.motion.align) },
+    { "--handles", "<csv>",
+      "points that take what moves along smoothly (without --move, everything): columns x, y, z, dx, "
+      "dy, dz\nand, optional, radius (0: no limit)",
+      text(result.motion.handles) },
+    { "--lattice", "<csv>",
+      "control points of a box that move what is inside (without --move, everything): columns i, j, "
+      "k,\ndx, dy, dz",
+      text(result.motion.lattice) },
+    { "--lattice-size", "<l,m,n>", "its control points in each direction, by default 3,3,3",
+      [&](const std::string& value) { result.motion.latticeSize = latticeSize(value); } },
+    { "--lattice-box", "<xmin,xmax,ymin,ymax,zmin,zmax>", "by default the box around what moves",
+      [&](const std::string& value)
+      {
+        result.motion.latticeBox = numbers<6>("--lattice-box", value);
+        result.motion.hasLatticeBox = true;
+      } },
+    { "--b-splines", nullptr, "cubic B-splines of the lattice, in place of Bernstein's polynomials",
+      flag(result.motion.bSplines) },
     { "--displacements", "<csv>", "nodes that move: columns id (0-based point id), dx, dy, dz",
       text(result.motion.displacements) },
     { "--node-numbers", nullptr, "ids of --displacements are the node numbers of the grid's file",

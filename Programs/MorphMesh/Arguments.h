@@ -23,12 +23,20 @@ struct Motion
   double radius = 0;                 ///< change of the radius of cylinders
   std::string target, displacements; ///< files; empty: none
   bool align = false;                ///< the target first
+  std::string handles, lattice;      ///< files of control points; empty: none
+  std::array<int, 3> latticeSize = { 3, 3, 3 };
+  std::array<double, 6> latticeBox = {}; ///< as VTK's bounds
+  bool hasLatticeBox = false;            ///< else the box around what moves
+  bool bSplines = false;                 ///< of the lattice, else Bernstein
   bool nodeNumbers = false;
 
-  bool any() const
+  bool byControlPoints() const { return !this->handles.empty() || !this->lattice.empty(); }
+  /// Whether vtkBoundaryDisplacement makes it.
+  bool isMade() const
   {
-    return !this->moving.empty() || !this->target.empty() || !this->displacements.empty();
+    return !this->moving.empty() || !this->target.empty() || this->byControlPoints();
   }
+  bool any() const { return this->isMade() || !this->displacements.empty(); }
 };
 
 /// The task, files and options of a command line.

@@ -4,6 +4,7 @@
 #include "Arguments.h"
 #include "Files.h"
 #include "Messages.h"
+#include "NumberColumns.h"
 
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
@@ -22,10 +23,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -36,38 +34,6 @@ namespace morph_mesh
 {
 namespace
 {
-std::vector<std::string> fieldsOf(const std::string& line)
-{
-  std::vector<std::string> fields;
-  std::istringstream text(line);
-  for (std::string field; std::getline(text, field, ',');)
-  {
-    const auto first = field.find_first_not_of(" \t\r\"");
-    const auto last = field.find_last_not_of(" \t\r\"");
-    fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
-  }
-  return fields;
-}
-
-/// The places of id, dx, dy and dz in a line.
-std::array<std::size_t, 4> columnsOf(const std::string& header, const std::string& path)
-{
-  const std::vector<std::string> names = fieldsOf(header);
-  std::array<std::size_t, 4> columns = {};
-  const char* const wanted[] = { "id", "dx", "dy", "dz" };
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    const auto at = std::find(names.begin(), names.end(), wanted[i]);
-    if (at == names.end())
-    {
-      throw Failure(path + ", line 1: there is no column " + wanted[i] +
-                    ". The columns id, dx, dy and dz are needed.");
-    }
-    columns[i] = static_cast<std::size_t>(at - names.begin());
-  }
-  return columns;
-}
-
 /// The point of each of the file's node numbers.
 std::map<vtkIdType, vtkIdType> pointOfNumber(vtkUnstructuredGrid* grid)
 {
@@ -89,24 +55,6 @@ std::map<vtkIdType, vtkIdType> pointOfNumber(vtkUnstructuredGrid* grid)
   return points;
 }
 
-std::array<double, 4> numbersOf(
-  const std::string& line, const std::array<std::size_t, 4>& columns, const std::string& where)
-{
-  const std::vector<std::string> fields = fieldsOf(line);
-  std::array<double, 4> numbers = {};
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    const std::string text = columns[i] < fields.size() ? fields[columns[i]] : "";
-    char* end = nullptr;
-    numbers[i] = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(numbers[i]))
-    {
-      throw Failure(where + "'" + text + "' is no number.");
-    }
-  }
-  return numbers;
-}
-
 vtkSmartPointer<vtkPolyData> readTarget(const std::string& path)
 {
   vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(readPoints(path));
@@ -115,6 +63,34 @@ vtkSmartPointer<vtkPolyData> readTarget(const std::string& path)
     throw Failure(path + " is no surface: --target needs one, an .stl file for instance.");
   }
   return surface;
+}
+
+/// The handles, or the lattice, of the motion's file.
+void setControlPoints(vtkBoundaryDisplacement* filter, const Motion& motion)
+{
+  if (!motion.handles.empty())
+  {
+    filter->SetMotionToHandles();
+    for (const NumberLine& line :
+      readNumbers(motion.handles, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
+    {
+      filter->AddHandle(line.numbers.data());
+    }
+    return;
+  }
+  filter->SetMotionToLattice();
+  filter->SetLatticeSize(motion.latticeSize.data());
+  if (motion.hasLatticeBox)
+  {
+    filter->AutoLatticeOff();
+    filter->SetLatticeBounds(motion.latticeBox.data());
+  }
+  filter->SetLatticeBasis(motion.bSplines ? vtkBoundaryDisplacement::LATTICE_B_SPLINE
+                                          : vtkBoundaryDisplacement::LATTICE_BERNSTEIN);
+  for (const NumberLine& line : readNumbers(motion.lattice, { "i", "j", "k", "dx", "dy", "dz" }))
+  {
+    filter->AddLatticeDisplacement(line.numbers.data());
+  }
 }
 
 struct SurfaceSums
@@ -152,7 +128,14 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
 {
   auto filter = vtkSmartPointer<vtkBoundaryDisplacement>::New();
   filter->SetInputData(grid);
-  filter->SetMovingToPatches();
+  if (motion.moving.empty() && motion.byControlPoints())
+  {
+    filter->SetMovingToEverything();
+  }
+  else
+  {
+    filter->SetMovingToPatches();
+  }
   for (const std::string& name : motion.moving)
   {
     filter->AddPatch(name.c_str());
@@ -184,6 +167,10 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
     filter->SetTargetData(readTarget(motion.target));
     filter->SetAlignTarget(motion.align);
   }
+  else if (motion.byControlPoints())
+  {
+    setControlPoints(filter, motion);
+  }
   else if (motion.radius != 0)
   {
     filter->SetMotionToRadius();
@@ -206,13 +193,6 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
 vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkUnstructuredGrid* grid, const std::string& path, bool nodeNumbers)
 {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line))
-  {
-    throw Failure("Cannot read " + path + ", or it is empty.");
-  }
-  const std::array<std::size_t, 4> columns = columnsOf(line, path);
   const std::map<vtkIdType, vtkIdType> points =
     nodeNumbers ? pointOfNumber(grid) : std::map<vtkIdType, vtkIdType>();
   vtkNew<vtkPoints> places;
@@ -222,20 +202,17 @@ vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName(DisplacementName);
   vectors->SetNumberOfComponents(3);
-  for (int number = 2; std::getline(file, line); ++number)
+  for (const NumberLine& line : readNumbers(path, { "id", "dx", "dy", "dz" }))
   {
-    if (line.find_first_not_of(" \t\r") == std::string::npos)
-    {
-      continue;
-    }
-    const std::string where = path + ", line " + std::to_string(number) + ": ";
-    const std::array<double, 4> values = numbersOf(line, columns, where);
+    const std::vector<double>& values = line.numbers;
     const auto given = static_cast<vtkIdType>(values[0]);
     const auto found = points.find(given);
     const vtkIdType id = !nodeNumbers ? given : found == points.end() ? -1 : found->second;
     if (id < 0 || id >= grid->GetNumberOfPoints() || values[0] != std::floor(values[0]))
     {
-      throw Failure(where + "the grid has no node '" + fieldsOf(line)[columns[0]] + "'.");
+      std::ostringstream number;
+      number << values[0];
+      throw Failure(line.where + "the grid has no node '" + number.str() + "'.");
     }
     ids->InsertNextValue(id);
     places->InsertNextPoint(grid->GetPoint(id));

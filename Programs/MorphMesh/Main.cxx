@@ -6,6 +6,7 @@
 #include "Files.h"
 #include "Messages.h"
 #include "Methods.h"
+#include "OnRanks.h"
 #include "ProgressBar.h"
 #include "Report.h"
 
@@ -174,27 +175,14 @@ int morphMesh(const Arguments& arguments)
   return status;
 }
 
-/// Throws where mpiexec has started several of this program: each would do the whole work, and
-/// write the same files.
-void requireOneProcess()
-{
-  for (const char* name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE" })
-  {
-    const char* size = std::getenv(name);
-    if (size && std::atoi(size) > 1)
-    {
-      throw UsageError(std::string("morph-mesh needs one MPI rank, and mpiexec has started ") +
-                       size + ". A distributed mesh is morphed by mpiexec and pvbatch.");
-    }
-  }
-}
-
 int run(int argc, char* argv[])
 {
   const Arguments arguments = parseArguments(argc, argv);
-  if (arguments.task != Arguments::Task::ShowHelp && arguments.task != Arguments::Task::ShowVersion)
+  if (numberOfRanks() > 1 && arguments.task != Arguments::Task::ShowHelp &&
+      arguments.task != Arguments::Task::ShowVersion)
   {
-    requireOneProcess();
+    // Each would do the whole work, and write the same files.
+    return morphOnRanks(makeFilter(arguments), arguments);
   }
   switch (arguments.task)
   {

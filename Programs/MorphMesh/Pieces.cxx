@@ -221,13 +221,19 @@ std::vector<std::string> piecesOf(const std::string& path)
   return pieces;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> mergedPieces(const std::string& path)
+vtkSmartPointer<vtkUnstructuredGrid> mergedPieces(const std::string& path, const Part& part)
 {
   vtkNew<vtkAppendFilter> append;
   append->MergePointsOn();
-  for (const std::string& piece : piecesOf(path))
+  append->AddInputData(vtkNew<vtkUnstructuredGrid>()); // a rank may have no piece
+  const std::vector<std::string> pieces = piecesOf(path);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    const vtkSmartPointer<vtkDataObject> data = readFile(piece);
+    if (!part.has(i, pieces.size()))
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkDataObject> data = readFile(pieces[i]);
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       grid->RemoveGhostCells();
@@ -256,21 +262,38 @@ void requireWritablePieces(const std::string& original, const std::string& path)
   io::requireReplaceable(path);
 }
 
-double writePieces(vtkUnstructuredGrid* moved, const std::string& original, const std::string& path)
+namespace
+{
+std::string renamedList(const std::string& original, const Renaming& names)
+{
+  std::string list = io::readFile(original);
+  for (std::size_t i = 0; i < names.from.size(); ++i)
+  {
+    list = replaced(list, '"' + names.from[i] + '"', '"' + names.to[i] + '"');
+  }
+  return list;
+}
+}
+
+double writePieces(vtkUnstructuredGrid* moved, const std::string& original, const std::string& path,
+  const Part& part)
 {
   const Renaming names = renamingOf(original, path);
-  const vtkSmartPointer<vtkUnstructuredGrid> merged = mergedPieces(original);
+  const vtkSmartPointer<vtkUnstructuredGrid> merged = mergedPieces(original, part);
   if (merged->GetNumberOfPoints() != moved->GetNumberOfPoints())
   {
     throw Failure("Cannot write " + path + ": " + original + " has changed since it was read.");
   }
   const PointsByPlace places(merged);
   std::vector<io::NewFile> files;
-  std::string list = io::readFile(original);
   vtkIdType strangers = 0;
   double rounding = 0;
   for (std::size_t i = 0; i < names.from.size(); ++i)
   {
+    if (!part.has(i, names.from.size()))
+    {
+      continue;
+    }
     const std::string source = beside(original, names.from[i]), target = beside(path, names.to[i]);
     const vtkSmartPointer<vtkDataObject> data = readFile(source);
     io::NewFile file;
@@ -295,9 +318,17 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
       file.content = io::readFile(source);
     }
     files.push_back(std::move(file));
-    list = replaced(list, '"' + names.from[i] + '"', '"' + names.to[i] + '"');
   }
-  files.push_back({ path, list });
+  if (strangers > 0 && part.ranks > 1)
+  {
+    throw Failure("Cannot write " + path + ": " + std::to_string(strangers) +
+                  " points of this rank's pieces are in ghost cells, or no nodes of the volume "
+                  "mesh. Write the pieces without ghost cells, or run on one MPI rank.");
+  }
+  if (part.ranks == 1)
+  {
+    files.push_back({ path, renamedList(original, names) });
+  }
   if (strangers > 0)
   {
     std::cerr << "morph-mesh: warning: " << original << ": " << strangers
@@ -305,5 +336,11 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
   }
   io::replaceFiles(files, io::Signals::RemoveTemporaries);
   return rounding;
+}
+
+void writeListOfPieces(const std::string& original, const std::string& path)
+{
+  io::replaceFile(
+    path, renamedList(original, renamingOf(original, path)), io::Signals::RemoveTemporaries);
 }
 }

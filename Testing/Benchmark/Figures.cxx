@@ -314,8 +314,8 @@ void Run::modes(const Problem& problem)
     const Bandwidth measured =
       measureBandwidth(static_cast<std::size_t>(memory ? this->beyondCaches() : bytes), *monitor);
     const std::string where = memory ? "memory bandwidth" : "bandwidth of its working set";
-    this->add(problem, "blend / (its bytes / " + where + ")",
-      blended / (bytes / measured.best()), "", memory ? Target::atMost(1.5) : Target::none());
+    this->add(problem, "blend / (its bytes / " + where + ")", blended / (bytes / measured.best()),
+      "", memory ? Target::atMost(1.5) : Target::none());
   }
 }
 }

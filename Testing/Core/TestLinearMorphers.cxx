@@ -397,6 +397,8 @@ TEST_P(LinearMorphers, CancelStopsAndLeavesTheResultAlone)
   Points moved = Points::Constant(1, 3, 5);
   EXPECT_EQ(
     kindOf([&] { method->evaluate(target, moved, monitor); }, message), Error::Kind::Cancelled);
+  EXPECT_EQ(kindOf([&] { method->applyTranspose(mesh.points, moved, monitor); }, message),
+    Error::Kind::Cancelled);
   EXPECT_EQ(moved, Points::Constant(1, 3, 5));
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
+#include <algorithm>
 #include <random>
 
 namespace pieces
@@ -45,12 +47,48 @@ morph::distributed::Piece pieceOf(const morph::Mesh& mesh, const std::vector<int
       }
       piece.mesh.connectivity.push_back(local[node]);
     }
+    if (morph::hasPolyhedra(mesh))
+    {
+      piece.mesh.faceOffsets.resize(piece.mesh.types.size() + 1, 0);
+      morph::forEachFace(mesh, c,
+        [&](const morph::Index* nodes, morph::Index size)
+        {
+          piece.mesh.faces.push_back(size);
+          for (morph::Index k = 0; k < size; ++k)
+          {
+            piece.mesh.faces.push_back(local[nodes[k]]);
+          }
+        });
+      piece.mesh.faceOffsets.push_back(static_cast<morph::Index>(piece.mesh.faces.size()));
+    }
     piece.mesh.types.push_back(mesh.types[c]);
     piece.mesh.offsets.push_back(static_cast<morph::Index>(piece.mesh.connectivity.size()));
     piece.cellIds.push_back(c);
   }
   piece.mesh.points = mesh.points(piece.nodeIds, morph::allColumns);
   return piece;
+}
+
+morph::distributed::DistributedMesh distribute(
+  const morph::distributed::Ranks& ranks, const morph::Mesh& whole, int layers, unsigned seed)
+{
+  morph::Monitor monitor;
+  return { ranks, pieceOf(whole, randomOwners(whole, ranks.count(), seed), ranks.rank()), layers,
+    monitor };
+}
+
+std::vector<morph::Index> localNodes(
+  const morph::distributed::DistributedMesh& mesh, const std::vector<morph::Index>& ids)
+{
+  std::vector<morph::Index> nodes;
+  for (morph::Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    if (std::binary_search(ids.begin(), ids.end(), mesh.nodeId(n)))
+    {
+      nodes.push_back(n);
+    }
+  }
+  return nodes;
 }
 
 std::string messageOf(const std::function<void()>& work)

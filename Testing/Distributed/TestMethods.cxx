@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {
@@ -76,18 +75,9 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
     serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
   }
   const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(serial));
-  const DistributedMesh mesh(ranks,
-    pieces::pieceOf(
-      whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank()),
-    method->layers(), monitor);
-  std::vector<Index> prescribed;
-  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
-  {
-    if (std::binary_search(outer.begin(), outer.end(), mesh.nodeId(n)))
-    {
-      prescribed.push_back(n);
-    }
-  }
+  const DistributedMesh mesh =
+    pieces::distribute(ranks, whole, method->layers(), meshes::seed());
+  const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
   method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
   Points moved;
   method->evaluate(target(mesh.idsOfNodes(prescribed), morph::allColumns), moved, monitor);

@@ -239,12 +239,84 @@ TEST(AffineHandleOf, IsThereForEveryAffineMotionAndNoOther)
   EXPECT_TRUE(described() && reproduces());
   filter->SetSurroundingsToFollow(); // nothing is left to follow
   EXPECT_TRUE(described() && reproduces());
-  filter->SetMovingToRegion();
+  filter->SetMovingToRegion(); // the cube's sides are plane
+  EXPECT_TRUE(described() && reproduces());
+  filter->SetUnattachedMotionToStay();
+  EXPECT_TRUE(described() && reproduces());
+  filter->SetSurfaceMethodToSmoothing(); // solved to a tolerance
   EXPECT_FALSE(described());
   filter->SetSurroundingsToStay();
   filter->SetMotionToAlongNormals();
   filter->SetDistance(0.1);
   EXPECT_FALSE(described());
+}
+
+TEST(AffineHandleOf, PlanesThatFollowIsUsedUnlessTheyAreMadeToSlide)
+{
+  // Two planes that touch the lid follow it, and two slide.
+  auto grid = grids::hexes(5);
+  auto filter = displaced::make(grid);
+  const auto name = [&](int axis, double at)
+  {
+    return displaced::surfaceName(
+      filter, [&](const Row& x) { return std::abs(x[axis] - at) < 1e-9; });
+  };
+  filter->SetMovingToPatches();
+  filter->AddPatch(name(2, 5).c_str());
+  filter->AddSlidingPatch(name(0, 0).c_str());
+  filter->AddSlidingPatch(name(0, 5).c_str());
+  filter->SetMotionToPlacement();
+  vtkNew<vtkFEMWarpMorph> morph, direct;
+  const auto compare = [&]
+  {
+    filter->Update();
+    auto bare = vtkSmartPointer<vtkPolyData>::New();
+    bare->ShallowCopy(filter->GetOutput());
+    bare->GetPointData()->RemoveArray(Fields);
+    bare->GetFieldData()->RemoveArray(Motion);
+    const morph::Points a = morphed(morph, grid, filter->GetOutput());
+    const morph::Points b = morphed(direct, grid, bare);
+    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-10);
+    return filter->GetOutput()->GetPointData()->HasArray(Fields) == 1;
+  };
+  morph->SetTolerance(1e-13);
+  direct->SetTolerance(1e-13);
+  filter->SetTranslation(0, 0, 0.2);
+  filter->SetScale(1, 1.2, 1);
+  EXPECT_TRUE(compare());
+  filter->SetTranslation(0, 0.3, -0.1);
+  EXPECT_TRUE(compare());
+  filter->SetTranslation(0.1, 0, 0.2); // off the two that slide
+  EXPECT_FALSE(compare());
+  filter->SetTranslation(0, 0.2, 0.2);
+  EXPECT_TRUE(compare());
+  EXPECT_EQ(morph->GetPrepareCount(), 1);
+}
+
+TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
+{
+  // The end of a ring moves along its axis, which its walls follow along themselves; and turns about
+  // it, which the walls follow along circles.
+  auto grid = grids::make(meshes::ring(24, 3, 0.2));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(
+    displaced::surfaceName(filter, [](const Row& x) { return std::abs(x[2] - 0.8) < 1e-9; })
+      .c_str());
+  const auto described = [&]
+  {
+    filter->Update();
+    return filter->GetOutput()->GetPointData()->HasArray(Fields) == 1;
+  };
+  filter->SetMotionToVector();
+  filter->SetVector(0, 0, 0.2);
+  EXPECT_TRUE(described());
+  filter->SetMotionToPlacement();
+  filter->SetRotation(0, 0, 20);
+  EXPECT_FALSE(described());
+  filter->SetRotation(0, 0, 0);
+  filter->SetTranslation(0, 0, -0.2);
+  EXPECT_TRUE(described());
 }
 
 TEST(AffineHandleOf, FloatsIsTakenWhereTheOutputIsRoundedLikeIt)

@@ -469,15 +469,16 @@ TEST(EmptyBoundary, IsSaid)
   auto grid = grids::make(mesh);
   vtkNew<vtkExtractMorphBoundary> extract;
   vtkNew<vtkBoundaryDisplacement> displace;
-  for (vtkPolyDataAlgorithm* filter :
-    { static_cast<vtkPolyDataAlgorithm*>(extract), static_cast<vtkPolyDataAlgorithm*>(displace) })
+  for (vtkAlgorithm* filter :
+    { static_cast<vtkAlgorithm*>(extract), static_cast<vtkAlgorithm*>(displace) })
   {
-    filter->SetInputData(grid);
+    filter->SetInputDataObject(grid);
     grids::Listener listener(filter);
     filter->Update();
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     ASSERT_EQ(listener.Warnings.size(), 1u);
     EXPECT_NE(listener.Warnings[0].find("The boundary is empty"), std::string::npos);
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(
+      vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
   }
 }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reader and writer as VTK filters; Testing/Programs/solver_files.py tests the formats.
+#include "Formats/SolverMesh.h"
+
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArraySelection.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSolverFileReader.h>
@@ -16,9 +21,11 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace
@@ -58,7 +65,7 @@ protected:
   }
 
   /// The error of writing a grid; nothing may be written then.
-  std::string ErrorOf(vtkPointSet* grid, const char* original = "a.inp")
+  std::string ErrorOf(vtkDataObject* grid, const char* original = "a.inp")
   {
     vtkNew<vtkSolverFileWriter> writer;
     std::string message;
@@ -174,6 +181,130 @@ TEST_F(SolverFiles, WrongGridsAreRefused)
   expectError(grid, "parts and instances");
   fs::remove(this->Path("a.inp"));
   expectError(grid, "there is no such file");
+}
+
+/// Name and grid of each block.
+std::map<std::string, vtkUnstructuredGrid*> blocksOf(vtkDataObject* data)
+{
+  std::map<std::string, vtkUnstructuredGrid*> result;
+  auto* blocks = vtkPartitionedDataSetCollection::SafeDownCast(data);
+  for (unsigned int i = 0; blocks && i < blocks->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    result[blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())] =
+      vtkUnstructuredGrid::SafeDownCast(blocks->GetPartition(i, 0));
+  }
+  return result;
+}
+
+TEST_F(SolverFiles, SetsAsBlocks)
+{
+  this->Reader->SetsAsBlocksOn();
+  this->Reader->Update();
+  EXPECT_EQ(this->Reader->GetOutput(), nullptr);
+  const auto blocks = blocksOf(this->Reader->GetOutputDataObject(0));
+  // Points, cells and the type of the first cell.
+  const std::map<std::string, std::array<vtkIdType, 3>> expected = { { "Mesh",
+                                                                       { 6, 2, VTK_TETRA } },
+    { "All", { 6, 6, VTK_VERTEX } }, { "Solid", { 5, 2, VTK_TETRA } },
+    { "Bottom", { 3, 1, VTK_TRIANGLE } }, { "Corner", { 1, 1, VTK_VERTEX } } };
+  ASSERT_EQ(blocks.size(), expected.size());
+  for (const auto& [name, size] : expected)
+  {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(blocks.count(name), 1U);
+    vtkUnstructuredGrid* block = blocks.at(name);
+    EXPECT_EQ(block->GetNumberOfPoints(), size[0]);
+    EXPECT_EQ(block->GetNumberOfCells(), size[1]);
+    EXPECT_EQ(block->GetCellType(0), size[2]);
+    vtkDataArray* numbers = block->GetPointData()->GetGlobalIds();
+    vtkUnstructuredGrid* mesh = blocks.at("Mesh");
+    for (vtkIdType i = 0; i < block->GetNumberOfPoints(); ++i)
+    {
+      const vtkIdType place =
+        mesh->GetPointData()->GetGlobalIds()->LookupValue(numbers->GetComponent(i, 0));
+      ASSERT_GE(place, 0);
+      for (int k = 0; k < 3; ++k)
+      {
+        EXPECT_EQ(block->GetPoint(i)[k], mesh->GetPoint(place)[k]);
+      }
+    }
+  }
+  this->Reader->SetsAsBlocksOff();
+  this->Reader->Update();
+  EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfCells(), 3);
+}
+
+TEST(PartOfSolverMesh, KeepsPolyhedraAndSets)
+{
+  morph::io::SolverMesh mesh;
+  for (const morph::Index number : { 10, 11, 12, 13, 14 })
+  {
+    mesh.addNode(number, 0.5 * number, 0, 0);
+  }
+  mesh.addCell(VTK_TRIANGLE, { 0, 1, 2 }, -1);
+  mesh.addPolyhedron({ { 1, 3, 2 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 1, 4 } }, 7);
+  mesh.addCell(VTK_TETRA, { 0, 1, 2, 3 }, 8);
+  mesh.set("wall").cells = { 0 };
+  mesh.set("core").cells = { 1, 2 };
+  mesh.set("core").nodes = { 0, 4 };
+
+  const morph::io::SolverMesh part = morph::io::partOf(mesh, { 1, 2, 3, 4 }, { 1 });
+  EXPECT_EQ(part.nodeNumbers, (std::vector<morph::Index>{ 11, 12, 13, 14 }));
+  EXPECT_EQ(part.coordinates[3], 6);
+  EXPECT_EQ(part.cellNumbers, std::vector<morph::Index>{ 7 });
+  EXPECT_EQ(part.connectivity, (std::vector<morph::Index>{ 0, 1, 2, 3 }));
+  EXPECT_EQ(part.faces,
+    (std::vector<morph::Index>{ 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 }));
+  EXPECT_EQ(part.faceOffsets, (std::vector<morph::Index>{ 0, 16 }));
+  ASSERT_EQ(part.sets.size(), 2U);
+  EXPECT_TRUE(part.sets[0].cells.empty());
+  EXPECT_EQ(part.sets[1].cells, std::vector<morph::Index>{ 0 });
+  EXPECT_EQ(part.sets[1].nodes, std::vector<morph::Index>{ 3 });
+}
+
+TEST_F(SolverFiles, BlocksMoveByNameAndAreWrittenAsTheGridIs)
+{
+  std::string written[2];
+  for (const bool asBlocks : { false, true })
+  {
+    this->Reader->SetSetsAsBlocks(asBlocks);
+    vtkNew<vtkBoundaryDisplacement> displacement;
+    displacement->SetInputConnection(this->Reader->GetOutputPort());
+    displacement->SetMovingToPatches();
+    displacement->AddPatch("Bottom");
+    displacement->SetMotionToVector();
+    displacement->SetVector(0, 0, -0.5);
+    vtkNew<vtkFEMWarpMorph> morph;
+    morph->SetInputConnection(this->Reader->GetOutputPort());
+    morph->SetBoundaryConnection(displacement->GetOutputPort());
+    morph->Update();
+    EXPECT_EQ(displacement->GetMovingPoints(), 3);
+    for (const char* name : { "All", "Solid", "Bottom", "Corner" })
+    {
+      EXPECT_TRUE(displacement->GetPatchList()->ArrayExists(name)) << name;
+    }
+    vtkDataObject* moved = morph->GetOutputDataObject(0);
+    if (asBlocks)
+    {
+      EXPECT_EQ(blocksOf(moved).at("Bottom")->GetPoint(0)[2], -0.5);
+    }
+    EXPECT_EQ(this->ErrorOf(moved), "");
+    written[asBlocks] = this->Content("b.inp");
+    fs::remove(this->Path("b.inp"));
+  }
+  EXPECT_NE(written[0], Deck);
+  EXPECT_EQ(written[0], written[1]);
+}
+
+TEST_F(SolverFiles, BlocksThatDisagreeAreRefused)
+{
+  this->Reader->SetsAsBlocksOn();
+  this->Reader->Update();
+  vtkDataObject* data = this->Reader->GetOutputDataObject(0);
+  blocksOf(data).at("Corner")->GetPoints()->SetPoint(0, 1, 1, 2);
+  EXPECT_NE(
+    this->ErrorOf(data).find("different coordinates for the same nodes: 5."), std::string::npos);
+  EXPECT_EQ(this->ErrorOf(blocksOf(data).at("Mesh")), "");
 }
 
 TEST_F(SolverFiles, NodesOfNoElementStay)

@@ -5,6 +5,7 @@ box, and a morph after it.
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython boundary_displacement.py
 """
 import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -68,6 +69,54 @@ class BoundaryDisplacementTests(unittest.TestCase):
         simple.QuerySelect(QueryString=query, FieldType=field, Source=self.mesh)
         self.displacement.Moving = "Selection"
         self.displacement.Selection = self.mesh.GetSelectionInput(0)
+
+    def test_handles_and_lattices(self):
+        shift = np.array([0.5, 0.25, -1])
+        self.displacement.Motion = "Handles"
+        self.displacement.Handles = [1, 1, 1, *shift, 0]  # one handle translates everything
+        rest = array(self.displacement, "RestPosition")[:, :3]
+        np.testing.assert_allclose(points(self.displacement), rest + shift, atol=1e-12)
+        self.displacement.Handles = [0, 0, 0, *shift, 2, 6, 6, 6, 0, 0, 1, 2.5]
+        moved = points(self.displacement) - rest
+        np.testing.assert_allclose(moved[(rest == 0).all(axis=1)], [shift], atol=1e-6)
+        self.assertTrue((moved[rest.sum(axis=1) == 9] == 0).all())
+
+        # Picked points of the view: a corner is a handle, with the vector of the panel.
+        self.displacement.Handles = []
+        self.select("POINT", "id == 0")
+        self.displacement.Moving = "Everything"
+        self.displacement.SelectedHandles, self.displacement.HandleRadius = 1, 2
+        self.displacement.Vector = [0, 0, 0.5]
+        moved = points(self.displacement) - rest
+        self.assertAlmostEqual(moved[:, 2].max(), 0.5)
+        np.testing.assert_array_equal((moved != 0).any(axis=1), np.linalg.norm(rest, axis=1) < 2)
+
+        file = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "lattice.csv")
+        with open(file, "w", encoding="utf-8") as lattice:
+            lattice.write("i,j,k,dx,dy,dz\n1,1,2,0.5,0.25,-1\n")
+        table = simple.CSVReader(FileName=[file])
+        self.displacement.Motion, self.displacement.ControlPoints = "Lattice", table
+        moved = points(self.displacement) - rest
+        x, y, z = (rest / CELLS).T
+        weight = 2 * x * (1 - x) * 2 * y * (1 - y) * z ** 2  # Bernstein, degree 2
+        np.testing.assert_allclose(moved, weight[:, None] * shift, atol=1e-6)
+
+    def test_control_points_are_shapes(self):
+        def lattice(*displacements):
+            return BoundaryDisplacement(Input=self.mesh, Motion="Lattice", LatticeSize=[2, 3, 4],
+                                        LatticeBasis="B-spline", OutputPointsPrecision="Double",
+                                        LatticeDisplacements=[x for row in displacements
+                                                              for x in row])
+        chosen = [(0, 1, 2, 1, 0, 0), (1, 2, 3, 0, 1, 0), (1, 0, 0, 0, 0, 1)]
+        weights = [0.3, -0.5, 0.25]
+        shapes = MorphShapes(Input=self.mesh, Shapes=[lattice(one) for one in chosen],
+                             ShapeNames=["a", "b", "c"], Weights=weights,
+                             OutputPointsPrecision="Double")
+        whole = lattice(*([*one[:3], *(w * x for x in one[3:])]
+                          for one, w in zip(chosen, weights)))
+        morph = MorphFEMWARP(Input=self.mesh, Boundary=whole, OutputPointsPrecision="Double")
+        np.testing.assert_allclose(points(shapes), points(morph), atol=1e-6)
+        self.assertGreater(np.abs(points(shapes) - self.rest).max(), 0.05)
 
     def test_patches_are_listed_before_the_first_apply(self):
         available = self.displacement.GetProperty("Patches").GetAvailable()

@@ -3,9 +3,6 @@
 the panel's numbers."""
 
 import os
-import socket
-import subprocess
-import time
 import unittest
 
 from paraview import simple
@@ -13,33 +10,13 @@ from paraview import simple
 import ranks
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
-
-
 class ClientServer(unittest.TestCase):
     COMMAND = ["pvserver"]
 
     def setUp(self):
-        port = free_port()
-        self.server = subprocess.Popen(self.COMMAND + [f"--server-port={port}"],
-                                       env=ranks.environment(), stdout=subprocess.DEVNULL)
-        self.addCleanup(self.server.wait, 30)
-        self.addCleanup(self.server.terminate)
-        deadline = time.monotonic() + 60
-        while True:
-            with socket.socket() as probe:
-                # The server ends with its first client, so the probe must not be one: it asks the
-                # kernel whether the port is taken.
-                try:
-                    probe.bind(("localhost", port))
-                except OSError:
-                    break
-            self.assertIsNone(self.server.poll(), "pvserver ended")
-            self.assertLess(time.monotonic(), deadline, "pvserver does not listen")
-            time.sleep(0.1)
+        server, port = ranks.start_server(self.COMMAND)
+        self.addCleanup(server.wait, 30)
+        self.addCleanup(server.terminate)
         simple.Connect("localhost", port)
         self.addCleanup(simple.Disconnect)
 

@@ -83,6 +83,11 @@ def another_value(xml, filter_proxy):
                     if e.get("value") != default)
     if xml.find("BooleanDomain") is not None:
         return 1 - int(default)
+    per_command = xml.get("number_of_elements_per_command")
+    if xml.get("repeat_command") and xml.tag == "DoubleVectorProperty":
+        return [0.5 + 0.125 * i for i in range(2 * int(per_command))]
+    if int(xml.get("number_of_elements")) > 1 and xml.tag == "IntVectorProperty":
+        return [int(v) + i + 1 for i, v in enumerate(default.split())]
     if int(xml.get("number_of_elements")) > 1:
         return [0.5 * float(v) + 0.125 * (i + 1) for i, v in enumerate(default.split())]
     if xml.tag == "DoubleVectorProperty":
@@ -117,7 +122,7 @@ class Properties(unittest.TestCase):
         create = globals()[xml.get("label").replace(" ", "")]
         # A selection and a table are optional, and none of the other properties depends on them.
         return create(**{name: self.inputs[name] for name in names
-                         if name not in ("Selection", "ZoneSelection", "Table")})
+                         if name not in ("Selection", "ZoneSelection", "ControlPoints", "Table")})
 
     def test_every_proxy_has_texts_and_a_place_in_the_menu(self):
         self.assertGreaterEqual(len(proxies()), 3)
@@ -201,7 +206,7 @@ class Properties(unittest.TestCase):
                         or p.get("command") is None):  # the window's own, unknown to the filter
                     continue
                 with self.subTest(proxy=xml.get("name"), property=p.get("name")):
-                    default = [float(v) for v in p.get("default_values").split()]
+                    default = [float(v) for v in (p.get("default_values") or "").split()]
                     self.assertTrue(same(default, printed(self.create(xml), p.get("name"))))
 
     def test_every_property_is_set_and_read_back(self):

@@ -2,7 +2,9 @@
 """Starts ParaView's programs on MPI ranks."""
 import os
 import shutil
+import socket
 import subprocess
+import time
 
 
 def environment():
@@ -24,3 +26,28 @@ def run(ranks, script, *arguments, timeout=300):
     result = subprocess.run(command(ranks, "pvbatch", os.path.abspath(script), *arguments),
                             env=environment(), capture_output=True, text=True, timeout=timeout)
     return result.stdout + result.stderr
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+def start_server(program, **variables):
+    """Starts pvserver by `program`, a command; returns it and its port once it listens."""
+    port = free_port()
+    server = subprocess.Popen(program + [f"--server-port={port}"],
+                              env={**environment(), **variables}, stdout=subprocess.DEVNULL)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and server.poll() is None:
+        with socket.socket() as probe:
+            # The server ends with its first client, so the probe must not be one: it asks the
+            # kernel whether the port is taken.
+            try:
+                probe.bind(("localhost", port))
+            except OSError:
+                return server, port
+        time.sleep(0.1)
+    server.terminate()
+    raise RuntimeError("pvserver does not listen")

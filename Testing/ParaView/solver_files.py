@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "Programs"))
 import exodus_models
@@ -155,6 +156,40 @@ class SolverFiles(unittest.TestCase):
                 path.unlink()
                 simple.SaveData(str(again), proxy=morph, OriginalFileName=str(other))
                 self.assertEqual(again.read_bytes(), out.read_bytes())
+
+    def test_sets_as_blocks(self):
+        """They move with the mesh, and are saved as the one grid is, but for the order of sums."""
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                _, _, path, wall = self.write(extension)
+                out = []
+                for as_blocks in (0, 1):
+                    reader = SolverFileReader(FileName=str(path), SetsAsBlocks=as_blocks)
+                    reader.UpdatePipeline()
+                    data = reader.GetClientSideObject().GetOutputDataObject(0)
+                    morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=[wall],
+                                      Displacement="Vector", Vector=list(SHIFT), Validity="Report")
+                    if as_blocks:
+                        names = [data.GetMetaData(i).Get(vtkCompositeDataSet.NAME())
+                                 for i in range(data.GetNumberOfPartitionedDataSets())]
+                        self.assertEqual(names[0], "Mesh")
+                        self.assertEqual(sorted(names[1:]), sorted(surfaces))
+                        morph.UpdatePipeline()
+                        moved = morph.GetClientSideObject().GetOutputDataObject(0)
+                        block = moved.GetPartition(names.index(wall), 0)
+                        before = data.GetPartition(names.index(wall), 0)
+                        np.testing.assert_allclose(
+                            vtk_to_numpy(block.GetPoints().GetData()),
+                            vtk_to_numpy(before.GetPoints().GetData()) + SHIFT, atol=1e-14)
+                    else:
+                        array = data.GetFieldData().GetAbstractArray("SurfaceNames")
+                        surfaces = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+                    copy = self.folder / (f"blocks{as_blocks}" + extension)
+                    simple.SaveData(str(copy), proxy=morph)
+                    self.assertNotEqual(copy.read_bytes(), path.read_bytes())
+                    read = fetched(SolverFileReader(FileName=str(copy)))
+                    out.append(vtk_to_numpy(read.GetPoints().GetData()))
+                np.testing.assert_allclose(*out, rtol=0, atol=1e-6 if "PID" in wall else 1e-12)
 
     def compare(self, data, pieces, path, out, rounding):
         found = models.coordinates_in(pieces, out.read_bytes())  # nothing else differs

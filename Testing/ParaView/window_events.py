@@ -93,9 +93,10 @@ class Events:
         """In the panel; name: of the property and its widget."""
         self.do(PANEL + name, command, value)
 
-    def prepare(self, folder, size="800 700", script=None, environment=None):
+    def prepare(self, folder, size="800 700", script=None, environment=None, arguments=()):
         """Writes the events and ParaView's settings into `folder`; returns the arguments of
-        subprocess.Popen that play them, after the Python script `script`, if any."""
+        subprocess.Popen that play them, after the Python script `script`, if any. `arguments`: of
+        ParaView."""
         settings = folder / ".config/ParaView" / SETTINGS
         settings.parent.mkdir(parents=True)
         settings.write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
@@ -110,14 +111,14 @@ class Events:
         environment = {**os.environ, **(environment or {}), "HOME": str(folder),
                        "XDG_RUNTIME_DIR": str(folder), "DASHBOARD_TEST_FROM_CTEST": "1"}
         environment.pop("PV_PLUGIN_PATH", None)
-        command = ["paraview", *([f"--script={script}"] if script else []),
+        command = ["paraview", *arguments, *([f"--script={script}"] if script else []),
                    f"--test-script={played}"]
         return {"args": command, "env": environment, "cwd": folder, "text": True,
                 "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
-    def play(self, folder, seconds=500, script=None, environment=None):
+    def play(self, folder, seconds=500, **options):
         """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
-        messages."""
-        how = self.prepare(folder, script=script, environment=environment)
+        messages. `options`: of prepare()."""
+        how = self.prepare(folder, **options)
         run = subprocess.run([*how.pop("args"), "--exit"], timeout=seconds, check=False, **how)
         return run.returncode, run.stdout

@@ -15,7 +15,7 @@ import numpy as np
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-from versions import blocks_for_exodus
+from versions import BOX_FIELDS, blocks_for_exodus
 from window_events import PANEL
 from window_morph_mesh import BOX, text
 from window_tasks import COLORS, NUMBERS, Tasks
@@ -30,6 +30,7 @@ DISTANCES = ("MaxTargetDistanceBefore", "MeanTargetDistanceBefore", "MaxTargetDi
              "MeanTargetDistance")
 TOP, UP = "Surface 1", "0.2"
 LID = "Surface 3"
+REGION = f"Region/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
 
 
 def updated(morph):
@@ -169,6 +170,34 @@ class FirstTasks(unittest.TestCase):
         self.assertEqual(morph.MorphStatus, "Valid")
         self.assertEqual((morph.Live, morph.Quality), (0, "All"))  # as before the drag
         self.assertGreater(np.linalg.norm(morph.Transform.Translate), 0.01)
+
+    def test_a_region_dragged_live(self):
+        """The blue box says what moves; it lies inside the orange one, which moves it."""
+        self.open(BORE)
+        self.events.task("drag a region")
+        self.events.filter("MorphMesh")
+        self.events.choose("Moving", "Region")
+        self.events.type(REGION + "scaleX", "3")
+        self.events.toggle("LiveDrag")
+        self.events.apply()
+        self.events.drag((0.5, 0.5), (0.52, 0.51))
+        self.events.done()
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
+        self.play({"drag a region": 9})
+        simple.ResetSession()
+        simple.LoadState(str(state))
+        morph = updated(simple.FindSource("MorphMesh1"))
+        self.assertEqual(list(morph.Region.Length)[0], 3)
+        self.assertEqual((morph.Live, morph.Quality), (0, "All"))
+        dragged = np.array(morph.Transform.Translate)
+        self.assertGreater(np.linalg.norm(dragged), 0.01)
+        again = MorphMesh(Input=morph.Input, Moving="Region", Region="Box")
+        again.Region.Position, again.Region.Length = morph.Region.Position, morph.Region.Length
+        again.Transform.Translate = dragged
+        updated(again)
+        for name in NUMBERS:
+            self.assertEqual(getattr(morph, name), getattr(again, name))
 
     def test_exodus(self):
         mesh = simple.OpenDataFile(str(BORE))

@@ -32,9 +32,6 @@ def watch():
 
 class QuickLaunch(unittest.TestCase):
     def test_morph_mesh_is_the_first_hit(self):
-        import versions
-        if (versions.MAJOR, versions.MINOR) > (5, 11):
-            self.skipTest("ParaView 5.13's quick launch keeps the order of the alphabet")
         from window_events import Events
         from window_keys import Keyboard
         try:

@@ -28,6 +28,9 @@ HOLE, WALL, LID = "Surface 0", "Surface 1", "Surface 3"
 ASIDE = 0.6  # the hole, into the wall
 NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId")
 COLORS = MAIN + "variableToolbar/displayColor/Variables"
+#: Lists of texts, which have no label of their own.
+ZONES = {"FrozenZones": "Zones that stay", "RigidZones": "Zones that are rigid",
+         "SoftZones": "Zones that are soft"}
 #: Of each task; numbers are typed besides.
 CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
           "widen a hole by a number": 8, "count and see inverted cells": 11,
@@ -150,6 +153,8 @@ class WindowTasks(unittest.TestCase):
             events.done()
             events.expect(COLORS, "SurfaceId", "currentText")
             events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+            for zones, label in ZONES.items():
+                events.expect(f"{PANEL}{zones}/PanelLabel", label)
 
             if HELP_PAGE:
                 events.task("open the filter's page")

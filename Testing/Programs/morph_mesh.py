@@ -98,7 +98,7 @@ class MorphMesh(unittest.TestCase):
                  moved),
                 (2, "cannot be combined", "--move", "Surface 1", "--scale", "2", "--target",
                  "x.stl", BORE, moved),
-                (2, "need --move or --target", "--free", "Surface 1", BORE, moved),
+                (2, "need --move, --target, --handles or --lattice", "--free", "Surface 1", BORE, moved),
                 (2, "--align needs --target", "--move", "Surface 1", "--scale", "2", "--align",
                  BORE, moved),
                 (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
@@ -228,9 +228,39 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(prescribed[2], prescribed[1])
         self.assertGreater(prescribed[3], prescribed[0])
         self.fails(1, "The zone 'Bolt' is neither", "--freeze", "Bolt", *options)
-        self.fails(2, "need --move or --target", "--freeze", "Bolt", BORE, self.boundary,
+        self.fails(2, "need --move, --target, --handles or --lattice", "--freeze",
+                   "Bolt", BORE, self.boundary,
                    self.folder / "out.vtu")
         self.fails(2, "--keep-layers needs a whole number", "--keep-layers", "0.5", *options)
+
+    def test_handles_and_lattices_move_what_they_reach(self):
+        moved, bounds = self.folder / "moved.vtu", lambda path: [
+            tuple(map(float, line.split(None, 4)[4].split(",")))
+            for line in run("--list-surfaces", path).stdout.splitlines()[1:]]
+        rest = bounds(BORE)
+        handles, lattice = self.folder / "handles.csv", self.folder / "lattice.csv"
+        handles.write_text("dz,x,y,z,dx,dy\n0.5,1,2,3,-1,0.25\n", encoding="utf-8")
+        lattice.write_text("i,j,k,dx,dy,dz\n" + "".join(
+            f"{i},{j},{k},-1,0.25,0.5\n" for i in (0, 1) for j in (0, 1) for k in (0, 1)),
+            encoding="utf-8")
+        for options in (("--handles", handles), ("--lattice", lattice, "--lattice-size", "2,2,2"),
+                        ("--lattice", lattice, "--lattice-size=2,2,2", "--b-splines",
+                         "--lattice-box=-99,99,-99,99,-99,99")):
+            with self.subTest(options=options):  # everything is translated
+                result = run(*options, BORE, moved)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                for before, after in zip(rest, bounds(moved)):
+                    for b, a, by in zip(before, after, (-1, 0.25, 0.5)):
+                        self.assertAlmostEqual(a, b + by, delta=1e-4)
+        handles.write_text("x,y,z,dx,dy,dz,radius\n1e3,0,0,1,1,1,0.5\n", encoding="utf-8")
+        self.assertEqual(run("--handles", handles, BORE, moved).returncode, 0)
+        self.assertEqual(bounds(moved), rest)
+        self.fails(1, "no column i", "--lattice", handles, BORE, moved)
+        lattice.write_text("i,j,k,dx,dy,dz\n3,0,0,1,0,0\n", encoding="utf-8")
+        self.fails(1, "no control point 3", "--lattice", lattice, BORE, moved)
+        self.fails(2, "Only one of", "--lattice", lattice, "--handles", handles, BORE, moved)
+        self.fails(2, "need --lattice", "--b-splines", "--handles", handles, BORE, moved)
+        self.fails(2, "2 to 30", "--lattice", lattice, "--lattice-size=1,2,2", BORE, moved)
 
     def test_the_boundary_is_fitted_to_a_target(self):
         # Its own boundary as target: nothing moves, beyond rounding.

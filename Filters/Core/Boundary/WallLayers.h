@@ -18,9 +18,9 @@ struct WallLayers
 
 /// Finds up to `most` layers. A layer is made of the cells whose face is a wall's, or the opposite
 /// face of the layer before: hexahedra and, on triangles, wedges. A column ends where a cell around
-/// it is of another shape, at a node of the wall or of another column, and before a cell whose
-/// opposite face is on the boundary. `isWall`: #faces of `faces`. `isLayer`: #cells, the only cells
-/// that count; none: all. Cost: a pass over the mesh, and one over the layers.
+/// it is of another shape, and at a node of the wall or of another column. It also ends before a
+/// cell whose opposite face is on the boundary. `isWall`: #faces of `faces`. `isLayer`: #cells, the
+/// only cells that count; none: all. Cost: a pass over the mesh, and one over the layers.
 WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
   const std::vector<std::uint8_t>& isWall, Index most, const std::vector<std::uint8_t>& isLayer);
 }

@@ -54,6 +54,14 @@ void prepareResidual(const BoundaryFaces& faces, const std::vector<Index>& faceI
   ++weights.prepared;
 }
 
+void moveLinearly(const SurfaceResidual& residual, const std::vector<Index>& fixed,
+  const std::vector<Index>& free, BoundaryMotion& motion, Monitor& monitor)
+{
+  Points moved;
+  residual.evaluateLinear(motion.displacement(fixed, allColumns), moved, monitor);
+  motion.displacement(free, allColumns) = moved;
+}
+
 /// Returns whether the affine map had to be replaced.
 bool moveByResidual(const SurfaceResidual& residual, const std::vector<Index>& fixed,
   const std::vector<Index>& free, BoundaryMotion& motion, Monitor& monitor)
@@ -104,7 +112,7 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
     }
     else if (moves && !free.empty())
     {
-      if (options.method == SurfaceMorphOptions::Method::HarmonicExtension)
+      if (options.method == SurfaceMorphOptions::Method::HarmonicExtension && !options.linear)
       {
         extendHarmonically(faces, surface.faces, fixed, free, motion, monitor);
       }
@@ -113,7 +121,11 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
         SurfaceWeights::Surface& one = weights.surfaces[s];
         prepareResidual(
           faces, surface.faces, fixed, free, options.neighbors, motion.rest, weights, one, monitor);
-        if (moveByResidual(one.residual, fixed, free, motion, monitor))
+        if (options.linear)
+        {
+          moveLinearly(one.residual, fixed, free, motion, monitor);
+        }
+        else if (moveByResidual(one.residual, fixed, free, motion, monitor))
         {
           report.reflected.push_back(static_cast<Index>(s));
         }

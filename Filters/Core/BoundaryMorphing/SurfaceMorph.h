@@ -20,6 +20,9 @@ struct SurfaceMorphOptions
   Method method = Method::WeightedResidual;
   Index neighbors = 20; ///< number for the weighted residual, at least 1
   UnattachedMotion unattached = UnattachedMotion::FollowAffinely;
+  /// Only the part of the weighted residual that is linear in the displacements, see
+  /// SurfaceResidual::evaluateLinear(); `method` has no effect.
+  bool linear = false;
 };
 
 struct SurfaceMorphReport

@@ -143,14 +143,12 @@ void SurfaceResidual::prepare(
   this->prepared_ = true;
 }
 
-/// `displacement`: of the sites; `prescribed`: new positions of the prescribed points.
-SurfaceResidual::Map SurfaceResidual::map(
-  const Points& displacement, const Points& prescribed) const
+/// `displacement`: of the sites.
+SurfaceResidual::Map SurfaceResidual::linearMap(const Points& displacement) const
 {
-  const Points& sites = this->sites_.coordinates();
   const AffineFit fit = this->fit_.fit(displacement);
   Map map;
-  map.centre = sites.colwise().mean();
+  map.centre = this->sites_.coordinates().colwise().mean();
   map.mean = fit.displacement(map.centre);
   if (this->fit_.rank() < 2)
   {
@@ -159,6 +157,19 @@ SurfaceResidual::Map SurfaceResidual::map(
     return map;
   }
   map.gradient = fit.gradient();
+  return map;
+}
+
+/// `displacement`: of the sites; `prescribed`: new positions of the prescribed points.
+SurfaceResidual::Map SurfaceResidual::map(
+  const Points& displacement, const Points& prescribed) const
+{
+  const Points& sites = this->sites_.coordinates();
+  Map map = this->linearMap(displacement);
+  if (map.report.fit == Fit::Translation)
+  {
+    return map;
+  }
   const Points moved = sites + displacement;
   if (this->fit_.rank() == 2)
   {
@@ -195,8 +206,7 @@ SurfaceResidual::Map SurfaceResidual::map(
   return map;
 }
 
-SurfaceResidual::Report SurfaceResidual::evaluate(
-  const Points& prescribed, Points& moved, Monitor& monitor) const
+void SurfaceResidual::require(const Points& prescribed) const
 {
   if (!this->prepared_)
   {
@@ -209,32 +219,56 @@ SurfaceResidual::Report SurfaceResidual::evaluate(
                 " rows where " + std::to_string(this->prescribed_.rows()) + " are expected.");
   }
   requireFinite("Prescribed positions", prescribed);
-  monitor.check();
+}
 
-  Points residual = this->sites_.average(prescribed - this->prescribed_);
-  const Map map = this->map(residual, prescribed);
+Points SurfaceResidual::spread(const Map& map, Points residual, Monitor& monitor) const
+{
   for (Index s = 0; s < residual.rows(); ++s)
   {
     residual.row(s) -= map.displacement(this->sites_.coordinates().row(s));
   }
-  Points displacement, result = this->points_;
+  Points displacement;
   this->weights_.multiply(residual, displacement, monitor);
-  monitor.parallelFor(result.rows(), Grain,
+  monitor.parallelFor(displacement.rows(), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
         displacement.row(i) += map.displacement(this->points_.row(i));
-        for (int j = 0; j < 3; ++j)
-        {
-          if (displacement(i, j) != 0) // -0.0 + 0.0 would be 0.0
-          {
-            result(i, j) += displacement(i, j);
-          }
-        }
       }
     });
+  return displacement;
+}
+
+SurfaceResidual::Report SurfaceResidual::evaluate(
+  const Points& prescribed, Points& moved, Monitor& monitor) const
+{
+  this->require(prescribed);
+  monitor.check();
+  const Points ofSites = this->sites_.average(prescribed - this->prescribed_);
+  const Map map = this->map(ofSites, prescribed);
+  const Points displacement = this->spread(map, ofSites, monitor);
+  Points result = this->points_;
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      if (displacement(i, j) != 0) // -0.0 + 0.0 would be 0.0
+      {
+        result(i, j) += displacement(i, j);
+      }
+    }
+  }
   moved.swap(result);
   return map.report;
+}
+
+void SurfaceResidual::evaluateLinear(
+  const Points& displacement, Points& moved, Monitor& monitor) const
+{
+  this->require(displacement);
+  monitor.check();
+  const Points ofSites = this->sites_.average(displacement);
+  moved = this->spread(this->linearMap(ofSites), ofSites, monitor);
 }
 }

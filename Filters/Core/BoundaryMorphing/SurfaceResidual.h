@@ -61,9 +61,21 @@ public:
   /// last prepare() succeeded. Cost: one pass over the weights.
   Report evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
 
+  /// The part of evaluate() that is linear in the displacements, and the same for each coordinate:
+  /// neither maps the normal nor replaces a map. It is evaluate() where the surface is plane, or
+  /// its prescribed points are not, as long as the map neither reflects nor flattens.
+  /// `displacement`: #prescribed x 3; `moved`: becomes the displacements of the points, #points x
+  /// 3. Throws Error, and costs, as evaluate() does.
+  void evaluateLinear(const Points& displacement, Points& moved, Monitor& monitor) const;
+
 private:
   struct Map;
+  Map linearMap(const Points& displacement) const;
   Map map(const Points& displacement, const Points& prescribed) const;
+  /// Throws Error unless prepare() succeeded for so many rows, all finite.
+  void require(const Points& prescribed) const;
+  /// The displacements of the points, where `residual` are those of the sites.
+  Points spread(const Map& map, Points residual, Monitor& monitor) const;
 
   Index numberOfNeighbors_ = 20;
   bool prepared_ = false;

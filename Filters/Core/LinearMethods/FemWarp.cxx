@@ -50,7 +50,12 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   try
   {
     ProgressRange last(monitor, 0.6, 1);
-    this->solver_.prepare(system.interior, coordinates, last);
+    std::vector<bool> isCentre(this->rows_.size());
+    for (std::size_t i = 0; i < isCentre.size(); ++i)
+    {
+      isCentre[i] = this->rows_[i] >= this->firstCentre();
+    }
+    this->solver_.prepare(system.interior, isCentre, coordinates, last);
   }
   catch (const SingularRows& error)
   {

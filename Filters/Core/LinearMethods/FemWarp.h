@@ -3,7 +3,7 @@
 
 #include "LinearMethods/DirichletSystem.h"
 #include "Morpher/CellStiffness.h"
-#include "Solvers/SpdSolver.h"
+#include "Solvers/CondensedSolver.h"
 
 #include <vector>
 
@@ -39,8 +39,8 @@ public:
   /// for memory.
   const std::vector<Index>& rows() const { return this->rows_; }
   /// Returns the solver with its matrix A_I (#free x #free, in the order of rows()), for benchmarks
-  /// and checks.
-  const SpdSolver& solver() const { return this->solver_; }
+  /// and checks. On a mesh with polyhedra some centres are eliminated from it.
+  const SpdSolver& solver() const { return this->solver_.remaining(); }
   /// Returns A_B, #free x #prescribed; rows as above, columns in the order of
   /// NodePartition::prescribed.
   const CsrMatrix& coupling() const { return this->coupling_; }
@@ -56,7 +56,7 @@ protected:
 private:
   double tolerance_ = 1e-10;
   std::vector<Index> rows_;
-  SpdSolver solver_;
+  CondensedSolver solver_;
   CsrMatrix coupling_;
   AffineGuess guess_;
   bool isUniform_ = true;

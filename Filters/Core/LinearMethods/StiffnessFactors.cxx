@@ -59,10 +59,9 @@ std::vector<double> volumes(const Mesh& mesh, Monitor& monitor)
     });
 }
 
-std::vector<double> wallDistances(
-  const Mesh& mesh, const std::vector<Index>& walls, Monitor& monitor)
+std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor& monitor)
 {
-  const NearestNodes nearest(mesh.points(walls, allColumns));
+  const NearestNodes nearest(walls);
   Points centres = Points::Zero(mesh.numberOfCells(), 3);
   std::vector<double> distance = ofCells(mesh, monitor,
     [&](Index c)
@@ -88,17 +87,21 @@ std::vector<double> wallDistances(
 }
 
 /// Returns 1 / value^exponent; values below `least` of the mean count as this.
-std::vector<double> inversePower(
-  const Mesh& mesh, std::vector<double> value, double exponent, double least)
+std::vector<double> inversePower(const Mesh& mesh, std::vector<double> value, double exponent,
+  double least, const StiffnessPart& part)
 {
-  double sum = 0;
-  Index count = 0;
+  double sum = 0, count = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    sum += value[c];
-    count += isVolumeCell(mesh, c);
+    if (part.isGhost[c] == 0)
+    {
+      sum += value[c];
+      count += isVolumeCell(mesh, c);
+    }
   }
-  const double floor = count > 0 ? least * sum / static_cast<double>(count) : 0;
+  sum = part.sum(sum);
+  count = part.sum(count);
+  const double floor = count > 0 ? least * sum / count : 0;
   for (double& v : value)
   {
     v = floor > 0 ? std::pow(std::max(v, floor), -exponent) : 1;
@@ -115,8 +118,13 @@ void requireExponent(double exponent)
   }
 }
 
-void requireWalls(const Mesh& mesh, const std::vector<Index>& walls)
+void requireWalls(const Mesh& mesh, const CellStiffness& stiffness)
 {
+  const std::vector<Index>& walls = stiffness.walls;
+  if (walls.empty() && !stiffness.noWalls.empty())
+  {
+    throw Error(stiffness.noWalls);
+  }
   std::vector<Index> wrong;
   std::copy_if(walls.begin(), walls.end(), std::back_inserter(wrong),
     [&](Index node) { return node < 0 || node >= mesh.numberOfNodes(); });
@@ -150,13 +158,14 @@ void requireValues(const Mesh& mesh, const std::vector<double>& values)
 }
 
 /// Divides by the largest of the volume cells, and limits the ratios.
-void normalize(const Mesh& mesh, std::vector<double>& factors)
+void normalize(const Mesh& mesh, const StiffnessPart& part, std::vector<double>& factors)
 {
   double largest = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     largest = isVolumeCell(mesh, c) ? std::max(largest, factors[c]) : largest;
   }
+  largest = part.maximum(largest);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     factors[c] = isVolumeCell(mesh, c) ? std::max(factors[c] / largest, LeastRatio) : 1;
@@ -171,18 +180,31 @@ std::vector<double> stiffnessFactors(const Mesh& mesh, const std::vector<Index>&
   {
     return {};
   }
+  const std::vector<std::uint8_t> isGhost(mesh.numberOfCells(), 0);
+  const auto same = [](double value) { return value; };
+  StiffnessPart whole{ isGhost, Points(0, 3), same, same };
+  if (stiffness.kind == CellStiffness::Kind::WallDistance)
+  {
+    requireWalls(mesh, stiffness);
+    whole.walls =
+      mesh.points(stiffness.walls.empty() ? prescribed : stiffness.walls, allColumns);
+  }
+  return stiffnessFactors(mesh, stiffness, whole, monitor);
+}
+
+std::vector<double> stiffnessFactors(
+  const Mesh& mesh, const CellStiffness& stiffness, const StiffnessPart& part, Monitor& monitor)
+{
   requireExponent(stiffness.exponent);
   std::vector<double> factors(mesh.numberOfCells(), 1);
   if (stiffness.kind == CellStiffness::Kind::InverseVolume)
   {
-    factors = inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume);
+    factors = inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume, part);
   }
   else if (stiffness.kind == CellStiffness::Kind::WallDistance)
   {
-    requireWalls(mesh, stiffness.walls);
-    factors = inversePower(mesh,
-      wallDistances(mesh, stiffness.walls.empty() ? prescribed : stiffness.walls, monitor),
-      stiffness.exponent, LeastDistance);
+    factors = inversePower(
+      mesh, wallDistances(mesh, part.walls, monitor), stiffness.exponent, LeastDistance, part);
   }
   if (!stiffness.values.empty())
   {
@@ -190,7 +212,7 @@ std::vector<double> stiffnessFactors(const Mesh& mesh, const std::vector<Index>&
     std::transform(factors.begin(), factors.end(), stiffness.values.begin(), factors.begin(),
       std::multiplies<>());
   }
-  normalize(mesh, factors);
+  normalize(mesh, part, factors);
   return factors;
 }
 }

@@ -324,6 +324,16 @@ BoundaryFaces facesOfCells(
   return describeFaces(mesh, places);
 }
 
+BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>& places)
+{
+  std::vector<Place> faces;
+  for (const auto& [cell, side] : places)
+  {
+    faces.push_back({ cell, side });
+  }
+  return describeFaces(mesh, faces);
+}
+
 ConnectedComponents connectedComponents(const Mesh& mesh)
 {
   const Index nodes = mesh.numberOfNodes();

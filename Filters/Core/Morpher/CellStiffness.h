@@ -3,6 +3,8 @@
 
 #include "Morpher/Morpher.h"
 
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace morph
@@ -23,6 +25,8 @@ struct CellStiffness
   double exponent = 1;        ///< power of volume or distance, in [0, 4]
   std::vector<Index> walls;   ///< node ids; none: all prescribed nodes
   std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
+  std::string noWalls = {};   ///< the error where there are no walls; empty: no error
+  bool areWallsGlobal = true; ///< not numbers in this part of a distributed mesh
 };
 
 /// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
@@ -35,7 +39,13 @@ public:
   void setStiffness(CellStiffness stiffness);
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
+  /// Nodes from this id on are centres of polyhedra and of their faces: a method may eliminate them
+  /// before it solves. Call it before prepare(). Default: no node is one.
+  void setFirstCentre(Index node) { this->firstCentre_ = node; }
+  Index firstCentre() const { return this->firstCentre_; }
+
 private:
+  Index firstCentre_ = std::numeric_limits<Index>::max();
   CellStiffness stiffness_;
 };
 }

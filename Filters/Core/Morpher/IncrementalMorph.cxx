@@ -32,6 +32,53 @@ double lastAllowed(const SubStepLimits& limits)
 }
 }
 
+SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
+  const std::function<SubStepAttempt(const Points& from, double time, Monitor& part)>& attempt,
+  Monitor& monitor)
+{
+  SubStepResult result;
+  result.moved = rest;
+  double goal = 1, step = std::min(1., limits.first);
+  if (limits.forbidden && !limits.forbidden(1).empty())
+  {
+    // The shorter way may succeed in one step.
+    goal = step = lastAllowed(limits);
+    result.isForbidden = true;
+  }
+  int inARow = 0;
+  while (result.reached < goal && result.attempts < limits.attempts &&
+         result.failures < limits.failures &&
+         (step >= limits.least || result.reached + step >= goal))
+  {
+    ProgressRange part(monitor, result.reached, std::min(1., result.reached + step));
+    const double time =
+      result.reached + step >= goal - limits.least / 2 ? goal : result.reached + step;
+    SubStepAttempt made = attempt(result.moved, time, part);
+    const int before = result.report.iterations;
+    result.report = made.report;
+    result.report.iterations += before;
+    ++result.attempts;
+    if (!made.inverted.empty())
+    {
+      ++result.failures;
+      result.inverted.swap(made.inverted);
+      step /= 2;
+      inARow = 0;
+      continue;
+    }
+    result.moved.swap(made.moved);
+    result.reached = time;
+    step *= ++inARow > 1 ? 2 : 1;
+    step = std::min(step, goal - result.reached);
+  }
+  result.isForbidden = result.isForbidden && result.reached == goal;
+  if (result.isForbidden)
+  {
+    result.inverted = limits.forbidden(std::min(1., goal + limits.least));
+  }
+  return result;
+}
+
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
@@ -45,56 +92,20 @@ SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
                 "to step from: cell ids " +
                 listIds(atRest) + ".");
   }
-  SubStepResult result;
-  result.moved = rest.points;
   Mesh valid = rest;
-  double goal = 1, step = std::min(1., limits.first);
-  if (limits.forbidden && !limits.forbidden(1).empty())
+  const auto attempt = [&](const Points& from, double time, Monitor& part)
   {
-    // The shorter way may succeed in one step.
-    goal = step = lastAllowed(limits);
-    result.isForbidden = true;
-  }
-  int inARow = 0;
-  while (result.reached < goal && result.attempts < limits.attempts &&
-         result.failures < limits.failures &&
-         (step >= limits.least || result.reached + step >= goal))
-  {
-    monitor.check();
-    const double end = std::min(1., result.reached + step);
-    const double middle = (result.reached + end) / 2;
-    ProgressRange first(monitor, result.reached, middle), second(monitor, middle, end);
-    const double time =
-      result.reached + step >= goal - limits.least / 2 ? goal : result.reached + step;
+    part.check();
+    ProgressRange first(part, 0, 0.5), second(part, 0.5, 1);
+    valid.points = from;
     std::unique_ptr<Morpher> morpher = make();
     morpher->setReference(reference);
     morpher->prepare(valid, partition, first);
-    Points moved;
-    const int before = result.report.iterations;
-    result.report = morpher->evaluate(path(time), moved, second);
-    result.report.iterations += before;
-    ++result.attempts;
-
-    std::vector<Index> inverted = invertedCells(rest, moved, orientation, monitor);
-    if (!inverted.empty())
-    {
-      ++result.failures;
-      result.inverted.swap(inverted);
-      step /= 2;
-      inARow = 0;
-      continue;
-    }
-    valid.points = moved;
-    result.moved.swap(moved);
-    result.reached = time;
-    step *= ++inARow > 1 ? 2 : 1;
-    step = std::min(step, goal - result.reached);
-  }
-  result.isForbidden = result.isForbidden && result.reached == goal;
-  if (result.isForbidden)
-  {
-    result.inverted = limits.forbidden(std::min(1., goal + limits.least));
-  }
-  return result;
+    SubStepAttempt made;
+    made.report = morpher->evaluate(path(time), made.moved, second);
+    made.inverted = invertedCells(rest, made.moved, orientation, monitor);
+    return made;
+  };
+  return takeSubSteps(rest.points, limits, attempt, monitor);
 }
 }

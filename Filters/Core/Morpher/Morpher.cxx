@@ -214,6 +214,7 @@ EvaluateReport LinearMorpher::applyTranspose(
     ProgressRange whole(monitor, 0, 1);
     report = this->displaceTranspose(all(this->partition().free, allColumns), result, whole);
   }
+  monitor.check(); // a method whose product takes milliseconds need not ask
   prescribed.swap(result);
   monitor.progress(1);
   return report;

@@ -33,6 +33,10 @@ public:
       this->method_->setReference(this->pieces_->extend(this->reference_));
     }
     auto* stiff = dynamic_cast<StiffMorpher*>(this->method_.get());
+    if (stiff)
+    {
+      stiff->setFirstCentre(this->nodes_);
+    }
     if (stiff &&
         static_cast<Index>(stiff->stiffness().values.size()) == rest.numberOfCells()) // not yet
     {

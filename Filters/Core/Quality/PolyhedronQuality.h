@@ -29,8 +29,8 @@ struct PolyhedronCenters
 ///
 /// - At each corner where three edges of the cell meet: the three edges, as of a hexahedron. A node
 ///   in a flat face or on a straight edge, or at which the cell is concave, is no corner. It is one
-///   if the determinant in the undeformed mesh, Mesh::points, is 0.3 or more, or positive while the
-///   angles between the edges add up to 300 degrees or less.
+///   if the determinant in the undeformed mesh, Mesh::points, is 0.3 or more. A positive one is
+///   enough if the angles between the edges add up to 300 degrees or less.
 /// - For each edge of a face: the edge, the line from its middle to the face's centre, and the line
 ///   from the cell's centre to the face's.
 ///

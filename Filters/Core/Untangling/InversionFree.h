@@ -54,6 +54,7 @@ public:
   /// Sets the first guess, before evaluate(). An inverted undeformed mesh starts from Rest instead
   /// of FemWarp. Default FemWarp.
   void setStart(Start start) { this->start_ = start; }
+  Start start() const { return this->start_; }
   /// Sets the method of the first guess, not prepared, and the start to Method. Call it before
   /// prepare().
   void setMethod(std::unique_ptr<Morpher> method);
@@ -61,13 +62,16 @@ public:
   /// Initial reproduces affine motions of the boundary exactly, since FEMWARP's mesh is then
   /// stationary.
   void setTarget(TargetConstruction target) { this->target_ = target; }
+  TargetConstruction target() const { return this->target_; }
   /// Sets the tolerance of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
+  double tolerance() const { return this->femWarp_.tolerance(); }
   /// Default Newton.
   void setMinimizer(FoldoverContinuation::Minimizer minimizer) { this->minimizer_ = minimizer; }
   /// Whether to raise the minimum scaled Jacobian (MinQualityAscent.h), at the expense of the mean;
   /// never for Initial. Default on.
   void setRaising(bool on) { this->raising_ = on; }
+  bool raises() const { return this->raising_; }
   /// Sets how often the stretched targets are recomputed from the current mesh. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
 

@@ -53,6 +53,82 @@ NamedSet& SolverMesh::set(const std::string& name)
   return this->sets.back();
 }
 
+namespace
+{
+/// For each of `count` positions its place in `positions`; -1: none.
+std::vector<Index> placesOf(const std::vector<Index>& positions, Index count)
+{
+  std::vector<Index> places(static_cast<std::size_t>(count), -1);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    places[positions[i]] = static_cast<Index>(i);
+  }
+  return places;
+}
+
+std::vector<Index> kept(const std::vector<Index>& members, const std::vector<Index>& places)
+{
+  std::vector<Index> result;
+  for (const Index member : members)
+  {
+    if (places[member] >= 0)
+    {
+      result.push_back(places[member]);
+    }
+  }
+  return result;
+}
+
+/// Adds a cell of `mesh` to a part of it, whose nodes have these places.
+void addCopy(const SolverMesh& mesh, Index cell, const std::vector<Index>& places, SolverMesh& part)
+{
+  const auto map = [&places](const Index* begin, const Index* end)
+  {
+    std::vector<Index> result(begin, end);
+    std::transform(
+      result.begin(), result.end(), result.begin(), [&](Index node) { return places[node]; });
+    return result;
+  };
+  if (mesh.cellTypes[cell] == Polyhedron)
+  {
+    std::vector<std::vector<Index>> faces;
+    for (Index at = mesh.faceOffsets[cell]; at < mesh.faceOffsets[cell + 1];
+         at += mesh.faces[at] + 1)
+    {
+      const Index* face = mesh.faces.data() + at + 1;
+      faces.push_back(map(face, face + mesh.faces[at]));
+    }
+    part.addPolyhedron(faces, mesh.cellNumbers[cell]);
+    return;
+  }
+  const Index* nodes = mesh.connectivity.data();
+  part.addCell(mesh.cellTypes[cell],
+    map(nodes + mesh.offsets[cell], nodes + mesh.offsets[cell + 1]), mesh.cellNumbers[cell]);
+}
+}
+
+SolverMesh partOf(
+  const SolverMesh& mesh, const std::vector<Index>& nodes, const std::vector<Index>& cells)
+{
+  SolverMesh part;
+  const std::vector<Index> placeOfNode = placesOf(nodes, mesh.nodes());
+  const std::vector<Index> placeOfCell = placesOf(cells, mesh.cells());
+  for (const Index node : nodes)
+  {
+    const double* x = mesh.coordinates.data() + 3 * node;
+    part.addNode(mesh.nodeNumbers[node], x[0], x[1], x[2]);
+  }
+  for (const Index cell : cells)
+  {
+    addCopy(mesh, cell, placeOfNode, part);
+  }
+  for (const NamedSet& set : mesh.sets)
+  {
+    part.sets.push_back({ set.name, kept(set.nodes, placeOfNode), kept(set.cells, placeOfCell) });
+  }
+  return part;
+}
+
 std::unordered_map<Index, Index> positionsOf(
   const std::vector<Index>& numbers, const char* what, const std::string& file)
 {

@@ -20,8 +20,8 @@ int Dimension(vtkDataSet* block);
 
 /// Points and cells of a data set of any type: cells of structured data are hexahedra or voxels,
 /// hidden ones empty cells. Throws morph::Error that begins with `name` for arrays that are too
-/// short, cells that name points that do not exist, coordinates that are not finite, and with
-/// `unknown` Refuse for cells of types that cannot be morphed.
+/// short, cells that name points that do not exist, and coordinates that are not finite. With
+/// `unknown` Refuse, also for cells of types that cannot be morphed.
 morph::Mesh Read(vtkDataSet* block, const std::string& name, GridMesh::UnknownCells unknown);
 
 /// The points alone, #points x 3.

@@ -14,12 +14,12 @@ struct MergedBlocks;
 namespace BlockPoints
 {
 /// Returns points without cells, with the point arrays that all blocks have. If `data` have the
-/// blocks of `mesh`, as a moved copy of it has, these are its nodes in their order, without the
-/// array MorphPointId, since it names interior nodes, too. Else they are the points of the blocks,
-/// one after another. `mesh`: may be null. `agreeing`: a point array that has to be equal at the
-/// points of one node, or null. Throws morph::Error that begins with `subject` for data that
-/// DataCheck::Require() refuses and, in the first case, where the points of one node are farther
-/// apart than 1e-6 of the size.
+/// blocks of `mesh`, as a moved copy of it has, these are its nodes in their order. The array
+/// MorphPointId is left out then, since it names interior nodes, too. Else they are the points of
+/// the blocks, one after another. `mesh`: may be null. `agreeing`: a point array that has to be
+/// equal at the points of one node, or null. Throws morph::Error that begins with `subject` for
+/// data that DataCheck::Require() refuses. In the first case also where the points of one node are
+/// farther apart than 1e-6 of the size.
 vtkSmartPointer<vtkPolyData> Make(vtkDataObjectTree* data, const MergedBlocks* mesh,
   const char* subject, const char* agreeing = nullptr);
 }

@@ -9,9 +9,9 @@ namespace morph::filters
 {
 class SharedNodes;
 
-/// Where a block has several points at one place, as on the two sides of a crack, the place does
-/// not tell which of them a point of another block belongs to. The faces do: two blocks share the
-/// nodes of the faces that they have in common.
+/// A block may have several points at one place, as on the two sides of a crack. The place does not
+/// tell which of them a point of another block belongs to. The faces do: two blocks share the nodes
+/// of the faces that they have in common.
 namespace SplitNodes
 {
 /// A block of the mesh, and the node of each of its points.

@@ -8,6 +8,8 @@
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 
+#include <limits>
+
 namespace morph::filters::AffineArrays
 {
 void Write(vtkDataArray* fields, const morph::AffineMotion& motion, vtkPointSet* boundary)
@@ -31,6 +33,13 @@ void Remove(vtkPointSet* boundary)
 {
   boundary->GetPointData()->RemoveArray(FieldsName);
   boundary->GetFieldData()->RemoveArray(MotionName);
+}
+
+double Rounding(double size, bool isFloat)
+{
+  return 32 * size *
+         (isFloat ? double(std::numeric_limits<float>::epsilon())
+                  : std::numeric_limits<double>::epsilon());
 }
 
 std::optional<Found> Read(vtkPointSet* boundary)

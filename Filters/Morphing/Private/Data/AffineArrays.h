@@ -23,6 +23,10 @@ void Write(vtkDataArray* fields, const morph::AffineMotion& motion, vtkPointSet*
 /// Removes both, those of an input for instance.
 void Remove(vtkPointSet* boundary);
 
+/// By how much a coordinate may differ from what the arrays say, and still be the same up to
+/// rounding. `size`: of the largest number that leads to it; `isFloat`: it has single precision.
+double Rounding(double size, bool isFloat);
+
 struct Found
 {
   vtkDataArray* Fields = nullptr; ///< four components, one tuple a point

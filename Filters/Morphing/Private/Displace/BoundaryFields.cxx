@@ -11,16 +11,19 @@ namespace morph::filters
 {
 namespace
 {
-/// Whether the rest of the boundary answers each coordinate of a motion alike, and linearly.
-bool isLinear(const Surroundings::Options& rest, const Surroundings::Result& result)
+bool follows(const Surroundings::Options& rest, const Surroundings::Result& result)
 {
-  if (!rest.Sliding.empty())
-  {
-    return false;
-  }
-  return rest.How == Surroundings::Kind::Stay || rest.How == Surroundings::Kind::Fade ||
-         std::count(result.Roles.begin(), result.Roles.end(), Surroundings::Follows) == 0;
+  return (rest.How == Surroundings::Kind::Follow || rest.How == Surroundings::Kind::FollowAll) &&
+         std::count(result.Roles.begin(), result.Roles.end(), Surroundings::Follows) > 0;
 }
+}
+
+bool BoundaryFields::Key::operator==(const Key& other) const
+{
+  const Surroundings::Options &a = this->Rest, &b = other.Rest;
+  return this->MotionVersion == other.MotionVersion && this->Moving == other.Moving &&
+         this->Held == other.Held && a.How == b.How && a.Radius == b.Radius && a.Free == b.Free &&
+         a.Follow.neighbors == b.Follow.neighbors && a.Follow.unattached == b.Follow.unattached;
 }
 
 void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& choice,
@@ -29,39 +32,59 @@ void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& cho
   morph::Monitor& monitor)
 {
   AffineArrays::Remove(output);
-  if (!isLinear(rest, result))
+  Key now;
+  now.MotionVersion = model.MotionVersion();
+  now.Rest = rest;
+  now.Rest.Sliding.clear(); // has no effect on what is linear
+  now.Rest.Follow.linear = true;
+  now.Moving = choice.Moving;
+  now.Held = choice.Held;
+  if (!follows(rest, result))
+  {
+    now.Rest.How = rest.How == Surroundings::Kind::Fade ? rest.How : Surroundings::Kind::Stay;
+  }
+  else if (rest.Follow.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
   {
     return;
   }
-  if (!this->Fields || this->MotionVersion != model.MotionVersion() || this->How != rest.How ||
-      this->Radius != rest.Radius || this->Moving != choice.Moving || this->Held != choice.Held ||
-      this->Free != rest.Free)
+  if (!this->Fields || !(now == this->Kept))
   {
     this->Fields = nullptr; // in case it throws
-    this->Compute(model, choice, rest, spread, monitor);
-    this->MotionVersion = model.MotionVersion();
-    this->How = rest.How;
-    this->Radius = rest.Radius;
-    this->Free = rest.Free;
-    this->Moving = choice.Moving;
-    this->Held = choice.Held;
+    this->Compute(model, choice, now.Rest, spread, monitor);
+    this->Kept = now;
   }
-  if (const auto affine = Motion::Affine(model, choice, motion, this->Centre))
+  const auto affine = Motion::Affine(model, choice, motion, this->Centre);
+  if (affine && this->Give(*affine, model, result.Moved))
   {
     AffineArrays::Write(this->Fields, *affine, output);
   }
 }
 
+bool BoundaryFields::Give(const morph::AffineMotion& motion, const BoundaryModel& model,
+  const morph::Points& moved) const
+{
+  const double tolerance = AffineArrays::Rounding(
+    model.Points().cwiseAbs().maxCoeff() + moved.cwiseAbs().maxCoeff(), false);
+  for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
+  {
+    const morph::Index node = model.NodeOfPoint()[i];
+    Eigen::Matrix<double, 1, 4> fields;
+    this->Fields->GetTypedTuple(static_cast<vtkIdType>(i), fields.data());
+    const Eigen::RowVector3d place =
+      model.Points().row(node) + morph::affineDisplacement(motion, fields);
+    if (!((place - moved.row(node)).cwiseAbs().maxCoeff() <= tolerance)) // NaN, too
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 void BoundaryFields::Compute(const BoundaryModel& model, const Choice::Result& choice,
-  const Surroundings::Options& rest, Surroundings& spread, morph::Monitor& monitor)
+  const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor)
 {
   // The answers to p = x - centre, and to a shift along x by the model's size, which keeps the
   // digits of w.
-  Surroundings::Options options = rest;
-  if (options.How != Surroundings::Kind::Fade)
-  {
-    options.How = Surroundings::Kind::Stay;
-  }
   this->Centre = Motion::Centre(model, choice);
   const morph::Points from = model.Points()(choice.Moving, morph::allColumns);
   const Eigen::RowVector3d shift(model.Size() > 0 ? model.Size() : 1, 0, 0);

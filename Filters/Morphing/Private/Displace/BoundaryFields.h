@@ -20,23 +20,35 @@ namespace morph::filters
 class BoundaryFields
 {
 public:
-  /// Writes AffineArrays on the displaced boundary `output` where they describe it: the motion is
-  /// affine, and the rest of the boundary stays or fades. Removes those of an input elsewhere.
-  /// `result`: of `spread`. Cost, where something else moves than before: spreading twice.
+  /// Writes AffineArrays on the displaced boundary `output` where they describe it; removes those
+  /// of an input elsewhere. They do where the motion is affine, and that of the rest is linear in
+  /// it, the same for each coordinate: where the rest stays, fades, or follows by weighted residual
+  /// without leaving a plane. They do not, for instance, where nodes slide along a surface that the
+  /// motion leaves, or turn about a cylinder's axis. `result`: of `spread`. Cost: one pass; where
+  /// something else moves than before, spreading twice.
   void Write(const BoundaryModel& model, const Choice::Result& choice,
     const Motion::Options& motion, const Surroundings::Options& rest,
     const Surroundings::Result& result, Surroundings& spread, vtkPolyData* output,
     morph::Monitor& monitor);
 
 private:
+  /// What the fields depend on.
+  struct Key
+  {
+    vtkIdType MotionVersion = -1;
+    Surroundings::Options Rest;
+    std::vector<morph::Index> Moving, Held;
+
+    bool operator==(const Key& other) const;
+  };
+  /// Whether the fields with this motion take all points to `moved`, up to rounding.
+  bool Give(const morph::AffineMotion& motion, const BoundaryModel& model,
+    const morph::Points& moved) const;
   void Compute(const BoundaryModel& model, const Choice::Result& choice,
-    const Surroundings::Options& rest, Surroundings& spread, morph::Monitor& monitor);
+    const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor);
 
   vtkSmartPointer<vtkDoubleArray> Fields; ///< for the motions of what follows, or null
-  vtkIdType MotionVersion = -1;
-  Surroundings::Kind How = Surroundings::Kind::Stay;
-  double Radius = 0;
-  std::vector<morph::Index> Moving, Held, Free;
+  Key Kept;
   Eigen::RowVector3d Centre; ///< of what moves
 };
 }

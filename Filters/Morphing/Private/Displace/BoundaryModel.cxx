@@ -5,6 +5,7 @@
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Input.h"
 #include "Support/Error.h"
 
@@ -141,8 +142,8 @@ bool sameFaces(const morph::BoundaryFaces& a, const morph::BoundaryFaces& b)
 }
 }
 
-void BoundaryModel::Update(
-  vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor)
+void BoundaryModel::Update(vtkPointSet* input, const Geometry::Options& options,
+  morph::Monitor& monitor, const WholeSurface* whole)
 {
   const std::string key = geometryKey(input, options);
   if (this->Kept.Input == input && this->Kept.InputTime == input->GetMTime() &&
@@ -157,7 +158,7 @@ void BoundaryModel::Update(
   next.InputVersion = ++this->Versions;
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
   {
-    this->TakeGrid(grid, options, key, next, monitor);
+    this->TakeGrid(grid, options, key, whole, next, monitor);
   }
   else
   {
@@ -170,25 +171,47 @@ void BoundaryModel::Update(
   this->Kept = std::move(next);
 }
 
+void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor)
+{
+  next.Mesh = GridMesh::FromGrid(grid);
+  Input::RequireVolumeCells(next.Mesh);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(next.Mesh);
+  next.BodyOfNode = bodies.ofNode;
+  next.Faces = morph::boundaryFaces(next.Mesh, monitor);
+  const std::vector<std::int8_t> ofCell = morph::cellSigns(next.Mesh, bodies);
+  next.Orientation.clear();
+  for (Index cell : next.Faces.cells)
+  {
+    next.Orientation.push_back(ofCell[cell]);
+  }
+  monitor.check();
+}
+
+void BoundaryModel::TakeFaces(const WholeSurface& whole, State& next)
+{
+  next.Mesh = whole.Mesh();
+  next.BodyOfNode = whole.BodyOfNode();
+  next.Faces = whole.Faces();
+  next.Orientation.clear();
+  for (Index cell : next.Faces.cells)
+  {
+    next.Orientation.push_back(whole.Orientation()[cell]);
+  }
+}
+
 void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
-  const std::string& geometryKey, State& next, morph::Monitor& monitor)
+  const std::string& geometryKey, const WholeSurface* whole, State& next, morph::Monitor& monitor)
 {
   const bool sameMesh = next.Mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, next.Mesh) &&
-                        GridMesh::SamePoints(grid, next.Mesh);
-  if (!sameMesh)
+                        GridMesh::SamePoints(grid, next.Mesh) &&
+                        (!whole || sameFaces(next.Faces, whole->Faces()));
+  if (!sameMesh && whole)
   {
-    next.Mesh = GridMesh::FromGrid(grid);
-    Input::RequireVolumeCells(next.Mesh);
-    const morph::ConnectedComponents bodies = morph::connectedComponents(next.Mesh);
-    next.BodyOfNode = bodies.ofNode;
-    next.Faces = morph::boundaryFaces(next.Mesh, monitor);
-    const std::vector<std::int8_t> ofCell = morph::cellSigns(next.Mesh, bodies);
-    next.Orientation.clear();
-    for (Index cell : next.Faces.cells)
-    {
-      next.Orientation.push_back(ofCell[cell]);
-    }
-    monitor.check();
+    TakeFaces(*whole, next);
+  }
+  else if (!sameMesh)
+  {
+    FindFaces(grid, next, monitor);
   }
   if (!sameMesh || next.GeometryKey != geometryKey)
   {
@@ -197,7 +220,8 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
     ++this->Classified;
   }
   next.Surface = vtkSmartPointer<vtkPolyData>::New();
-  next.FaceOfPolygon = Surface::Write(grid, next.Mesh, next.Faces, next.Surface);
+  next.FaceOfPolygon = Surface::Write(
+    grid, next.Mesh, next.Faces, next.Surface, whole ? &whole->Orientation() : nullptr);
   next.NodeOfPoint = next.Faces.nodes;
   Geometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
   Geometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);

@@ -14,6 +14,8 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
+class WholeSurface;
+
 /// The boundary of a mesh with its geometry, kept while the input stays the same. The input is a
 /// grid, or a surface that was extracted from one before. Nodes are the input's points.
 class BoundaryModel
@@ -23,7 +25,9 @@ public:
   /// reused where a modified input has the same boundary and the same arrays that define its
   /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells,
   /// and for a surface without polygons, MorphPointId or RestPosition; then nothing is kept.
-  void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor);
+  /// `whole`: of a mesh on several MPI processes, whose Grid() is the input; else null.
+  void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor,
+    const WholeSurface* whole = nullptr);
 
   /// Of a surface: its points, no cells.
   const morph::Mesh& Mesh() const { return this->Kept.Mesh; }
@@ -80,7 +84,10 @@ private:
   };
 
   void TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
-    const std::string& geometryKey, State& next, morph::Monitor& monitor);
+    const std::string& geometryKey, const WholeSurface* whole, State& next,
+    morph::Monitor& monitor);
+  static void FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor);
+  static void TakeFaces(const WholeSurface& whole, State& next);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
     const std::string& geometryKey, State& next, morph::Monitor& monitor);
 

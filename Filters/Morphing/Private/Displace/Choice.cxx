@@ -125,7 +125,9 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
       part = patches(model, options);
       break;
     case By::Selection:
-      part.HasNode = Selection::Points(input, options.Selection, options.Extractor);
+      part.HasNode = options.IsSelected
+                       ? *options.IsSelected
+                       : Selection::Points(input, options.Selection, options.Extractor);
       break;
     case By::Region:
       part.HasNode = insideRegion(model, options.Region);

@@ -4,8 +4,10 @@
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Patches.h"
 
+#include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkExtractSelection;
 class vtkImplicitFunction;
@@ -30,6 +32,8 @@ struct Options
   By How = By::Everything;
   vtkSelection* Selection = nullptr;
   vtkExtractSelection* Extractor = nullptr;
+  /// #points, what a selection has chosen on MPI processes; null: evaluates Selection
+  const std::vector<std::uint8_t>* IsSelected = nullptr;
   std::set<std::string> Patches;
   vtkImplicitFunction* Region = nullptr; ///< inside where it is zero or less
   std::string ArrayName;                 ///< a point array: nodes where it is not zero

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
+#include "BoundaryMorphing/LatticeMotion.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Patches.h"
+#include "Private/Displace/Selection.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
@@ -37,7 +40,7 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
   options.UseGeometryArrays = filter->UseGeometryArrays;
   const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, options, monitor);
+  this->Model.Update(input, options, monitor, this->Whole.get());
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings = monitor.TakeWarnings();
@@ -75,6 +78,7 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
     key.Selection = timeOf(selection);
     options.Selection = selection;
     options.Extractor = own.Extractor;
+    options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
   }
   else if (this->Moving == MOVE_PATCHES)
   {
@@ -120,6 +124,67 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
   return this->Fit.Targets(this->Model, this->Choice, monitor);
 }
 
+std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
+  const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection)
+{
+  std::vector<std::uint8_t> isSelected = this->IsSelected;
+  if (!this->Whole)
+  {
+    selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
+    isSelected = filters::Selection::Points(input, selection, this->Extractor);
+  }
+  std::vector<morph::Handle> handles;
+  for (const morph::Index node : this->Model.Faces().nodes)
+  {
+    if (isSelected[node])
+    {
+      const double* v = filter->Vector;
+      handles.push_back(
+        { this->Model.Points().row(node), { v[0], v[1], v[2] }, filter->HandleRadius });
+    }
+  }
+  return handles;
+}
+
+morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
+  const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
+  vtkDataObject* points, filters::Monitor& monitor)
+{
+  const morph::Points from = this->Model.Points()(this->Choice.Moving, morph::allColumns);
+  if (filter->Motion == MOTION_HANDLES)
+  {
+    std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
+    if (filter->SelectedHandles)
+    {
+      const std::vector<morph::Handle> more = this->SelectedHandles(filter, input, selection);
+      handles.insert(handles.end(), more.begin(), more.end());
+    }
+    return from + morph::HandleMotion(handles).displacements(from, monitor);
+  }
+  morph::LatticeMotion lattice;
+  lattice.basis = static_cast<morph::LatticeMotion::Basis>(filter->LatticeBasis);
+  std::copy(filter->LatticeSize, filter->LatticeSize + 3, lattice.size.begin());
+  if (filter->AutoLattice && from.rows() > 0)
+  {
+    lattice.low = from.colwise().minCoeff();
+    lattice.high = from.colwise().maxCoeff();
+  }
+  else
+  {
+    const double* b = filter->LatticeBounds;
+    lattice.low << b[0], b[2], b[4];
+    lattice.high << b[1], b[3], b[5];
+    if ((lattice.high.array() < lattice.low.array()).any())
+    {
+      throw morph::Error("LatticeBounds have a minimum above its maximum. Give xmin, xmax, ymin, "
+                         "ymax, zmin, zmax.");
+    }
+  }
+  lattice.controlDisplacements =
+    filters::ControlPoints::Lattice(points, this->LatticeDisplacements, lattice.size);
+  return from + lattice.displacements(from, monitor);
+}
+
 filters::InnerNodes::Options vtkBoundaryDisplacement::vtkInternals::InnerOptions(
   const vtkBoundaryDisplacement* filter, vtkSelection* zone)
 {
@@ -159,8 +224,7 @@ void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
 }
 
 void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, vtkSelection* zone,
-  vtkPolyData* output, filters::Monitor& monitor)
+  vtkPointSet* input, const Extras& extras, vtkPolyData* output, filters::Monitor& monitor)
 {
   try
   {
@@ -182,20 +246,26 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   {
     return;
   }
-  morph::Points fitted;
-  if (target)
+  morph::Points given;
+  if (extras.Target)
   {
     monitor.SetRange(0.5, 0.7);
-    fitted = this->Fitted(filter, input, selection, target, monitor);
+    given = this->Fitted(filter, input, extras.Selection, extras.Target, monitor);
   }
   else
   {
-    filter->Choose(input, selection);
+    filter->Choose(input, extras.Selection);
+  }
+  const bool byPoints = filter->Motion == MOTION_HANDLES || filter->Motion == MOTION_LATTICE;
+  if (byPoints && !this->Choice.Moving.empty())
+  {
+    given =
+      this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
   }
   monitor.check();
 
   filters::Motion::Options motion;
-  motion.Fitted = &fitted;
+  motion.Given = &given;
   motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
   motion.Transform = this->Transform;
   motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
@@ -210,7 +280,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   motion.ScaleFactor = filter->ScaleFactor;
   morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
   filters::Choice::Result choice = this->Choice;
-  const filters::InnerNodes::Options inner = this->InnerOptions(filter, zone);
+  const filters::InnerNodes::Options inner = this->InnerOptions(filter, extras.Zone);
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   const bool hasInner = inner.Any() && filter->Moving != MOVE_NOTHING;
   if (hasInner)
@@ -232,7 +302,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
   rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
   rest.Radius = filter->FalloffRadius * this->Model.Size();
-  monitor.SetRange(target ? 0.7 : 0.5, 0.9);
+  monitor.SetRange(extras.Target ? 0.7 : 0.5, 0.9);
   filters::Surroundings::Result result =
     this->Spread.Spread(this->Model, choice, targets, rest, monitor);
   if (hasInner)
@@ -260,7 +330,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     this->Fields.Write(
       this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
   }
-  if (target)
+  if (extras.Target)
   {
     this->WriteDistances(result, output);
   }
@@ -276,4 +346,79 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   filter->FreePoints = count(filters::Surroundings::IsFree);
   filter->ZonePoints = count(filters::Surroundings::IsZone);
   filter->LayerPoints = count(filters::Surroundings::IsLayer);
+}
+
+/// A selection's ids are those of a process's piece, so each process evaluates its own.
+void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
+  vtkUnstructuredGrid* piece, vtkSelection* selection)
+{
+  const bool hasAny = selection && selection->GetNumberOfNodes() > 0;
+  const bool isAnywhere = filters::Ranks::Count(hasAny) > 0;
+  std::vector<std::uint8_t> isSelected;
+  filters::Ranks::Together(
+    [&]
+    {
+      if (hasAny || !isAnywhere) // which throws
+      {
+        isSelected = filters::Selection::Points(piece, selection, this->Extractor);
+      }
+    });
+  this->IsSelected = this->Whole->AnyFlags(isSelected);
+  this->ChosenFrom = filters::ChoiceKey();
+}
+
+void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, const Extras& extras, vtkPolyData* output, filters::Monitor& monitor)
+{
+  auto* piece = vtkUnstructuredGrid::SafeDownCast(input);
+  filters::Ranks::Together(
+    [&]
+    {
+      if (!piece)
+      {
+        throw morph::Error("A boundary on several MPI ranks cannot be displaced again: "
+                           "vtkBoundaryDisplacement takes the volume mesh there.");
+      }
+      if (this->InnerOptions(filter, nullptr).Any() && filter->Moving != MOVE_NOTHING)
+      {
+        throw morph::Error("Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank, and "
+                           "the mesh is distributed over several. Run on one, or turn them off.");
+      }
+    });
+  if (!this->Whole)
+  {
+    this->Whole = std::make_unique<filters::WholeSurface>();
+  }
+  this->Whole->Take(piece, monitor);
+  const bool byHandles = filter->Motion == MOTION_HANDLES;
+  if (filter->Moving == MOVE_SELECTION || (byHandles && filter->SelectedHandles))
+  {
+    this->SelectOnRanks(piece, extras.Selection);
+  }
+  vtkSmartPointer<vtkPolyData> target, control;
+  if (extras.Target)
+  {
+    target = filters::WholeSurface::Gather(extras.Target);
+  }
+  if (filters::Ranks::Count(extras.ControlPoints) > 0 &&
+      (byHandles || filter->Motion == MOTION_LATTICE))
+  {
+    filters::Ranks::Together(
+      [&]
+      {
+        const int* size = filter->LatticeSize;
+        control = byHandles ? filters::ControlPoints::AsHandles(extras.ControlPoints)
+                            : filters::ControlPoints::AsLattice(
+                                extras.ControlPoints, { size[0], size[1], size[2] });
+      });
+    control = filters::WholeSurface::Gather(control);
+  }
+  this->Whole->Together(
+    [&]
+    {
+      this->Displace(filter, this->Whole->Grid(),
+        { extras.Selection, target, extras.Zone, control }, output, monitor);
+      this->WholeOutput->ShallowCopy(output);
+      this->Whole->KeepOwn(output);
+    });
 }

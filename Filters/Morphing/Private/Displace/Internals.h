@@ -10,22 +10,25 @@
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
+#include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/FitToTarget.h"
 #include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/Picker.h"
+#include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/Surroundings.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 
-#include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
-#include <vtkExtractSelection.h>
-#include <vtkImplicitFunction.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -52,17 +55,13 @@ struct ChoiceKey
 };
 }
 
-struct vtkBoundaryDisplacement::vtkInternals
+struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShared
 {
-  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches, FrozenZones,
-    RigidZones;
+  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches;
   vtkNew<vtkDataArraySelection> PatchList;
   vtkNew<vtkStringArray> PatchSizes;
   vtkNew<vtkDoubleArray> PatchBounds;
   vtkIdType ListedVersion = -1; ///< of Model
-  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
-  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
 
   morph::filters::Blocks Blocks;
   const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
@@ -77,6 +76,10 @@ struct vtkBoundaryDisplacement::vtkInternals
   morph::filters::FitToTarget Fit;
   morph::filters::InnerNodes Inner;
   morph::filters::Picker Picker;
+  /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
+  std::unique_ptr<morph::filters::WholeSurface> Whole;
+  std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVE_SELECTION
+  vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
   /// Forgets the names of the patches.
   void ClearList()
@@ -90,15 +93,33 @@ struct vtkBoundaryDisplacement::vtkInternals
   /// Finds the boundary and its geometry, and its patches' names.
   void Classify(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
-  /// `target`: of MOTION_TARGET, or null; `zone`: the selection of a zone, or null.
-  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, vtkSelection* zone, vtkPolyData* output, morph::filters::Monitor& monitor);
+  /// What the optional ports hold; each may be null.
+  struct Extras
+  {
+    vtkSelection* Selection;      ///< of what moves
+    vtkPolyData* Target;          ///< of MOTION_TARGET
+    vtkSelection* Zone;           ///< of a zone
+    vtkDataObject* ControlPoints; ///< of MOTION_HANDLES and MOTION_LATTICE
+  };
+  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    vtkPolyData* output, morph::filters::Monitor& monitor);
+
+  /// Displace() for a mesh on several MPI processes: each gets the part of the displaced boundary
+  /// that its cells have. Collective.
+  void DisplaceOnRanks(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    vtkPolyData* output, morph::filters::Monitor& monitor);
 
 private:
+  void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
   morph::filters::InnerNodes::Options InnerOptions(
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
     vtkPolyData* target, morph::filters::Monitor& monitor);
+  /// The positions of what moves, by handles or by a lattice.
+  morph::Points ByControlPoints(const vtkBoundaryDisplacement* filter, vtkPointSet* input,
+    vtkSelection* selection, vtkDataObject* points, morph::filters::Monitor& monitor);
+  std::vector<morph::Handle> SelectedHandles(
+    const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection);
   void WriteDistances(const morph::filters::Surroundings::Result& result, vtkPolyData* output);
 };

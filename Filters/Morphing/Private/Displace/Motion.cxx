@@ -219,7 +219,9 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
     case Motion::Kind::Radius:
       return withRadius(model, choice, from, options.RadiusChange);
     case Motion::Kind::Target:
-      return *options.Fitted;
+    case Motion::Kind::Handles:
+    case Motion::Kind::Lattice:
+      return *options.Given;
     case Motion::Kind::Transform:
       break;
   }
@@ -262,7 +264,7 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
   }
   Points targets = wholeMotion(input, model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
-    "RadiusChange", "Target" };
+    "RadiusChange", "Target", "Handles", "Lattice" };
   requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
   if (options.ScaleFactor == 0)
   {

@@ -23,7 +23,9 @@ enum class Kind
   Array,
   Placement,
   Radius,
-  Target
+  Target,
+  Handles,
+  Lattice
 };
 
 struct Options
@@ -39,7 +41,8 @@ struct Options
   bool AutoCenter = true; ///< the centre of the bounding box of what moves, not Center
   std::array<double, 3> Center = { 0, 0, 0 };
   double RadiusChange = 0;
-  const morph::Points* Fitted = nullptr; ///< of Target: the positions, #Moving x 3
+  /// Of Target, Handles and Lattice: the positions, #Moving x 3.
+  const morph::Points* Given = nullptr;
   double ScaleFactor = 1;
 };
 

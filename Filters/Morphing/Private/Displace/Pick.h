@@ -26,11 +26,10 @@ namespace morph::filters::Pick
 ///
 /// A selected volume cell lies on the surfaces of its boundary faces, a selected face on its own,
 /// and a selected point on those of its faces. At an edge that is more than one. Surfaces are
-/// therefore taken one by one, the one first on which most of what is not explained yet lies, until
-/// each selected item on the boundary lies on one of them. Of equal ones the first is that with
-/// more selected faces, then that with the lower number. Throws morph::Error as
-/// Selection::Evaluate() does. Cost: that of the extractor, a pass over the faces and, for selected
-/// faces, their sort.
+/// therefore taken one by one, the one first on which most of what is left lies, until each
+/// selected item on the boundary lies on one of them. Of equal ones the first is that with more
+/// selected faces, then that with the lower number. Throws morph::Error as Selection::Evaluate()
+/// does. Cost: that of the extractor, a pass over the faces and, for selected faces, their sort.
 std::vector<morph::Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
   vtkExtractSelection* extractor, const BoundaryModel& model);
 

@@ -176,7 +176,8 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
 void Surroundings::Place(const BoundaryModel& model, const Choice::Result& choice,
   const Options& options, Result& result, morph::Monitor& monitor)
 {
-  this->Slide(model, options.Sliding, { Moves }, result);
+  const std::vector<Index> sliding = options.Follow.linear ? std::vector<Index>() : options.Sliding;
+  this->Slide(model, sliding, { Moves }, result);
   const Points placed = rowsOf(result.Moved, choice.Moving);
   switch (options.How)
   {
@@ -191,7 +192,7 @@ void Surroundings::Place(const BoundaryModel& model, const Choice::Result& choic
       break;
   }
   moveBetween(model, result);
-  this->Slide(model, options.Sliding, { Follows }, result);
+  this->Slide(model, sliding, { Follows }, result);
 }
 
 const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surface)
@@ -326,7 +327,7 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
   morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
   const morph::SurfaceMorphReport report =
     morph::morphSurfaces(model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
-  if (options.method == morph::SurfaceMorphOptions::Method::HarmonicExtension)
+  if (options.method == morph::SurfaceMorphOptions::Method::HarmonicExtension && !options.linear)
   {
     morph::smoothSurfaces(model.Faces(), model.Geometry(), nullptr, motion, monitor);
   }
@@ -341,6 +342,10 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
     {
       result.Roles[node] = Follows;
     }
+  }
+  if (options.linear)
+  {
+    return;
   }
   std::vector<Index> sliding = all.Sliding;
   if (largestDisplacement(model, result) > 0)

@@ -28,7 +28,7 @@ public:
   struct Options
   {
     Kind How = Kind::Follow;
-    morph::SurfaceMorphOptions Follow;
+    morph::SurfaceMorphOptions Follow; ///< where `linear`, nothing slides
     double Radius = 0;                 ///< of Fade, in the unit of the points
     std::vector<morph::Index> Sliding; ///< surfaces of the geometry that slide, of any kind
     std::vector<morph::Index> Free;    ///< surfaces whose nodes are solved with the interior

@@ -24,7 +24,17 @@ Morphing::Morphing(Results&)
 
 Morphing::~Morphing() = default;
 
-void Morphing::Run(const Task&, const Session::Options&, morph::Monitor&)
+std::string Morphing::Run(const Task&, const Session::Options&, morph::Monitor&)
+{
+  refuse();
+}
+
+void Morphing::CheckSeries(vtkMTimeType, bool, vtkMTimeType)
+{
+}
+
+void Morphing::Transpose(vtkUnstructuredGrid*, vtkDataObject*, vtkDataArray*,
+  const Session::Options&, vtkDoubleArray*, morph::Monitor&)
 {
   refuse();
 }

@@ -8,9 +8,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObject;
+class vtkDoubleArray;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -41,6 +44,9 @@ public:
     vtkUnstructuredGrid* Grid; ///< this process's piece
     vtkDataObject* Boundary;   ///< this process's part of the boundary
     double Fraction;           ///< of the motion
+    /// the relative steps instead of Boundary and Fraction, or null; all processes call
+    /// Motion::Boundary for the same steps
+    const Session::Motion* Series;
     int Precision;             ///< of the points, see MorphOutput::Write()
     MorphOutput::Measures Measures;
     bool FeatureLines;
@@ -48,8 +54,15 @@ public:
     vtkUnstructuredGrid* BadCells;
     vtkPolyData* Surface;
   };
-  /// Moves the mesh and writes the outputs. Names the options that need one rank.
-  void Run(const Task& task, const Session::Options& options, morph::Monitor& monitor);
+  /// Moves the mesh and writes the outputs. Names the options that need one rank. Returns an error
+  /// that comes with a result, on one process, or nothing.
+  std::string Run(const Task& task, const Session::Options& options, morph::Monitor& monitor);
+  /// See Series::Check(). Not collective.
+  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
+  /// Session::Transpose(). `gradient`: of the piece's points, those of copies as of the node.
+  /// Points of several processes that stand for one node get the same derivatives.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    const Session::Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
 
 private:
   class Internals;

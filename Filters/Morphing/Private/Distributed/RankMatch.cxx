@@ -2,6 +2,7 @@
 #include "Private/Distributed/RankMatch.h"
 
 #include "Distributed/DistributedMesh.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
 
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -175,6 +178,38 @@ Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller
   return ranks.sum(sent - static_cast<Index>(matched.size()));
 }
 
+/// The points that the nodes of this process follow. `points`: of all processes, in their order;
+/// `pairs`: those of the points and the nodes that they stand for.
+std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
+  const BoundaryMatch::Result& result, const std::vector<Traveller>& points,
+  const std::vector<std::pair<Index, Index>>& pairs)
+{
+  std::map<Index, std::vector<Index>> ofNode; // the first point of each process
+  for (const auto& [point, node] : pairs)
+  {
+    std::vector<Index>& list = ofNode[node];
+    const auto isOfRank = [&, rank = points[point].rank](Index other)
+    { return points[other].rank == rank; };
+    if (points[point].isFree == 0 && std::none_of(list.begin(), list.end(), isOfRank))
+    {
+      list.push_back(point);
+    }
+  }
+  std::vector<RankMatch::Follower> followers;
+  for (std::size_t k = 0; k < result.Ids.size(); ++k)
+  {
+    if (result.Sources[k] < 0 || !mesh.owns(result.Ids[k]))
+    {
+      continue;
+    }
+    for (const Index point : ofNode[result.Ids[k]])
+    {
+      followers.push_back({ result.Ids[k], points[point].rank, points[point].point });
+    }
+  }
+  return followers;
+}
+
 /// The owners' choice for all local nodes.
 void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
 {
@@ -199,15 +234,19 @@ void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
   result.Targets = targets(result.Ids, morph::allColumns);
   result.Sources.clear();
 }
-}
 
-namespace RankMatch
+/// What the ranks have of a boundary.
+struct Given
 {
-BoundaryMatch::Result Match(
+  Way How;      ///< the same on all ranks
+  bool HasRest; ///< whether RestPosition counts: all points have it
+  std::vector<Traveller> Mine;
+};
+
+Given read(
   vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
 {
   const Ranks& ranks = mesh.ranks();
-  const double tolerance = options.MatchTolerance * mesh.size();
   const bool areCopies = ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
   Way way = Way::None;
   BoundaryMatch::NamedPoints named;
@@ -242,37 +281,32 @@ BoundaryMatch::Result Match(
     });
   const bool isEmpty = way == Way::None;
   way = agree(ranks, way);
-  // RestPosition counts where all points have it.
   const bool hasRest = ranks.sum(Index(!isEmpty && named.Rest.rows() == 0)) == 0;
-  const std::vector<Traveller> mine = travellers(named, pairs, ranks.rank());
-  std::vector<Traveller> points, unknown;
-  if (way == Way::Positions)
-  {
-    points = toBoxes(mesh, mine, tolerance);
-  }
-  else
-  {
-    points = mesh.directory().route(mine, unknown);
-  }
+  return { way, hasRest, travellers(named, pairs, ranks.rank()) };
+}
+
+/// Throws on all ranks where one has points of nodes that the mesh does not have.
+void requireKnown(const Ranks& ranks, const std::vector<Index>& unknown)
+{
   ranks.together(
     [&]
     {
       if (!unknown.empty())
       {
-        std::vector<Index> ids;
-        for (const Traveller& point : unknown)
-        {
-          ids.push_back(point.id);
-        }
         throw Error("The boundary names nodes that the grid does not have: global ids " +
-                    morph::listIds(ids) +
+                    morph::listIds(unknown) +
                     ". Make the boundary from this grid, with Extract Morph Boundary.");
       }
     });
+}
+
+/// All of NamedPoints but Pairs; sorts `points` by where they come from.
+BoundaryMatch::NamedPoints named(
+  std::vector<Traveller>& points, bool hasRest, const BoundaryMatch::Options& options)
+{
   std::sort(points.begin(), points.end(),
     [](const Traveller& a, const Traveller& b)
     { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
-
   const Index count = static_cast<Index>(points.size());
   BoundaryMatch::NamedPoints here;
   here.Positions.resize(count, 3);
@@ -293,26 +327,56 @@ BoundaryMatch::Result Match(
       here.Displacements.row(i) = row(points[i].displacement);
     }
     here.IsFree[i] = points[i].isFree != 0;
-    if (way != Way::Positions)
-    {
-      here.Pairs.emplace_back(i, mesh.nodeOf(points[i].id));
-    }
+  }
+  return here;
+}
+}
+
+namespace RankMatch
+{
+BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
+  const BoundaryMatch::Options& options, std::vector<Follower>* followers)
+{
+  const Ranks& ranks = mesh.ranks();
+  const double tolerance = options.MatchTolerance * mesh.size();
+  const Given given = read(boundary, mesh, options);
+  const bool byPosition = given.How == Way::Positions;
+  std::vector<Traveller> points, unknown;
+  if (byPosition)
+  {
+    points = toBoxes(mesh, given.Mine, tolerance);
+  }
+  else
+  {
+    points = mesh.directory().route(given.Mine, unknown);
+  }
+  std::vector<Index> ids;
+  for (const Traveller& point : unknown)
+  {
+    ids.push_back(point.id);
+  }
+  requireKnown(ranks, ids);
+  BoundaryMatch::NamedPoints here = named(points, given.HasRest, options);
+  for (std::size_t i = 0; !byPosition && i < points.size(); ++i)
+  {
+    here.Pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
   }
   Index unmatched = 0;
-  if (way == Way::Positions)
+  if (byPosition)
   {
     Index ignored = 0;
     ranks.together(
       [&]
       {
-        if (count > 0)
+        if (!points.empty())
         {
           here.Pairs = BoundaryMatch::FindByPosition(
             here.Positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
         }
       });
-    unmatched = countUnmatched(ranks, static_cast<Index>(mine.size()), points, here.Pairs);
+    unmatched = countUnmatched(ranks, static_cast<Index>(given.Mine.size()), points, here.Pairs);
   }
+  const std::vector<std::pair<Index, Index>> found = here.Pairs;
   BoundaryMatch::Result result;
   ranks.together(
     [&]
@@ -320,6 +384,10 @@ BoundaryMatch::Result Match(
       result = BoundaryMatch::FindTargets(
         std::move(here), mesh.mesh(), mesh.outerNodes(), mesh.size(), options, &mesh.nodeIds());
     });
+  if (followers)
+  {
+    *followers = followersOf(mesh, result, points, found);
+  }
   takeOwners(mesh, result);
   result.Unmatched = unmatched;
   if (unmatched > 0)
@@ -328,6 +396,67 @@ BoundaryMatch::Result Match(
       std::to_string(unmatched) +
       " of the boundary's points are not within MatchTolerance of a node of the grid and were "
       "left out.");
+  }
+  return result;
+}
+
+void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Points& prescribed,
+  const std::vector<Follower>& followers, vtkIdType points, vtkDoubleArray* result)
+{
+  struct Row
+  {
+    Index point;
+    double value[3];
+  };
+  std::vector<std::vector<Row>> to(ranks.count());
+  for (const Follower& follower : followers)
+  {
+    const Index k = std::lower_bound(ids.begin(), ids.end(), follower.Node) - ids.begin();
+    to[follower.Rank].push_back(
+      { follower.Point, { prescribed(k, 0), prescribed(k, 1), prescribed(k, 2) } });
+  }
+  morph::Points sums = morph::Points::Zero(points, 3);
+  for (const std::vector<Row>& part : ranks.exchange(to))
+  {
+    for (const Row& row : part)
+    {
+      sums.row(row.point) += Eigen::RowVector3d(row.value[0], row.value[1], row.value[2]);
+    }
+  }
+  std::vector<Index> sources(points);
+  std::iota(sources.begin(), sources.end(), Index(0));
+  ranks.together([&] { Gradient::Gather(sums, sources, points, result); });
+}
+
+Gathered Gather(
+  vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
+{
+  const Ranks& ranks = mesh.ranks();
+  const Given given = read(boundary, mesh, options);
+  Gathered result;
+  result.ByPosition = given.How == Way::Positions;
+  std::vector<Index> ids, unknown;
+  for (const Traveller& point : given.Mine)
+  {
+    ids.push_back(point.id);
+  }
+  if (!result.ByPosition)
+  {
+    const std::vector<int> owners = mesh.directory().owners(ids);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      if (owners[i] < 0)
+      {
+        unknown.push_back(ids[i]);
+      }
+    }
+  }
+  requireKnown(ranks, unknown);
+  std::vector<Traveller> points = ranks.gather(given.Mine);
+  result.Points = named(points, given.HasRest, options);
+  for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
+  {
+    result.Points.Pairs.emplace_back(static_cast<Index>(i), points[i].id);
   }
   return result;
 }

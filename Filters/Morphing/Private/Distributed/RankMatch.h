@@ -3,21 +3,54 @@
 
 #include "Private/Morph/BoundaryMatch.h"
 
+#include <vtkType.h>
+
+#include <vector>
+
+class vtkDoubleArray;
 class vtkPointSet;
 
 namespace morph::distributed
 {
 class DistributedMesh;
+class Ranks;
 }
 
 /// Matches the points of a boundary, wherever they are, to the nodes of a distributed mesh.
 namespace morph::filters::RankMatch
 {
+/// A point of the boundary that a node follows.
+struct Follower
+{
+  morph::Index Node;        ///< local, which this process owns
+  morph::Index Rank, Point; ///< the process that has the point, and its number there
+};
 /// BoundaryMatch::Match() on all MPI processes. `boundary`: the points on this process, perhaps
 /// none. The points go to the processes that have their nodes; ids are global. Of
 /// BoundaryMatch::Match()'s ways to find nodes it has BoundaryIdArray, MorphPointId, a moved copy
 /// of each process's piece, and positions. Returns the prescribed nodes of the local mesh, as their
 /// owners have them; Sources is empty. Collective.
+///
+/// `followers`: null, or becomes the points that the nodes of this process follow: for each process
+/// with such a point the first of them.
 BoundaryMatch::Result Match(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
+  const BoundaryMatch::Options& options, std::vector<Follower>* followers = nullptr);
+
+/// Sums the derivatives of prescribed nodes for each boundary point, as Gradient::Gather() does.
+/// `ids`: of Result, `prescribed`: #ids x 3. `points`: of the boundary on this process. Collective.
+void SendBack(const morph::distributed::Ranks& ranks, const std::vector<morph::Index>& ids,
+  const morph::Points& prescribed, const std::vector<Follower>& followers, vtkIdType points,
+  vtkDoubleArray* result);
+
+/// The points of a boundary of all processes, the same on each of them.
+struct Gathered
+{
+  /// Pairs of a point and its node's global id, which some process has; none where ByPosition.
+  BoundaryMatch::NamedPoints Points;
+  bool ByPosition = false;
+};
+/// Gathers the boundary. It finds ids as Match() does, and throws as that does. 120 bytes a point.
+/// Collective.
+Gathered Gather(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
   const BoundaryMatch::Options& options);
 }

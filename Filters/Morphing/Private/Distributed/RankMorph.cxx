@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/DistributedMesh.h"
+#include "Distributed/Method.h"
 #include "Distributed/Methods.h"
-#include "Distributed/Quality.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
-#include "Private/Data/BadCells.h"
-#include "Private/Data/Output.h"
-#include "Private/Data/Quality.h"
-#include "Private/Data/Surface.h"
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
+#include "Private/Distributed/RankOutput.h"
+#include "Private/Distributed/RankValidity.h"
+#include "Private/Morph/Series.h"
 #include "Private/Pipeline/Input.h"
-#include "Quality/BoundaryDetermined.h"
+#include "Quality/MovableQuality.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "vtkMorphAlgorithm.h"
 
+#include <vtkDoubleArray.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -53,33 +55,10 @@ void requireAvailable(const Morphing::Task& task, const Session::Options& option
   {
     refuse("PostSmooth");
   }
-  if (options.Validity == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
-  {
-    refuse("Validity Sub Step");
-  }
-  if (options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
-  {
-    refuse("Validity Repair");
-  }
   if (task.FeatureLines)
   {
     refuse("FeatureLines");
   }
-}
-
-/// Certifies this process's cells. The counts are those of the whole mesh.
-morph::CertificateReport certify(const RankMesh& mesh, vtkUnstructuredGrid* output,
-  const std::vector<std::uint8_t>& skip, morph::Monitor& monitor)
-{
-  morph::CertificateReport report;
-  mesh.Ranks().together(
-    [&] { report = Quality::Certify(mesh.Piece(), output, mesh.Orientation(), skip, monitor); });
-  morph::Index counts[3] = { report.certified, report.inverted, report.undecided };
-  mesh.Ranks().sum(counts, 3);
-  report.certified = counts[0];
-  report.inverted = counts[1];
-  report.undecided = counts[2];
-  return report;
 }
 }
 
@@ -93,17 +72,33 @@ public:
 
   filters::Results& Results;
   RankMesh Mesh;
+  Series Steps;
+  BoundaryMatch::Result WholeMotion; ///< for Steps, of a boundary that does not vary
+
+  /// Takes the mesh that the method works on, and reports mirrored bodies.
+  void Take(vtkUnstructuredGrid* grid, const Session::Options& options, morph::Monitor& monitor);
+  BoundaryMatch::Result Match(vtkDataObject* boundary, double fraction,
+    const Session::Options& options, std::vector<RankMatch::Follower>* followers,
+    morph::Monitor& monitor) const;
+  /// Prepares the method for the undeformed mesh, unless it is prepared.
+  Method& Prepare(const morph::NodePartition& partition, const Session::Options& options,
+    morph::Monitor& monitor);
+  /// `from`: null for the undeformed mesh.
+  StepResult Step(const DistributedMesh* from, const BoundaryMatch::Result& match,
+    const Session::Options& options, morph::Monitor& monitor);
+  std::shared_ptr<const StepResult> MorphSeries(
+    const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor);
+
+private:
+  std::unique_ptr<Method> Make(const Session::Options& options) const;
+  morph::NodePartition PartitionOf(
+    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const;
+  /// The last step until `number` that all ranks keep.
+  std::pair<int, Series::Step> LastUntil(int number) const;
+
   std::unique_ptr<Method> Prepared;
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
   std::string PreparedOptions;
-
-  void Prepare(const morph::NodePartition& partition, const Session::Options& options,
-    morph::Monitor& monitor);
-  morph::Index RequireFeasible(const BoundaryMatch::Result& match,
-    const morph::NodePartition& partition, const Session::Options& options);
-  void Write(const Task& task, const Session::Options& options, const morph::Points& moved,
-    morph::Monitor& monitor);
-  std::string Worst(const morph::Quality& mine, morph::Index bad, const morph::Points& moved) const;
 };
 
 Morphing::Morphing(Results& results)
@@ -113,222 +108,56 @@ Morphing::Morphing(Results& results)
 
 Morphing::~Morphing() = default;
 
-void Morphing::Internals::Prepare(
-  const morph::NodePartition& partition, const Session::Options& options, morph::Monitor& monitor)
+void Morphing::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
 {
-  const auto& ranks = this->Mesh.Ranks();
-  this->Results.SetNumber("PrepareSeconds", 0);
-  const bool same = this->Prepared && this->PreparedFor == partition.prescribed &&
-                    this->PreparedOptions == options.PrepareOptions;
-  if (ranks.sum(morph::Index(!same)) == 0)
-  {
-    return;
-  }
-  const auto start = Clock::now();
-  this->Prepared.reset();
-  std::unique_ptr<Method> method = morph::distributed::makeMethod(options.CreateMorpher());
-  method->prepare(this->Mesh.Whole(), partition, monitor);
-  this->Prepared = std::move(method);
-  this->PreparedFor = partition.prescribed;
-  this->PreparedOptions = options.PrepareOptions;
-  this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
-  this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(start)));
+  this->Own->Steps.Check(options, varies, boundary);
 }
 
-/// With a validity that asks for a valid mesh, throws where the boundary itself inverts cells.
-/// Returns the number of such cells.
-morph::Index Morphing::Internals::RequireFeasible(const BoundaryMatch::Result& match,
-  const morph::NodePartition& partition, const Session::Options& options)
+void Morphing::Internals::Take(
+  vtkUnstructuredGrid* grid, const Session::Options& options, morph::Monitor& monitor)
 {
-  const DistributedMesh& whole = this->Mesh.Whole();
-  morph::Points points = whole.mesh().points;
-  points(match.Ids, morph::allColumns) = match.Targets;
-  std::vector<morph::Index> own;
-  whole.ranks().together(
-    [&]
-    {
-      for (morph::Index cell :
-        morph::boundaryDeterminedInversions(whole.mesh(), partition, whole.orientation(), points))
-      {
-        if (whole.isGhost()[cell] == 0)
-        {
-          own.push_back(whole.cellId(cell));
-        }
-      }
-    });
-  own = whole.ranks().gather(own);
-  std::sort(own.begin(), own.end());
-  if (!own.empty() && options.Validity >= vtkMorphAlgorithm::VALIDITY_SUB_STEP)
-  {
-    throw Validity::Infeasible(
-      "The boundary itself inverts " + std::to_string(own.size()) +
-        " cells, at corners that no free node can mend, so no valid mesh exists: cell ids " +
-        morph::listIds(own) +
-        ". Move the boundary less there, leave some of its nodes free, or set Validity to Report "
-        "to see the mesh.",
-      static_cast<morph::Index>(own.size()));
-  }
-  return static_cast<morph::Index>(own.size());
-}
-
-/// The worst cells of all ranks, a line for each.
-std::string Morphing::Internals::Worst(
-  const morph::Quality& mine, morph::Index bad, const morph::Points& moved) const
-{
-  struct Line
-  {
-    double jacobian;
-    std::int64_t id;
-    double centre[3];
-  };
-  constexpr std::size_t Most = 10;
-  const auto before = [](const Line& a, const Line& b)
-  { return std::tie(a.jacobian, a.id) < std::tie(b.jacobian, b.id); };
-  const morph::Mesh& piece = this->Mesh.Piece();
-  std::vector<Line> lines;
-  for (morph::Index cell : morph::invertedCells(mine))
-  {
-    const int corners = morph::cellShape(piece.types[cell])->numberOfCorners;
-    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
-    for (int k = 0; k < corners; ++k)
-    {
-      centre += moved.row(piece.cell(cell)[k]) / corners;
-    }
-    lines.push_back({ mine.scaledJacobian[cell], this->Mesh.Whole().cellId(cell),
-      { centre[0], centre[1], centre[2] } });
-  }
-  std::sort(lines.begin(), lines.end(), before);
-  lines.resize(std::min(lines.size(), Most));
-  lines = this->Mesh.Ranks().gather(lines);
-  std::sort(lines.begin(), lines.end(), before);
-  lines.resize(std::min(lines.size(), Most));
-  std::ostringstream text;
-  text << bad << " cells are inverted or degenerate. The worst, with their centres:";
-  for (const Line& line : lines)
-  {
-    text << "\n  cell " << line.id << " at (" << line.centre[0] << ", " << line.centre[1] << ", "
-         << line.centre[2] << "), scaled Jacobian " << line.jacobian;
-  }
-  text << (bad > static_cast<morph::Index>(lines.size()) ? "\n  ...\n" : "\n");
-  return text.str();
-}
-
-void Morphing::Internals::Write(const Task& task, const Session::Options& options,
-  const morph::Points& moved, morph::Monitor& monitor)
-{
-  const auto& ranks = this->Mesh.Ranks();
-  const morph::Mesh& piece = this->Mesh.Piece();
-  const morph::Index nodes = piece.numberOfNodes();
-  ranks.together(
-    [&]
-    {
-      Output::Write(task.Grid, piece.points, moved.topRows(nodes), task.Precision, task.Output);
-      Quality::Remove(task.Output);
-    });
-  std::vector<std::uint8_t> skip = this->Mesh.Unmeasured();
-  if (!task.Measures.All)
-  {
-    std::vector<std::uint8_t> inner(skip.size(), 1);
-    for (const morph::Index cell : this->Mesh.Surface().OuterCells())
-    {
-      inner[cell] = skip[cell];
-    }
-    skip = std::move(inner);
-  }
-  morph::Quality mine;
-  ranks.together(
-    [&] { mine = Quality::Measure(piece, task.Output, this->Mesh.Orientation(), skip, monitor); });
-  const morph::Quality whole =
-    morph::distributed::reduce(ranks, mine, this->Mesh.Whole().cellIds());
-  const morph::Index bad = whole.inverted + whole.degenerate;
-  if (task.Measures.All)
-  {
-    if (bad > 0 && options.Validity >= vtkMorphAlgorithm::VALIDITY_REPORT)
-    {
-      const std::string found = this->Worst(mine, bad, moved);
-      if (options.Validity == vtkMorphAlgorithm::VALIDITY_REFUSE)
-      {
-        throw morph::Error(
-          "The morph is refused: " + found +
-          "Move the boundary less, or run on one MPI rank with Validity set to Repair or Sub "
-          "Step.");
-      }
-      if (ranks.rank() == 0)
-      {
-        monitor.warn(found + "The output Bad cells holds them all. Move the boundary less, or run "
-                             "on one MPI rank with Validity set to Repair.");
-      }
-    }
-    Quality::Write(mine, task.Output);
-    this->Results.Set(whole);
-    if (task.Measures.Certify)
-    {
-      const morph::CertificateReport report = certify(this->Mesh, task.Output, skip, monitor);
-      Quality::Write(report, task.Output);
-      this->Results.Set(report);
-    }
-    this->Results.SetText("MorphStatus", bad > 0 ? "Inverted" : "Valid");
-    this->Results.SetNumber(
-      "LargestValidStep", bad > 0 ? std::numeric_limits<double>::quiet_NaN() : 1);
-  }
-  else
-  {
-    this->Results.SetText("MorphStatus", "Unmeasured");
-  }
-  morph::Index surfaceInverted = 0;
-  ranks.together(
-    [&]
-    {
-      task.BadCells->Initialize();
-      if (task.Measures.All)
-      {
-        BadCells::Extract(mine, task.Output, task.BadCells);
-      }
-      surfaceInverted = this->Mesh.Surface().Write(task.Output->GetPoints(), mine, task.Surface);
-    });
-  this->Results.SetInteger("SurfaceInvertedCells", ranks.sum(surfaceInverted));
-  this->Mesh.WriteGlobalIds(task.BadCells);
-  this->Mesh.WriteGlobalIds(task.Surface);
-}
-
-void Morphing::Run(const Task& task, const Session::Options& options, morph::Monitor& monitor)
-{
-  Internals& own = *this->Own;
-  Results& results = own.Results;
-  requireAvailable(task, options);
-  std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.CreateMorpher());
+  const std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.CreateMorpher());
   if (!sample)
   {
     throw morph::Error(options.Method +
                        " needs one MPI rank, and the mesh is distributed over several. Run on one, "
-                       "or use a linear method, Morph FEMWARP for instance.");
+                       "or use another method, Morph Inversion Free for instance.");
   }
-  if (own.Mesh.Take(task.Grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor))
+  if (this->Mesh.Take(grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor))
   {
-    own.Prepared.reset();
+    this->Prepared.reset();
+    this->Steps.Clear();
   }
-  own.Mesh.RequireVolumeCells();
-  if (own.Mesh.Ranks().sum(morph::Index(morph::hasPolyhedra(own.Mesh.Piece()))) > 0)
+  this->Mesh.RequireVolumeCells();
+  const auto& ranks = this->Mesh.Ranks();
+  if (ranks.sum(morph::Index(morph::hasPolyhedra(this->Mesh.Piece()))) > 0)
   {
     throw morph::Error(options.Method +
                        " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
                        "over several. Run on one.");
   }
-  const DistributedMesh& whole = own.Mesh.Whole();
-  const auto& ranks = whole.ranks();
-  results.SetInteger("MirroredBodies", whole.mirroredBodies());
-  if (whole.mirroredBodies() > 0 && ranks.rank() == 0)
+  const morph::Index mirrored = this->Mesh.Whole().mirroredBodies();
+  this->Results.SetInteger("MirroredBodies", mirrored);
+  if (mirrored > 0 && ranks.rank() == 0)
   {
-    monitor.warn(std::to_string(whole.mirroredBodies()) +
+    monitor.warn(std::to_string(mirrored) +
                  " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
                  "type are inverted. They are morphed and measured as if they were not. Reverse "
                  "their order of nodes if a solver expects VTK's.");
   }
+}
+
+BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double fraction,
+  const Session::Options& options, std::vector<RankMatch::Follower>* followers,
+  morph::Monitor& monitor) const
+{
+  const auto& ranks = this->Mesh.Ranks();
   vtkPointSet* displaced = nullptr;
-  ranks.together([&] { displaced = Input::RequireBoundary(task.Boundary); });
+  ranks.together([&] { displaced = Input::RequireBoundary(boundary); });
   BoundaryMatch::Options matching = options.Matching;
-  matching.ScaleFactor *= task.Fraction;
-  const BoundaryMatch::Result match = RankMatch::Match(displaced, whole, matching);
+  matching.ScaleFactor *= fraction;
+  BoundaryMatch::Result match =
+    RankMatch::Match(displaced, this->Mesh.Whole(), matching, followers);
   for (const std::string& warning : match.Warnings)
   {
     if (ranks.rank() == 0)
@@ -336,83 +165,269 @@ void Morphing::Run(const Task& task, const Session::Options& options, morph::Mon
       monitor.warn(warning);
     }
   }
+  return match;
+}
+
+std::unique_ptr<Method> Morphing::Internals::Make(const Session::Options& options) const
+{
+  const std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
+  options.SetEvaluateOptions(*settings);
+  std::unique_ptr<Method> method = morph::distributed::makeMethod(options.CreateMorpher());
+  method->takeEvaluateOptions(*settings);
+  return method;
+}
+
+morph::NodePartition Morphing::Internals::PartitionOf(
+  const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const
+{
   morph::NodePartition partition;
-  ranks.together(
+  this->Mesh.Ranks().together(
     [&]
     {
       monitor.check();
-      partition = morph::partitionNodes(whole.mesh(), match.Ids);
+      partition = morph::partitionNodes(this->Mesh.Whole().mesh(), prescribed);
     });
-  const morph::Index determined = own.RequireFeasible(match, partition, options);
+  return partition;
+}
 
-  morph::ProgressRange preparing(monitor, 0.05, 0.45);
-  own.Prepare(partition, options, preparing);
-  morph::ProgressRange evaluating(monitor, 0.45, 0.75);
-  const auto start = Clock::now();
+Method& Morphing::Internals::Prepare(
+  const morph::NodePartition& partition, const Session::Options& options, morph::Monitor& monitor)
+{
+  const auto& ranks = this->Mesh.Ranks();
+  this->Results.SetNumber("PrepareSeconds", 0);
+  const bool same = this->Prepared && this->PreparedFor == partition.prescribed &&
+                    this->PreparedOptions == options.PrepareOptions;
+  if (ranks.sum(morph::Index(!same)) > 0)
+  {
+    const auto start = Clock::now();
+    this->Prepared.reset();
+    std::unique_ptr<Method> method = this->Make(options);
+    method->prepare(this->Mesh.Whole(), partition, monitor);
+    this->Prepared = std::move(method);
+    this->PreparedFor = partition.prescribed;
+    this->PreparedOptions = options.PrepareOptions;
+    this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
+    this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(start)));
+  }
   const std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
   options.SetEvaluateOptions(*settings);
-  own.Prepared->takeEvaluateOptions(*settings);
-  morph::Points moved;
-  const morph::EvaluateReport report = own.Prepared->evaluate(match.Targets, moved, evaluating);
-  results.SetNumber("EvaluateSeconds", ranks.maximum(secondsSince(start)));
-  morph::ProgressRange writing(monitor, 0.75, 1);
-  own.Write(task, options, moved, writing);
+  this->Prepared->takeEvaluateOptions(*settings);
+  return *this->Prepared;
+}
 
+StepResult Morphing::Internals::Step(const DistributedMesh* from,
+  const BoundaryMatch::Result& match, const Session::Options& options, morph::Monitor& monitor)
+{
+  const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
+  const auto& ranks = whole.ranks();
+  const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
+  const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
+    match.Targets,
+    [&] { return this->Make(options); } };
+  StepResult result;
+  result.BoundaryInverted = validity.RequireFeasible();
+
+  morph::ProgressRange preparing(monitor, 0.05, 0.5), evaluating(monitor, 0.5, 0.8),
+    checking(monitor, 0.8, 1);
+  std::unique_ptr<Method> ofStep;
+  if (from)
+  {
+    ofStep = this->Make(options);
+    ofStep->setReference(this->Mesh.Whole().mesh().points);
+    const auto begin = Clock::now();
+    ofStep->prepare(whole, partition, preparing);
+    this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
+    this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(begin)));
+  }
+  const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
+  const auto start = Clock::now();
+  const morph::EvaluateReport report = method.evaluate(match.Targets, result.Moved, evaluating);
+  double seconds = secondsSince(start);
+  const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
+  ranks.together(
+    [&]
+    {
+      if (!wrong.empty())
+      {
+        throw morph::Error(
+          "The method gave positions that are not finite or beyond 1e50, at node ids " +
+          morph::listIds(whole.idsOfNodes(wrong)) +
+          ". Check the boundary for huge values, and the mesh for cells without volume.");
+      }
+    });
+  if (options.MeasureAll)
+  {
+    result.Valid = validity.Ensure(result.Moved, checking);
+    if (result.Valid.Status != "Valid" && result.Valid.Status != "Inverted")
+    {
+      seconds = secondsSince(start);
+    }
+    const double minimum = ranks.minimum(
+      morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
+        .fixedMinimum(result.Moved));
+    result.BoundaryMinimum =
+      std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
+  }
+  else
+  {
+    result.Valid.Status = "Unmeasured";
+    result.Valid.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  }
+  this->Results.SetNumber("EvaluateSeconds", ranks.maximum(seconds));
+  if (options.MeasureAll && result.Valid.Status != "Inverted")
+  {
+    result.BoundaryInverted = 0;
+  }
+  result.Iterations = report.iterations;
+  result.Statistics = report.statistics;
   morph::Index prescribed = 0;
-  for (morph::Index node : match.Ids)
+  for (const morph::Index node : match.Ids)
   {
     prescribed += whole.owns(node);
   }
-  results.SetInteger("BoundaryInvertedCells", determined);
-  results.SetInteger("SubSteps", 0);
-  results.SetInteger("SolverIterations", report.iterations);
-  results.SetInteger("PrescribedPoints", ranks.sum(prescribed));
-  results.SetInteger("UnmatchedPoints", match.Unmatched);
-  results.SetCounts(report.statistics);
-  results.Write(task.Output);
+  result.Prescribed = ranks.sum(prescribed);
+  result.Unmatched = match.Unmatched;
+  return result;
 }
 
-void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor)
+std::pair<int, Series::Step> Morphing::Internals::LastUntil(int number) const
 {
-  RankMesh mesh;
-  mesh.Take(grid, 1, GridMesh::UnknownCells::Refuse, monitor);
-  mesh.RequireVolumeCells();
-  const morph::distributed::Ranks& ranks = mesh.Ranks();
-  const morph::BoundaryFaces& faces = mesh.Whole().outerFaces();
-  if (ranks.sum(static_cast<morph::Index>(faces.cells.size())) == 0 && ranks.rank() == 0)
+  // Ranks have meshes of different sizes, and may keep different steps.
+  while (true)
   {
-    Surface::WarnOfNone(faces, monitor);
+    const auto kept = this->Steps.LastUntil(number);
+    const auto least = static_cast<int>(this->Mesh.Ranks().minimum(morph::Index(kept.first)));
+    if (this->Mesh.Ranks().sum(morph::Index(kept.first != least)) == 0)
+    {
+      return kept;
+    }
+    number = least;
   }
-  ranks.together([&] { Surface::Write(grid, mesh.Piece(), faces, output, &mesh.Orientation()); });
-  mesh.WriteGlobalIds(output);
 }
 
-Measured Measure(
-  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+std::shared_ptr<const StepResult> Morphing::Internals::MorphSeries(
+  const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor)
 {
-  RankMesh mesh;
-  mesh.Take(grid, 1, GridMesh::UnknownCells::Keep, monitor);
-  Measured result;
-  const std::vector<std::uint8_t>& skip = mesh.Unmeasured();
-  morph::Quality mine;
-  mesh.Ranks().together(
+  const auto& ranks = this->Mesh.Ranks();
+  // Of a last step that is kept.
+  this->Results.SetNumber("PrepareSeconds", 0);
+  this->Results.SetNumber("EvaluateSeconds", 0);
+  const auto boundaryOf = [&](int step)
+  {
+    vtkPointSet* boundary = nullptr;
+    ranks.together([&] { boundary = motion.Boundary(step); });
+    return boundary;
+  };
+  if (!motion.Varies)
+  {
+    BoundaryMatch::Result whole =
+      this->Match(boundaryOf(motion.Step), 1, options, nullptr, monitor);
+    const bool differs =
+      whole.Ids != this->WholeMotion.Ids || whole.Targets != this->WholeMotion.Targets;
+    if (ranks.sum(morph::Index(differs)) > 0)
+    {
+      this->Steps.Clear();
+      this->WholeMotion = std::move(whole);
+    }
+  }
+  auto [step, result] = this->LastUntil(motion.Step);
+  const double first = step;
+  while (step < motion.Step)
+  {
+    ++step;
+    morph::ProgressRange part(
+      monitor, (step - 1 - first) / (motion.Step - first), (step - first) / (motion.Step - first));
+    std::unique_ptr<DistributedMesh> from;
+    if (result)
+    {
+      from = std::make_unique<DistributedMesh>(this->Mesh.Whole().at(result->Moved));
+    }
+    try
+    {
+      const BoundaryMatch::Result match =
+        this->Match(boundaryOf(step), motion.Fraction(step), options, nullptr, part);
+      result = std::make_shared<StepResult>(this->Step(from.get(), match, options, part));
+    }
+    catch (const Validity::Infeasible& infeasible)
+    {
+      throw Validity::Infeasible(
+        "Step " + std::to_string(step) + ": " + infeasible.what(), infeasible.Cells);
+    }
+    catch (const morph::Error& error)
+    {
+      throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
+    }
+    if (step < motion.Step && !result->Valid.Error.empty() && ranks.rank() == 0)
+    {
+      monitor.warn("Step " + std::to_string(step) + ": " + result->Valid.Error);
+    }
+    this->Steps.Keep(step, result, options.StepMemoryLimit);
+  }
+  return result;
+}
+
+std::string Morphing::Run(
+  const Task& task, const Session::Options& options, morph::Monitor& monitor)
+{
+  Internals& own = *this->Own;
+  requireAvailable(task, options);
+  own.Take(task.Grid, options, monitor);
+  morph::ProgressRange morphing(monitor, 0.02, 0.9), writing(monitor, 0.9, 1);
+  std::shared_ptr<const StepResult> step;
+  if (task.Series)
+  {
+    step = own.MorphSeries(*task.Series, options, morphing);
+  }
+  else
+  {
+    const BoundaryMatch::Result match =
+      own.Match(task.Boundary, task.Fraction, options, nullptr, monitor);
+    step = std::make_shared<StepResult>(own.Step(nullptr, match, options, morphing));
+  }
+  const bool isFirst = own.Mesh.Ranks().rank() == 0;
+  if (!step->Valid.Warning.empty() && isFirst)
+  {
+    monitor.warn(step->Valid.Warning);
+  }
+  RankOutput::Write(own.Mesh, task, *step, own.Results, writing);
+  return isFirst ? step->Valid.Error : "";
+}
+
+void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, const Session::Options& options, vtkDoubleArray* boundaryGradient,
+  morph::Monitor& monitor)
+{
+  Internals& own = *this->Own;
+  own.Take(rest, options, monitor);
+  const DistributedMesh& whole = own.Mesh.Whole();
+  const auto& ranks = whole.ranks();
+  morph::Points nodes = morph::Points::Zero(whole.mesh().numberOfNodes(), 3);
+  ranks.together(
     [&]
     {
-      output->ShallowCopy(grid);
-      mine = Quality::Measure(mesh.Piece(), output, mesh.Orientation(), skip, monitor);
-      Quality::Remove(output);
-      Quality::Write(mine, output);
-      result.Unmeasured = Quality::Unmeasured(mesh.Piece(), mine, skip, grid);
+      if (rest->GetNumberOfPoints() > 0) // others have no arrays
+      {
+        nodes.topRows(whole.pieceNodes()) = Gradient::Require(gradient, rest->GetNumberOfPoints());
+      }
     });
-  mesh.Ranks().sum(result.Unmeasured.data(), result.Unmeasured.size());
-  result.Whole = morph::distributed::reduce(mesh.Ranks(), mine, mesh.Whole().cellIds());
-  if (certified)
+  std::vector<RankMatch::Follower> followers;
+  const BoundaryMatch::Result match = own.Match(boundary, 1, options, &followers, monitor);
+  morph::NodePartition partition;
+  ranks.together([&] { partition = morph::partitionNodes(whole.mesh(), match.Ids); });
+  morph::ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
+  const Method& method = own.Prepare(partition, options, preparing);
+  const std::string& status = own.Results.Text("MorphStatus");
+  if ((options.PostSmooth || status == "SubStepped" || status == "Repaired" ||
+        status == "Partial") &&
+      ranks.rank() == 0)
   {
-    result.Certificates = certify(mesh, output,
-      mesh.HighestDimension() == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
-    Quality::Write(result.Certificates, output);
+    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+                 "gradient is that of the method alone.");
   }
-  result.MirroredBodies = mesh.Whole().mirroredBodies();
-  return result;
+  morph::Points prescribed;
+  method.applyTranspose(nodes, prescribed, applying);
+  prescribed *= options.Matching.ScaleFactor;
+  RankMatch::SendBack(ranks, match.Ids, prescribed, followers,
+    Input::RequireBoundary(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 }

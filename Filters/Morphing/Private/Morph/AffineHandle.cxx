@@ -7,21 +7,8 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 
-#include <limits>
-
 namespace morph::filters
 {
-namespace
-{
-/// The rounding of one coordinate to be expected, relative to the largest number that led to it.
-double rounding(vtkPointSet* boundary, bool isFloat)
-{
-  const bool single = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
-  return 32 * (single ? double(std::numeric_limits<float>::epsilon())
-                      : std::numeric_limits<double>::epsilon());
-}
-}
-
 std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
   const BoundaryMatch::Result& match, const morph::Mesh& rest, double scale, bool isFloat)
 {
@@ -34,7 +21,8 @@ std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
   handle.Motion = scale * found->Motion;
   handle.Fields = morph::AffineFields::Zero(match.Targets.rows(), 4);
   const double size = rest.points.cwiseAbs().maxCoeff() + match.Targets.cwiseAbs().maxCoeff();
-  const double tolerance = rounding(boundary, isFloat) * size;
+  const bool isSingle = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
+  const double tolerance = AffineArrays::Rounding(size, isSingle);
   for (morph::Index i = 0; i < handle.Fields.rows(); ++i)
   {
     if (match.Sources[i] >= 0)

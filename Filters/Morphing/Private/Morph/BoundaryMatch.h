@@ -55,9 +55,9 @@ struct NamedPoints
 /// named more than once goes where it is named first. Nodes that the array MorphFree marks (not 0)
 /// are solved with the interior, unless another point names them. With HoldUnnamedBoundary all
 /// other outer nodes are held, except those in the middle of an edge or face one of whose corners
-/// moves. Throws morph::Error naming ids and the remedy where none of these works, for arrays that
-/// are not numeric or not as long as the boundary has points, and where all points are free. Cost:
-/// one pass over the boundary; by position also a point locator over the mesh.
+/// moves. Throws morph::Error naming ids and the remedy where none of these works, and where all
+/// points are free. Throws also for arrays that are not numeric or not as long as the boundary has
+/// points. Cost: one pass over the boundary; by position also a point locator over the mesh.
 Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
   double size, const Options& options);
 

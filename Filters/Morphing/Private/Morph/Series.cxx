@@ -12,6 +12,18 @@ void Series::Clear()
   this->Last = 0;
 }
 
+void Series::Check(vtkMTimeType options, bool varies, vtkMTimeType boundary)
+{
+  if (options != this->OptionsTime || varies != this->Varied ||
+      (varies && boundary != this->BoundaryTime))
+  {
+    this->Clear();
+  }
+  this->Varied = varies;
+  this->OptionsTime = options;
+  this->BoundaryTime = boundary;
+}
+
 void Series::Keep(int number, Step step, double megabytes)
 {
   const double size = std::max(1., 24. * static_cast<double>(step->Moved.rows()));

@@ -4,6 +4,8 @@
 #include "Morpher/Morpher.h"
 #include "Private/Morph/Validity.h"
 
+#include <vtkType.h>
+
 #include <limits>
 #include <map>
 #include <memory>
@@ -34,6 +36,9 @@ public:
   using Step = std::shared_ptr<const StepResult>;
 
   void Clear();
+  /// Clears if the options, or a boundary that varies, were modified since the last call. All
+  /// numbers but `varies` are times of modification.
+  void Check(vtkMTimeType options, bool varies, vtkMTimeType boundary);
   /// Keeps a step's mesh, and drops others if necessary. `megabytes`: the memory for all meshes in
   /// 10^6 bytes; the last one is kept besides.
   void Keep(int number, Step step, double megabytes);
@@ -45,6 +50,8 @@ private:
   int Stride = 1;
   /// the last step: the only kept one that may be between strides
   int Last = 0;
+  vtkMTimeType OptionsTime = 0, BoundaryTime = 0;
+  bool Varied = false;
 
   /// Drops all but every Stride-th and the last one.
   void Thin();

@@ -395,16 +395,4 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
   Gradient::Gather(options.Matching.ScaleFactor * prescribed, match.Sources,
     displaced->GetNumberOfPoints(), boundaryGradient);
 }
-
-void Session::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
-{
-  if (options != this->OptionsTime || varies != this->Varied ||
-      (varies && boundary != this->BoundaryTime))
-  {
-    this->Steps.Clear();
-  }
-  this->Varied = varies;
-  this->OptionsTime = options;
-  this->BoundaryTime = boundary;
-}
 }

@@ -87,9 +87,11 @@ public:
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
     const Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
 
-  /// Forgets the series if the options, or a boundary that varies, were modified since. All numbers
-  /// but `varies` are times of modification.
-  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
+  /// See Series::Check().
+  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
+  {
+    this->Steps.Check(options, varies, boundary);
+  }
   /// The last step up to this one that is kept, or -1.
   int LastStepUntil(int step) const { return this->Steps.LastUntil(step).first; }
 
@@ -122,9 +124,6 @@ private:
   std::string ModesOptions;
 
   Series Steps;
-  vtkMTimeType OptionsTime = 0;  ///< for Steps
-  bool Varied = false;           ///< the boundary, for Steps
-  vtkMTimeType BoundaryTime = 0; ///< for Steps, of a boundary that varies
-  BoundaryMatch::Result Whole;   ///< the whole motion, for Steps, of one that does not
+  BoundaryMatch::Result Whole; ///< the whole motion, for Steps, of one that does not
 };
 }

@@ -6,11 +6,13 @@
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/SurfaceGrid.h"
 #include "Private/Displace/Zones.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -27,7 +29,10 @@
 #include <vtkSelection.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <tuple>
 
 namespace filters = morph::filters;
 
@@ -83,39 +88,55 @@ void vtkMorphMesh::vtkInternals::TakeGrid(vtkUnstructuredGrid* grid)
   this->Displacement->SetInputDataObject(0, this->Rest);
 }
 
+vtkDataObject* vtkMorphMesh::vtkInternals::CopiedData::Update(vtkDataObject* given)
+{
+  const vtkMTimeType time = given ? given->GetMTime() : 0;
+  if (this->Given != given || this->Time != time)
+  {
+    this->Copy.TakeReference(given ? given->NewInstance() : nullptr);
+    if (given)
+    {
+      this->Copy->ShallowCopy(given);
+    }
+    this->Given = given;
+    this->Time = time;
+  }
+  return this->Copy;
+}
+
 void vtkMorphMesh::vtkInternals::TakeTarget(vtkDataObject* target)
 {
-  const vtkMTimeType time = target ? target->GetMTime() : 0;
-  if (this->GivenTarget != target || this->TargetTime != time)
-  {
-    this->Target.TakeReference(target ? target->NewInstance() : nullptr);
-    if (target)
-    {
-      this->Target->ShallowCopy(target);
-    }
-    this->GivenTarget = target;
-    this->TargetTime = time;
-  }
-  this->Displacement->SetTargetData(this->Target);
+  this->Displacement->SetTargetData(this->Target.Update(target));
+}
+
+void vtkMorphMesh::vtkInternals::TakeControlPoints(vtkDataObject* points)
+{
+  this->Displacement->SetControlPointsData(this->ControlPoints.Update(points));
 }
 
 void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
 {
   const vtkMorphMesh* from = this->Filter;
   vtkBoundaryDisplacement* to = this->Displacement;
-  const bool anySelection = selection && selection->GetNumberOfNodes() > 0;
-  const bool byTarget = from->Displacement == DISPLACEMENT_TARGET && this->Target && !anySelection;
-  const bool nothing = from->Moving == MOVE_SURFACES
-                         ? this->Surfaces.empty() && !anySelection && !byTarget
-                         : from->Moving == MOVE_SELECTION && !anySelection;
-  const int moving[] = { this->Surfaces.empty() && !byTarget
-                           ? vtkBoundaryDisplacement::MOVE_SELECTION
-                           : vtkBoundaryDisplacement::MOVE_PATCHES,
-    vtkBoundaryDisplacement::MOVE_SELECTION, vtkBoundaryDisplacement::MOVE_REGION,
-    vtkBoundaryDisplacement::MOVE_EVERYTHING, vtkBoundaryDisplacement::MOVE_ARRAY };
-  to->SetMoving(nothing ? vtkBoundaryDisplacement::MOVE_NOTHING : moving[from->Moving]);
+  const bool anySelection =
+    filters::Ranks::Count(selection && selection->GetNumberOfNodes() > 0) > 0;
+  const bool hasHandles = from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles;
+  const bool selectionMoves = anySelection && !hasHandles;
+  const bool byTarget =
+    from->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
+  const bool byPoints =
+    from->Displacement == DISPLACEMENT_HANDLES || from->Displacement == DISPLACEMENT_LATTICE;
+  const int ofSurfaces = !this->Surfaces.empty() || byTarget
+                           ? vtkBoundaryDisplacement::MOVE_PATCHES
+                         : selectionMoves ? vtkBoundaryDisplacement::MOVE_SELECTION
+                         : byPoints       ? vtkBoundaryDisplacement::MOVE_EVERYTHING
+                                          : vtkBoundaryDisplacement::MOVE_NOTHING;
+  const int moving[] = { ofSurfaces,
+    anySelection ? vtkBoundaryDisplacement::MOVE_SELECTION : vtkBoundaryDisplacement::MOVE_NOTHING,
+    vtkBoundaryDisplacement::MOVE_REGION, vtkBoundaryDisplacement::MOVE_EVERYTHING,
+    vtkBoundaryDisplacement::MOVE_ARRAY };
+  to->SetMoving(moving[from->Moving]);
   to->SetSelectionData(anySelection ? selection : nullptr);
-  to->SetSelectionExtractor(this->Extractor);
   using Filter = vtkBoundaryDisplacement;
   pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
   pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
@@ -124,45 +145,12 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     &Filter::AddSlidingPatch);
   pass(this->FreeSurfaces, this->PassedFreeSurfaces, to, &Filter::RemoveAllFreePatches,
     &Filter::AddFreePatch);
-  pass(this->FrozenZones, this->PassedFrozenZones, to, &Filter::RemoveAllFrozenZones,
-    &Filter::AddFrozenZone);
-  pass(this->RigidZones, this->PassedRigidZones, to, &Filter::RemoveAllRigidZones,
-    &Filter::AddRigidZone);
-  const auto prescribed = [](int type) { return type == ZONE_SOFT ? ZONE_NONE : type; };
-  to->SetZoneRegion(this->ZoneRegion);
-  to->SetZoneRegionType(prescribed(from->ZoneRegionType));
+  to->CopyDisplacement(this->Filter);
   to->SetZoneSelectionData(this->Zone);
-  to->SetZoneSelectionType(prescribed(from->ZoneSelectionType));
-  to->SetRigidTransform(this->RigidTransform);
   to->Internals->OuterBlocks = this->Blocks.Merged();
-  to->SetKeepLayers(from->KeepLayers);
-  to->SetLayersArray(from->LayersArray);
-  to->SetRegion(this->Region);
-  to->SetMovingArray(from->MovingArray);
   to->SetMotion(from->Displacement);
-  to->SetTransform(this->Transform);
-  to->SetVector(from->Vector);
-  to->SetDistance(from->Distance);
-  to->SetDisplacementArray(from->DisplacementArray);
-  to->SetTranslation(from->Translation);
-  to->SetRotation(from->Rotation);
-  to->SetScale(from->Scale);
-  to->SetAutoCenter(from->AutoCenter);
-  to->SetCenter(from->Center);
-  to->SetRadiusChange(from->RadiusChange);
-  to->SetAlignTarget(from->AlignTarget);
-  to->SetTargetReach(from->TargetReach);
-  to->SetTargetAngle(from->TargetAngle);
-  to->SetScaleFactor(from->ScaleFactor);
-  to->SetSurroundings(from->Surroundings);
-  to->SetFalloffRadius(from->FalloffRadius);
-  to->SetFeatureAngle(from->FeatureAngle);
-  to->SetCornerAngle(from->CornerAngle);
-  to->SetSurfaceIdArray(from->SurfaceIdArray);
-  to->SetUseGeometryArrays(from->UseGeometryArrays);
   // The boundary in the precision of the computation: the output alone is rounded.
   to->SetOutputPointsPrecision(DOUBLE_PRECISION);
-  to->SetNumberOfThreads(from->NumberOfThreads);
 }
 
 vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
@@ -178,6 +166,15 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
   if (options.Soft.empty() && options.RegionKind != ZONE_SOFT && options.SelectionKind != ZONE_SOFT)
   {
     return nullptr;
+  }
+  if (this->IsDistributed)
+  {
+    throw morph::Error("Soft zones of vtkMorphMesh need one MPI rank, and the mesh is distributed "
+                       "over several. Run on one, or leave them out.");
+  }
+  if (this->Rest->GetNumberOfCells() == 0)
+  {
+    return nullptr; // the mesh is on another MPI rank
   }
   const morph::Mesh mesh = filters::GridMesh::FromGrid(this->Rest);
   vtkNew<vtkDoubleArray> factors;
@@ -213,7 +210,9 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
   to->SetBoundaryIdArray(nullptr);
   to->SetDisplacementArray(nullptr);
   to->SetScaleFactor(1);
-  to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
+  to->SetValidity(from->Live             ? vtkMorphAlgorithm::VALIDITY_NONE
+                  : this->CannotRepair() ? vtkMorphAlgorithm::VALIDITY_REPORT
+                                         : from->Validity);
   to->SetQuality(from->Quality);
   to->SetFeatureLines(from->FeatureLines);
   to->SetNumberOfSteps(from->NumberOfSteps);
@@ -240,6 +239,11 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
   }
 }
 
+bool vtkMorphMesh::vtkInternals::CannotRepair() const
+{
+  return this->IsDistributed && this->Filter->Validity == vtkMorphAlgorithm::VALIDITY_REPAIR;
+}
+
 void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
 {
   morph::Monitor silent;
@@ -263,8 +267,10 @@ void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
 
 vtkSelection* vtkMorphMesh::vtkInternals::OfGrid(vtkSelection* selection)
 {
-  const bool isUsed = this->Filter->Moving == MOVE_SELECTION ||
-                      (this->Filter->Moving == MOVE_SURFACES && this->Surfaces.empty());
+  const vtkMorphMesh* from = this->Filter;
+  const bool isUsed = from->Moving == MOVE_SELECTION ||
+                      (from->Moving == MOVE_SURFACES && this->Surfaces.empty()) ||
+                      (from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles);
   return isUsed || !this->Blocks.Merged()
            ? this->Selected.OfGrid(this->Blocks, selection, this->Extractor)
            : nullptr;
@@ -284,6 +290,10 @@ filters::BlockPick::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
 void vtkMorphMesh::vtkInternals::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
 {
   this->Displacement->CopyPatches(names, output);
+  if (this->IsDistributed)
+  {
+    return; // as displaced: the first rank shows them, and does not have all of the morphed mesh
+  }
   vtkPointSet* shown = this->Filter->GetOutput();
   vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
   if (!ids || !shown || shown->GetNumberOfPoints() != this->Rest->GetNumberOfPoints())
@@ -303,6 +313,10 @@ void vtkMorphMesh::vtkInternals::CopySurfaces(vtkDataArraySelection* names, vtkP
 void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
 {
   const filters::Follower follower(this->Displacement, monitor);
+  if (filters::Ranks::Processes() > 1)
+  {
+    this->Displacement->Modified(); // it communicates, so that all ranks execute it or none
+  }
   const vtkMTimeType before = this->Displacement->GetOutput()->GetMTime();
   this->Displacement->Update();
   if (this->Displacement->GetOutput()->GetMTime() != before)
@@ -313,19 +327,27 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
   {
     monitor.warn(inOwnWords(warning));
   }
-  monitor.check();
-  if (!follower.Errors().empty())
-  {
-    // Otherwise the next update would find nothing to do, and no error.
-    this->Displacement->Modified();
-    throw morph::Error(inOwnWords(follower.Errors().front()));
-  }
+  filters::Ranks::Together(
+    [&]
+    {
+      monitor.check();
+      if (!follower.Errors().empty())
+      {
+        // Otherwise the next update would find nothing to do, and no error.
+        this->Displacement->Modified();
+        throw morph::Error(inOwnWords(follower.Errors().front()));
+      }
+    });
 }
 
 std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  this->ConfigureMorph(monitor);
+  filters::Ranks::Together([&] { this->ConfigureMorph(monitor); });
+  if (filters::Ranks::Processes() > 1)
+  {
+    this->Morph->Modified(); // as in Displace()
+  }
   const filters::Follower follower(this->Morph, monitor);
   const std::optional<double> time = filters::Ports::AskedTime(asked);
   if (time && this->Filter->NumberOfSteps > 0)
@@ -346,13 +368,21 @@ std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstru
   {
     this->Morph->Modified(); // as in Displace()
   }
-  monitor.check();
+  filters::Ranks::Together([&] { monitor.check(); });
   output->ShallowCopy(this->Morph->GetOutput(0));
   badCells->ShallowCopy(this->Morph->GetOutput(1));
   surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
   this->TakeResults();
   this->WriteDistances(output);
-  return follower.Errors().empty() ? std::string() : follower.Errors().front();
+  if (!follower.Errors().empty())
+  {
+    return follower.Errors().front();
+  }
+  const bool isValid = std::string(this->Results.Text("MorphStatus")) != "Inverted";
+  return isValid || !this->CannotRepair() || !filters::Ranks::IsFirst()
+           ? std::string()
+           : "The morphed mesh has inverted cells, and Validity Repair needs one MPI rank, while "
+             "the mesh is distributed over several. Move the surfaces less, or run on one.";
 }
 
 void vtkMorphMesh::vtkInternals::TakeResults()
@@ -383,10 +413,16 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetInteger("SolverIterations", from->GetSolverIterations());
 }
 
+vtkSmartPointer<vtkPolyData> vtkMorphMesh::vtkInternals::BoundaryOfGrid() const
+{
+  vtkSmartPointer<vtkPolyData> boundary = this->Displacement->GetOutput();
+  return this->IsDistributed ? this->Displacement->Internals->Whole->OfPiece(boundary) : boundary;
+}
+
 void vtkMorphMesh::vtkInternals::WriteDistances(vtkUnstructuredGrid* output)
 {
   vtkPolyData* target = this->Displacement->GetFittedTarget();
-  vtkPolyData* boundary = this->Displacement->GetOutput();
+  const vtkSmartPointer<vtkPolyData> boundary = this->BoundaryOfGrid();
   vtkDataArray* ids = boundary->GetPointData()->GetArray("MorphPointId");
   vtkDataArray* roles = boundary->GetPointData()->GetArray("Role");
   if (!target || !ids || !roles || output->GetNumberOfPoints() != this->Rest->GetNumberOfPoints())
@@ -407,12 +443,35 @@ void vtkMorphMesh::vtkInternals::WriteDistances(vtkUnstructuredGrid* output)
     this->Rest->GetPoint(nodes[i], before.row(static_cast<morph::Index>(i)).data());
     output->GetPoint(nodes[i], after.row(static_cast<morph::Index>(i)).data());
   }
-  const filters::TargetDistance::Summary distance =
+  filters::TargetDistance::Summary distance =
     filters::TargetDistance::Write(target, nodes, before, after, output);
+  if (this->IsDistributed)
+  {
+    this->SummarizeOnRanks(nodes, output, distance);
+  }
   this->Results.SetNumber("MaxTargetDistanceBefore", distance.MaxBefore);
   this->Results.SetNumber("MeanTargetDistanceBefore", distance.MeanBefore);
   this->Results.SetNumber("MaxTargetDistance", distance.Max);
   this->Results.SetNumber("MeanTargetDistance", distance.Mean);
+}
+
+void vtkMorphMesh::vtkInternals::SummarizeOnRanks(const std::vector<morph::Index>& nodes,
+  vtkUnstructuredGrid* output, filters::TargetDistance::Summary& distance) const
+{
+  const filters::WholeSurface& whole = *this->Displacement->Internals->Whole;
+  const std::vector<std::int64_t> ids = whole.IdsOfPiece(nodes);
+  const auto summarize = [&](const char* name)
+  {
+    vtkDataArray* array = output->GetPointData()->GetArray(name);
+    std::vector<double> values;
+    for (const morph::Index node : nodes)
+    {
+      values.push_back(array->GetComponent(static_cast<vtkIdType>(node), 0));
+    }
+    return whole.MaximumAndMean(ids, values);
+  };
+  std::tie(distance.MaxBefore, distance.MeanBefore) = summarize("TargetDistanceBefore");
+  std::tie(distance.Max, distance.Mean) = summarize("TargetDistance");
 }
 
 std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformation* asked,
@@ -424,7 +483,7 @@ std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformat
   this->Displace(displacing);
   if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVE_NOTHING)
   {
-    filters::SurfaceGrid::Write(this->Rest, this->Displacement->GetOutput(), output);
+    filters::SurfaceGrid::Write(this->Rest, this->BoundaryOfGrid(), output);
     filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);
     this->Results.Write(output);
     return {};

@@ -9,15 +9,14 @@
 #include "Private/Displace/BlockPick.h"
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/Picker.h"
+#include "Private/Displace/SharedProperties.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Time.h"
+#include "Private/Project/TargetDistance.h"
 #include "Support/Monitor.h"
 #include "vtkBoundaryDisplacement.h"
 #include "vtkMorphAlgorithm.h"
 
-#include <vtkAbstractTransform.h>
-#include <vtkExtractSelection.h>
-#include <vtkImplicitFunction.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -27,14 +26,11 @@
 
 class vtkPolyData;
 
-class vtkMorphMesh::vtkInternals
+class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
 {
 public:
   morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces,
-    FrozenZones, RigidZones, SoftZones;
-  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
-  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
-  vtkSmartPointer<vtkExtractSelection> Extractor;
+    SoftZones;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
@@ -42,6 +38,7 @@ public:
   morph::filters::Time Time;
   morph::filters::Picker Picker;
   morph::filters::Blocks Blocks;
+  bool IsDistributed = false; ///< several MPI processes have pieces of the mesh
 
   explicit vtkInternals(vtkMorphMesh* filter)
     : Filter(filter)
@@ -50,8 +47,10 @@ public:
 
   /// Gives the filters inside the mesh, unless they have it.
   void TakeGrid(vtkUnstructuredGrid* grid);
-  /// Gives the filter inside the target, a copy for its pipeline; null for none.
+  /// Give the filter inside the target or the control points, copies for its pipeline; null for
+  /// none.
   void TakeTarget(vtkDataObject* target);
+  void TakeControlPoints(vtkDataObject* points);
   /// Keeps the selection of a zone, as one of the grid; null for none.
   void TakeZone(vtkSelection* selection);
   /// Lists the surfaces of the mesh, if it is one.
@@ -75,24 +74,39 @@ private:
   vtkNew<vtkUnstructuredGrid> Rest;
   const vtkUnstructuredGrid* Input = nullptr; ///< that Rest was made from; compared, never used
   vtkMTimeType InputTime = 0;
-  vtkSmartPointer<vtkDataObject> Target;      ///< a copy of the one on port 2, or null
-  const vtkDataObject* GivenTarget = nullptr; ///< compared, never used
-  vtkMTimeType TargetTime = 0;
+  /// Data of an optional port, as a copy, which is the same object while they stay the same.
+  struct CopiedData
+  {
+    vtkSmartPointer<vtkDataObject> Copy;
+    const vtkDataObject* Given = nullptr; ///< compared, never used
+    vtkMTimeType Time = 0;
+
+    vtkDataObject* Update(vtkDataObject* given);
+  };
+  CopiedData Target, ControlPoints;
   morph::filters::BlockSelection Selected;
   morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
-    PassedFreeSurfaces, PassedFrozenZones, PassedRigidZones;
+    PassedFreeSurfaces;
   morph::filters::BlockSelection ZoneSelected;
   vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);
   void ConfigureMorph(morph::Monitor& monitor);
+  /// Validity Repair on several MPI processes: a valid mesh passes, and an inverted one comes with
+  /// an error.
+  bool CannotRepair() const;
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
   vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
   void TakeResults();
+  /// The boundary with the ids of this process's mesh.
+  vtkSmartPointer<vtkPolyData> BoundaryOfGrid() const;
   /// Adds the distances from the target, as they are on `output`.
   void WriteDistances(vtkUnstructuredGrid* output);
+  /// Makes the summary that of all MPI processes. `nodes`: those with distances on `output`.
+  void SummarizeOnRanks(const std::vector<morph::Index>& nodes, vtkUnstructuredGrid* output,
+    morph::filters::TargetDistance::Summary& distance) const;
 };

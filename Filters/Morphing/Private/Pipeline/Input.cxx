@@ -213,6 +213,15 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   return mesh;
 }
 
+void RequireNoBlocks(const Blocks& blocks, const char* filter)
+{
+  if (blocks.Merged())
+  {
+    throw morph::Error(std::string("Composite data on several MPI ranks: ") + filter +
+                       " needs them on one. Apply Merge Blocks first, or run on one rank.");
+  }
+}
+
 void RequireVolumeCells(const morph::Mesh& mesh)
 {
   if (mesh.numberOfCells() == 0)

@@ -207,10 +207,9 @@ int Ports::RequestData(
     vtkUnstructuredGrid* grid = nullptr;
     const auto check = [&]
     {
-      if (mesh.IsDistributed && this->Mesh.Merged())
+      if (mesh.IsDistributed)
       {
-        throw morph::Error(std::string("Composite data on several MPI ranks: ") + name +
-                           " needs them on one. Apply Merge Blocks first, or run on one rank.");
+        Input::RequireNoBlocks(this->Mesh, name);
       }
       Input::RequireNotSwapped(input, boundary);
       grid = Input::RequireGrid(input, "The input", this->Checked);

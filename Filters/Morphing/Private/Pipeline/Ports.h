@@ -61,9 +61,9 @@ public:
     /// Fills the output from the undeformed mesh and the boundary, which may be null, and which
     /// AsOne() has made one data set.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
-    /// May be empty. Called after an error or abort, with the undeformed mesh (unchecked, of any
-    /// type, null where it is not available, one grid where its blocks could be merged) and
-    /// "Failed" or "Cancelled"; the outputs are empty.
+    /// May be empty. Called after an error or abort, with the undeformed mesh and "Failed" or
+    /// "Cancelled"; the outputs are empty. The mesh is unchecked, of any type, null where it is not
+    /// available, and one grid where its blocks could be merged.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
     /// Work() for a mesh with pieces on several MPI processes, called on all of them: it
     /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.

@@ -28,6 +28,18 @@ bool TakePieces()
   return MORPH_HAS_MPI != 0;
 }
 
+int Processes()
+{
+  auto* c = controller();
+  return c ? c->GetNumberOfProcesses() : 1;
+}
+
+bool IsFirst()
+{
+  auto* c = controller();
+  return !c || c->GetLocalProcessId() == 0;
+}
+
 int Count(bool yes)
 {
   int mine = yes ? 1 : 0;

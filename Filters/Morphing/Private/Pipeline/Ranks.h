@@ -12,6 +12,12 @@ namespace morph::filters::Ranks
 /// MESHMORPHING_USE_MPI.
 bool TakePieces();
 
+/// The number of processes. Not collective.
+int Processes();
+
+/// Whether this is the process that tells the user what all of them know.
+bool IsFirst();
+
 /// The number of processes that say `yes`.
 int Count(bool yes);
 

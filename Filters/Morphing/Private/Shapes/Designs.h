@@ -25,8 +25,8 @@ class Designs
 public:
   /// Reads a vtkTable. A shape's weights are in the column of its name; a shape without a column
   /// has its weight of `others` in every row. Both #shapes. Throws morph::Error for other data than
-  /// a table, one without rows or without a column of any shape, and for values that are no finite
-  /// numbers, naming row and column.
+  /// a table, and for a table without rows or without a column of any shape. Values that are no
+  /// finite numbers are errors that name row and column.
   static Designs Read(vtkDataObject* table, const std::vector<std::string>& shapes,
     const std::vector<double>& others);
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMorphing/HandleMotion.h"
+
+#include "Support/Error.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace morph
+{
+namespace
+{
+constexpr double Largest = 1e50;
+constexpr double SamePlace = 1e-10; // of the handles' extent
+constexpr double LargestResidual = 1e-9;
+
+bool isModerate(const Eigen::RowVector3d& x)
+{
+  return x.allFinite() && x.cwiseAbs().maxCoeff() <= Largest;
+}
+
+void require(const std::vector<Handle>& handles)
+{
+  if (handles.empty())
+  {
+    throw Error("There is no handle: give at least one.");
+  }
+  if (static_cast<Index>(handles.size()) > HandleMotion::MostHandles)
+  {
+    throw Error("There are " + std::to_string(handles.size()) + " handles, and at most " +
+                std::to_string(HandleMotion::MostHandles) + " are possible.");
+  }
+  std::vector<Index> bad;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    const Handle& handle = handles[i];
+    if (!isModerate(handle.place) || !isModerate(handle.displacement) ||
+        !(handle.radius >= 0 && handle.radius <= Largest))
+    {
+      bad.push_back(static_cast<Index>(i));
+    }
+  }
+  if (!bad.empty())
+  {
+    throw Error("Handles have a number that is not finite or beyond 1e50, or a negative radius: "
+                "handles " +
+                listIds(bad) + ", counted from 0.");
+  }
+}
+
+/// Throws Error for two rows that are nearer than `distance`.
+void requireApart(const Points& places, double distance)
+{
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    for (Index j = 0; j < i; ++j)
+    {
+      if ((places.row(i) - places.row(j)).norm() <= distance)
+      {
+        throw Error("Handles " + std::to_string(j) + " and " + std::to_string(i) +
+                    ", counted from 0, are in the same place. Remove one of them.");
+      }
+    }
+  }
+}
+
+/// Orthonormal directions along which the points extend, 3 x (0 to 3).
+Eigen::MatrixXd extendedDirections(const Points& points)
+{
+  const Eigen::RowVector3d mean = points.colwise().mean();
+  const Points arms = points.rowwise() - mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
+  const double largest = axes.eigenvalues()[2];
+  Index rank = 0;
+  while (rank < 3 && AffineLeastSquares::isExtended(axes.eigenvalues()[2 - rank], largest))
+  {
+    ++rank;
+  }
+  return axes.eigenvectors().rightCols(rank);
+}
+
+Points rows(const Points& of, const std::vector<Index>& ids)
+{
+  return of(ids, allColumns);
+}
+}
+
+HandleMotion::HandleMotion(const std::vector<Handle>& handles)
+  : trend_(Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero(), Eigen::Matrix3d::Zero(),
+      Eigen::Matrix3d::Zero())
+{
+  require(handles);
+  const auto n = static_cast<Index>(handles.size());
+  Points places(n, 3), values(n, 3);
+  double widest = 0;
+  std::map<double, std::vector<Index>> ofRadius; // 0 comes first
+  for (Index i = 0; i < n; ++i)
+  {
+    places.row(i) = handles[i].place;
+    values.row(i) = handles[i].displacement;
+    widest = std::max(widest, handles[i].radius);
+    ofRadius[handles[i].radius].push_back(i);
+  }
+  const double largest = values.cwiseAbs().maxCoeff();
+  const Eigen::RowVector3d low = places.colwise().minCoeff(), high = places.colwise().maxCoeff();
+  const double extent = (high - low).norm();
+  requireApart(places, SamePlace * extent);
+  this->centre_ = 0.5 * (low + high);
+  this->size_ = std::max(extent, widest) > 0 ? std::max(extent, widest) : 1;
+
+  const std::vector<Index> unlimited =
+    ofRadius.count(0) ? ofRadius.at(0) : std::vector<Index>();
+  this->hasPolynomial_ = !unlimited.empty();
+  Eigen::MatrixXd directions(3, 0);
+  if (this->hasPolynomial_)
+  {
+    const Points free = rows(places, unlimited);
+    this->trend_ = AffineLeastSquares(free).fit(rows(values, unlimited));
+    directions = extendedDirections(free);
+    for (Index i = 0; i < n; ++i)
+    {
+      values.row(i) -= this->trend_.displacement(places.row(i));
+    }
+  }
+  places = (places.rowwise() - this->centre_) / this->size_;
+
+  const Index terms = this->hasPolynomial_ ? 1 + directions.cols() : 0;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + terms, n + terms);
+  for (const auto& [radius, ids] : ofRadius)
+  {
+    RadialKernel kernel;
+    kernel.kind = radius == 0 ? RadialKernel::Kind::ThinPlate : RadialKernel::Kind::WendlandC2;
+    kernel.radius = radius == 0 ? 1 : radius / this->size_;
+    for (const Index j : ids)
+    {
+      for (Index i = 0; i < n; ++i)
+      {
+        matrix(i, j) = kernel((places.row(i) - places.row(j)).squaredNorm());
+      }
+    }
+    this->groups_.push_back({ kernel, rows(places, ids), Points() });
+  }
+  if (terms > 0)
+  {
+    matrix.col(n).head(n).setOnes();
+    matrix.block(0, n + 1, n, terms - 1) = places * directions;
+    for (const Index j : unlimited)
+    {
+      matrix.col(j).tail(terms) = matrix.row(j).tail(terms).transpose();
+    }
+  }
+
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(n + terms, 3);
+  given.topRows(n) = values;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
+  Eigen::MatrixXd solution = factor.solve(given);
+  solution += factor.solve(given - matrix * solution); // one step of refinement
+  const double residual = (given - matrix * solution).cwiseAbs().maxCoeff();
+  if (!solution.allFinite() || !(residual <= LargestResidual * largest))
+  {
+    throw Error(Error::Kind::Singular,
+      "No smooth motion takes the displacements of these handles: they are too near each other for "
+      "their radii. Remove some, or give those that overlap the same radius.");
+  }
+  auto group = this->groups_.begin();
+  for (const auto& [radius, ids] : ofRadius)
+  {
+    group->strengths = solution(ids, allColumns);
+    ++group;
+  }
+  if (terms > 0)
+  {
+    this->polynomial_.row(0) = solution.row(n);
+    this->polynomial_.bottomRows<3>() = directions * solution.bottomRows(terms - 1);
+  }
+}
+
+Points HandleMotion::displacements(const Points& places, Monitor& monitor) const
+{
+  const Points scaled = (places.rowwise() - this->centre_) / this->size_;
+  Points result = Points::Zero(places.rows(), 3), sums;
+  for (const Group& group : this->groups_)
+  {
+    kernelSums(group.kernel, scaled, group.centres, group.strengths, sums, monitor);
+    result += sums;
+  }
+  for (Index i = 0; this->hasPolynomial_ && i < places.rows(); ++i)
+  {
+    result.row(i) += this->trend_.displacement(places.row(i)) + this->polynomial_.row(0) +
+                     scaled.row(i) * this->polynomial_.bottomRows<3>();
+  }
+  return result;
+}
+}

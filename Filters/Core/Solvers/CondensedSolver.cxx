@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/CondensedSolver.h"
+
+#include "Solvers/AssembleRows.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr int MostStages = 4;
+constexpr Index MostNeighbors = 16;
+constexpr Index LeastPart = 8; // of the rows: fewer are not worth a pass
+
+/// Whether row i has an entry in column j; the columns of a row ascend.
+bool couples(const CsrMatrix& matrix, int i, int j)
+{
+  const int* columns = matrix.innerIndexPtr();
+  return std::binary_search(
+    columns + matrix.outerIndexPtr()[i], columns + matrix.outerIndexPtr()[i + 1], j);
+}
+
+/// Whether the matrix has no more entries without the row. `neighbors`: the columns of its other entries.
+bool staysSparse(const CsrMatrix& matrix, const std::vector<int>& neighbors)
+{
+  const std::size_t most = neighbors.size(); // of 2 n + 1 entries that go, in pairs
+  std::size_t missing = 0;
+  for (std::size_t a = 0; a < neighbors.size() && missing <= most; ++a)
+  {
+    for (std::size_t b = a + 1; b < neighbors.size(); ++b)
+    {
+      missing += !couples(matrix, neighbors[a], neighbors[b]);
+    }
+  }
+  return missing <= most;
+}
+
+/// For each row its place in `rows`, or -1.
+std::vector<int> placesOf(const std::vector<int>& rows, Index count)
+{
+  std::vector<int> places(static_cast<std::size_t>(count), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    places[rows[i]] = static_cast<int>(i);
+  }
+  return places;
+}
+
+CsrMatrix sorted(const CsrRows<double>& rows, Index columns)
+{
+  const Eigen::Map<const CsrMatrix> unsorted(rows.rows, columns,
+    static_cast<Index>(rows.entries()), rows.start, rows.column, rows.value);
+  const Eigen::SparseMatrix<double, Eigen::ColMajor, int> byColumn(unsorted);
+  return CsrMatrix(byColumn);
+}
+
+Points rowsOf(const ConstPoints& all, const std::vector<int>& rows)
+{
+  Points result(static_cast<Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    result.row(static_cast<Index>(i)) = all.row(rows[i]);
+  }
+  return result;
+}
+}
+
+std::vector<int> CondensedSolver::choose(
+  const CsrMatrix& matrix, const std::vector<bool>& removable)
+{
+  std::vector<int> chosen, neighbors;
+  std::vector<bool> isBeside(static_cast<std::size_t>(matrix.rows()), false);
+  for (int row = 0; row < matrix.rows(); ++row)
+  {
+    if (!removable[row] || isBeside[row] ||
+        matrix.outerIndexPtr()[row + 1] - matrix.outerIndexPtr()[row] > MostNeighbors + 1)
+    {
+      continue;
+    }
+    neighbors.clear();
+    double diagonal = 0;
+    for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+    {
+      if (entry.col() == row)
+      {
+        diagonal = entry.value();
+      }
+      else
+      {
+        neighbors.push_back(static_cast<int>(entry.col()));
+      }
+    }
+    if (diagonal > 0 && std::isfinite(diagonal) && staysSparse(matrix, neighbors))
+    {
+      chosen.push_back(row);
+      for (const int neighbor : neighbors)
+      {
+        isBeside[neighbor] = true;
+      }
+    }
+  }
+  return chosen;
+}
+
+CondensedSolver::Stage CondensedSolver::condense(
+  CsrMatrix& matrix, const std::vector<int>& removed, Monitor& monitor)
+{
+  Stage stage;
+  stage.removed = removed;
+  const std::vector<int> placeOfRemoved = placesOf(removed, matrix.rows());
+  for (int row = 0; row < matrix.rows(); ++row)
+  {
+    if (placeOfRemoved[row] < 0)
+    {
+      stage.kept.push_back(row);
+    }
+  }
+  const std::vector<int> placeOfKept = placesOf(stage.kept, matrix.rows());
+  const auto width = static_cast<Index>(stage.kept.size());
+  stage.inverse.resize(static_cast<Index>(removed.size()));
+  for (std::size_t i = 0; i < removed.size(); ++i)
+  {
+    stage.inverse[static_cast<Index>(i)] = 1 / matrix.coeff(removed[i], removed[i]);
+  }
+  stage.coupling = sorted(assembleRows<double>(static_cast<int>(removed.size()), monitor,
+                            [&](int i, const auto& add)
+                            {
+                              for (CsrMatrix::InnerIterator entry(matrix, removed[i]); entry;
+                                   ++entry)
+                              {
+                                if (entry.col() != removed[i])
+                                {
+                                  add(placeOfKept[entry.col()], entry.value());
+                                }
+                              }
+                            }),
+    width);
+  // Own entries first, and factors that commute: the result is symmetric to the last bit.
+  CsrMatrix rest = sorted(assembleRows<double>(static_cast<int>(width), monitor,
+                            [&](int i, const auto& add)
+                            {
+                              const int row = stage.kept[i];
+                              for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+                              {
+                                if (placeOfKept[entry.col()] >= 0)
+                                {
+                                  add(placeOfKept[entry.col()], entry.value());
+                                }
+                              }
+                              for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+                              {
+                                const int r = placeOfRemoved[entry.col()];
+                                if (r < 0)
+                                {
+                                  continue;
+                                }
+                                for (CsrMatrix::InnerIterator other(stage.coupling, r); other;
+                                     ++other)
+                                {
+                                  add(static_cast<int>(other.col()),
+                                    -(entry.value() * other.value()) * stage.inverse[r]);
+                                }
+                              }
+                            }),
+    width);
+  matrix.swap(rest);
+  return stage;
+}
+
+void CondensedSolver::prepare(CsrMatrix& matrix, const std::vector<bool>& removable,
+  const ConstPoints& coordinates, Monitor& monitor)
+{
+  this->stages_.clear();
+  this->components_ = {};
+  Points places = coordinates;
+  std::vector<bool> may = removable;
+  std::vector<Index> ids(static_cast<std::size_t>(matrix.rows())); // of the remaining rows
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    ids[i] = static_cast<Index>(i);
+  }
+  for (int i = 0; i < MostStages && std::find(may.begin(), may.end(), true) != may.end(); ++i)
+  {
+    const std::vector<int> removed = choose(matrix, may);
+    const auto count = static_cast<Index>(removed.size());
+    if (LeastPart * count < matrix.rows() || count == matrix.rows())
+    {
+      break;
+    }
+    if (this->stages_.empty())
+    {
+      this->components_ = rowComponents(matrix);
+    }
+    monitor.check();
+    Stage stage = condense(matrix, removed, monitor);
+    places = rowsOf(places, stage.kept);
+    for (std::size_t k = 0; k < stage.kept.size(); ++k)
+    {
+      may[k] = may[stage.kept[k]];
+      ids[k] = ids[stage.kept[k]];
+    }
+    may.resize(stage.kept.size());
+    ids.resize(stage.kept.size());
+    this->stages_.push_back(std::move(stage));
+  }
+  try
+  {
+    this->solver_.prepare(matrix, places, monitor);
+  }
+  catch (const SingularRows& error)
+  {
+    std::vector<Index> rows;
+    for (const Index row : error.rows())
+    {
+      rows.push_back(ids[static_cast<std::size_t>(row)]);
+    }
+    throw SingularRows(rows);
+  }
+}
+
+SolveReport CondensedSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  if (this->stages_.empty())
+  {
+    return this->solver_.solve(b, x, tolerance, maxIterations, monitor);
+  }
+  std::vector<Points> given = { b }, found = { x };
+  for (const Stage& stage : this->stages_)
+  {
+    const Points ofRemoved = rowsOf(given.back(), stage.removed);
+    Points next = rowsOf(given.back(), stage.kept);
+    for (int r = 0; r < stage.coupling.rows(); ++r)
+    {
+      for (CsrMatrix::InnerIterator entry(stage.coupling, r); entry; ++entry)
+      {
+        next.row(entry.col()) -= (entry.value() * stage.inverse[r]) * ofRemoved.row(r);
+      }
+    }
+    found.push_back(rowsOf(found.back(), stage.kept));
+    given.push_back(std::move(next));
+  }
+  const SolveReport report =
+    this->solver_.solve(given.back(), found.back(), tolerance, maxIterations, monitor);
+  for (std::size_t i = this->stages_.size(); i-- > 0;)
+  {
+    const Stage& stage = this->stages_[i];
+    Points& all = found[i];
+    const Points& kept = found[i + 1];
+    for (std::size_t k = 0; k < stage.kept.size(); ++k)
+    {
+      all.row(stage.kept[k]) = kept.row(static_cast<Index>(k));
+    }
+    for (int r = 0; r < stage.coupling.rows(); ++r)
+    {
+      Eigen::RowVector3d sum = given[i].row(stage.removed[r]);
+      for (CsrMatrix::InnerIterator entry(stage.coupling, r); entry; ++entry)
+      {
+        sum -= entry.value() * kept.row(entry.col());
+      }
+      all.row(stage.removed[r]) = stage.inverse[r] * sum;
+    }
+  }
+  x = std::move(found.front());
+  return report;
+}
+
+const RowComponents& CondensedSolver::components() const
+{
+  return this->stages_.empty() ? this->solver_.components() : this->components_;
+}
+
+std::size_t CondensedSolver::memory() const
+{
+  std::size_t bytes = this->solver_.memory() + sizeof(int) * this->components_.ofRow.size();
+  for (const Stage& stage : this->stages_)
+  {
+    bytes += sizeof(int) * (stage.kept.size() + 2 * stage.removed.size()) +
+             sizeof(double) * stage.removed.size() +
+             (sizeof(int) + sizeof(double)) * static_cast<std::size_t>(stage.coupling.nonZeros());
+  }
+  return bytes;
+}
+}

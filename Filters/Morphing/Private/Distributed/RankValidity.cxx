@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Distributed/RankValidity.h"
+
+#include "Distributed/Patches.h"
+#include "Morpher/IncrementalMorph.h"
+#include "Private/Distributed/RankQuality.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+#include "vtkMorphAlgorithm.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace morph::filters
+{
+using morph::distributed::Method;
+
+bool RankValidity::AsksForValidMesh() const
+{
+  return this->Options.Validity >= vtkMorphAlgorithm::VALIDITY_SUB_STEP;
+}
+
+/// The cells, by global ids, that the targets invert.
+std::vector<morph::Index> RankValidity::DeterminedBy(const morph::Points& targets) const
+{
+  morph::Points points = this->Mesh.mesh().points;
+  points(this->Partition.prescribed, morph::allColumns) = targets;
+  std::vector<morph::Index> cells;
+  this->Mesh.ranks().together(
+    [&]
+    {
+      cells = morph::boundaryDeterminedInversions(
+        this->Mesh.mesh(), this->Partition, this->Mesh.orientation(), points);
+    });
+  return RankQuality::GatherIds(this->Mesh, cells);
+}
+
+/// These, and the cells around nodes that the targets leave no place.
+std::vector<morph::Index> RankValidity::ForbiddenBy(
+  const morph::Points& targets, morph::Monitor& monitor) const
+{
+  morph::Points points = this->Mesh.mesh().points;
+  points(this->Partition.prescribed, morph::allColumns) = targets;
+  std::vector<morph::Index> ids;
+  this->Mesh.ranks().together(
+    [&]
+    {
+      monitor.check();
+      for (const morph::NodeWithoutPlace& node : morph::nodesWithoutPlace(
+             this->Mesh.mesh(), this->Partition, this->Mesh.orientation(), points, monitor))
+      {
+        // All cells around a node are on the rank that owns it.
+        for (const morph::Index cell : node.cells)
+        {
+          if (this->Mesh.owns(node.node))
+          {
+            ids.push_back(this->Mesh.cellId(cell));
+          }
+        }
+      }
+    });
+  ids = this->Mesh.ranks().gather(ids);
+  const std::vector<morph::Index> determined = this->DeterminedBy(targets);
+  ids.insert(ids.end(), determined.begin(), determined.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+morph::Index RankValidity::RequireFeasible() const
+{
+  const std::vector<morph::Index> determined = this->DeterminedBy(this->Targets);
+  const auto count = static_cast<morph::Index>(determined.size());
+  if (count > 0 && this->AsksForValidMesh())
+  {
+    throw Validity::Infeasible(
+      "The boundary itself inverts " + std::to_string(count) +
+        " cells, at corners that no free node can mend, so no valid mesh exists: cell ids " +
+        morph::listIds(determined) +
+        ". Move the boundary less there, leave some of its nodes free, or set Validity to Report "
+        "to see the mesh.",
+      count);
+  }
+  return count;
+}
+
+Validity::Outcome RankValidity::Remaining(
+  const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const
+{
+  Validity::Outcome outcome;
+  outcome.Status = "Inverted";
+  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  outcome.Error =
+    "No valid mesh was found, and the result is the best that was: " +
+    RankQuality::Found(this->Mesh, RankQuality::Measure(this->Mesh, moved, monitor), moved) +
+    reason;
+  return outcome;
+}
+
+Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& monitor) const
+{
+  const morph::Points& rest = this->Mesh.mesh().points;
+  const auto inverted = [&](const morph::Points& points)
+  {
+    return RankQuality::GatherIds(this->Mesh,
+      morph::invertedCells(RankQuality::Measure(this->Mesh, points, monitor).Mine));
+  };
+  const std::vector<morph::Index> atRest = inverted(rest);
+  if (!atRest.empty())
+  {
+    return this->Remaining(moved,
+      "The undeformed mesh has inverted or degenerate cells, too, so there is no valid mesh to "
+      "take steps from: cell ids " +
+        morph::listIds(atRest) + ". Repair it first, its boundary held, by Morph Inversion Free.",
+      monitor);
+  }
+  const morph::BoundaryPath path = morph::straightPath(rest, this->Partition, this->Targets);
+  morph::SubStepLimits limits;
+  limits.attempts = this->Options.MaximumSubSteps;
+  if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+  {
+    limits.failures = 6; // as on one process
+  }
+  limits.forbidden = [&](double time) { return this->ForbiddenBy(path(time), monitor); };
+  const auto attempt = [&](const morph::Points& from, double time, morph::Monitor& part)
+  {
+    morph::ProgressRange first(part, 0, 0.5), second(part, 0.5, 1);
+    const morph::distributed::DistributedMesh valid = this->Mesh.at(from);
+    const std::unique_ptr<Method> method = this->Make();
+    method->setReference(this->Reference);
+    method->prepare(valid, this->Partition, first);
+    morph::SubStepAttempt made;
+    made.report = method->evaluate(path(time), made.moved, second);
+    if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+    {
+      morph::distributed::repairInverted(
+        valid, this->Reference, this->Partition, made.moved, part);
+    }
+    made.inverted = inverted(made.moved);
+    return made;
+  };
+  const morph::SubStepResult result = morph::takeSubSteps(rest, limits, attempt, monitor);
+  moved = result.moved;
+  Validity::Outcome outcome;
+  outcome.Status = "SubStepped";
+  outcome.LargestValidStep = result.reached;
+  outcome.SubSteps = result.attempts;
+  if (result.reached < 1)
+  {
+    std::ostringstream text;
+    text << "No valid mesh was found for the whole motion: " << result.attempts
+         << " steps came as far as " << result.reached
+         << " of it, and the result is the valid mesh there. "
+         << (result.isForbidden ? "The boundary then leaves no room to "
+                                : "The next step inverted ")
+         << result.inverted.size() << " cells: cell ids " << morph::listIds(result.inverted)
+         << (result.isForbidden
+                ? ". Mend the boundary there, move it less, or give it another path by steps of "
+                  "its own."
+                : ". Move the boundary less, or refine the mesh there.");
+    outcome.Status = "Partial";
+    outcome.Error = text.str();
+  }
+  return outcome;
+}
+
+Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
+{
+  Validity::Outcome outcome;
+  const RankQuality::Measured measured = RankQuality::Measure(this->Mesh, moved, monitor);
+  if (measured.Bad() == 0)
+  {
+    return outcome;
+  }
+  const int mode = this->Options.Validity;
+  const morph::Index free =
+    this->Mesh.ranks().sum(static_cast<morph::Index>(this->Partition.free.size()));
+  const bool repairs = mode == vtkMorphAlgorithm::VALIDITY_REPAIR;
+  if (free == 0 && (repairs || mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP))
+  {
+    return this->Remaining(
+      moved, "Every node is prescribed, so the boundary alone decides.", monitor);
+  }
+  if (repairs)
+  {
+    morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+    const morph::distributed::RepairReport report = morph::distributed::repairInverted(
+      this->Mesh, this->Reference, this->Partition, moved, first);
+    if (report.bad == 0)
+    {
+      outcome.Status = "Repaired";
+      return outcome;
+    }
+    if (report.tooLarge > 0)
+    {
+      return this->Remaining(moved,
+        "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would have " +
+          std::to_string(report.tooLarge) + " cells of " + std::to_string(this->Mesh.volumeCells()) +
+          "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
+          "or run on one rank.",
+        monitor);
+    }
+    return this->SubStep(moved, second);
+  }
+  if (mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
+  {
+    return this->SubStep(moved, monitor);
+  }
+  if (mode == vtkMorphAlgorithm::VALIDITY_REFUSE)
+  {
+    throw morph::Error("The morph is refused: " +
+                       RankQuality::Found(this->Mesh, measured, moved) +
+                       "Set Validity to Repair or Sub Step, or move the boundary less.");
+  }
+  if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)
+  {
+    outcome.Warning = RankQuality::Found(this->Mesh, measured, moved) +
+                      "The output Bad cells holds them all. Validity set to Repair keeps cells "
+                      "valid.";
+  }
+  outcome.Status = "Inverted";
+  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+  return outcome;
+}
+}

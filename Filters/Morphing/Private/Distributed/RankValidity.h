@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/DistributedMesh.h"
+#include "Distributed/Method.h"
+#include "Mesh/NodePartition.h"
+#include "Private/Morph/Session.h"
+#include "Private/Morph/Validity.h"
+
+#include <functional>
+#include <memory>
+
+namespace morph::filters
+{
+/// Validity on several MPI processes. All functions are collective.
+class RankValidity
+{
+public:
+  const Session::Options& Options;
+  const morph::distributed::DistributedMesh& Mesh; ///< before the motion
+  const morph::Points& Reference;                  ///< #local nodes x 3, the undeformed mesh
+  const morph::NodePartition& Partition;           ///< of the local mesh
+  const morph::Points& Targets;                    ///< #prescribed x 3
+  /// Makes a method with its options, not prepared yet.
+  std::function<std::unique_ptr<morph::distributed::Method>()> Make;
+
+  /// Returns the number of cells that the targets themselves invert. Throws Validity::Infeasible on
+  /// all processes where there are some and Options ask for a valid mesh.
+  morph::Index RequireFeasible() const;
+  /// Makes `moved`, #local nodes x 3, the mesh that Options ask for; see Validity::Ensure(). A
+  /// folded boundary is not foreseen: sub-steps end before it inverts cells. Outcome::Measured is
+  /// empty.
+  Validity::Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
+
+private:
+  bool AsksForValidMesh() const;
+  std::vector<morph::Index> DeterminedBy(const morph::Points& targets) const;
+  std::vector<morph::Index> ForbiddenBy(
+    const morph::Points& targets, morph::Monitor& monitor) const;
+  Validity::Outcome SubStep(morph::Points& moved, morph::Monitor& monitor) const;
+  Validity::Outcome Remaining(
+    const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const;
+};
+}

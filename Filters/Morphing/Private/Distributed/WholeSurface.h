@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Private/Morph/BoundaryMatch.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+class vtkPointSet;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+/// The boundary of a mesh whose pieces are on several MPI processes, whole and the same on each of
+/// them. So serial code of surfaces runs on each process alike, with the same bits, and each keeps
+/// the part of the result that its own cells have. Not to be used unless Ranks::TakePieces().
+///
+/// It has the cells with an outer face and the two-dimensional cells; nodes and cells in the order
+/// of their global ids. Where the serial filter has this order too, surfaces and curves have the
+/// same numbers. Memory and messages of each process grow with the whole boundary, not with the
+/// mesh: see Bytes().
+class WholeSurface
+{
+public:
+  WholeSurface();
+  ~WholeSurface();
+
+  /// Gathers the boundary, unless the pieces are those that it was gathered from. Throws
+  /// morph::Error on all processes for a mesh that cannot be read or has no volume cells.
+  /// Collective, as all functions that say so.
+  void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor);
+
+  /// Those cells, with the arrays that all pieces have.
+  vtkUnstructuredGrid* Grid() const;
+  const morph::Mesh& Mesh() const; ///< of Grid()
+  /// The outer faces of the whole mesh; partition interfaces are none.
+  const morph::BoundaryFaces& Faces() const;
+  /// #nodes: the body of the whole mesh, or -1, as ConnectedComponents has it.
+  const std::vector<morph::Index>& BodyOfNode() const;
+  /// #cells: cellSigns() of the whole mesh.
+  const std::vector<std::int8_t>& Orientation() const;
+  /// The diagonal of the whole mesh's bounding box.
+  double Size() const;
+  /// Bytes that this process received to gather the boundary.
+  std::size_t Bytes() const;
+
+  /// Bodies of the whole mesh, numbered by their lowest cell.
+  morph::Index NumberOfBodies() const;
+  /// For each point of the piece its node of Grid(), or #nodes + its body or, for a point of no
+  /// volume cell, #nodes + NumberOfBodies().
+  std::vector<morph::Index> Places() const;
+  /// The node of Grid() with a global id, or -1.
+  morph::Index NodeOf(std::int64_t id) const;
+  /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
+  /// nodes that it names are left out. Collective.
+  BoundaryMatch::Result Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
+
+  /// Calls `work`, the same on each process, which must not communicate; throws as
+  /// Ranks::Together() does. A message with ids says of what they are. Collective.
+  void Together(const std::function<void()>& work) const;
+
+  /// Whether any process sets a node's flag. `ofPiece`: of its points, or empty. Collective.
+  std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const;
+
+  /// Leaves those cells of a surface of Grid() that belong to cells of this process, and the
+  /// points on them; a cell without MorphCellId belongs where its first point does. MorphPointId
+  /// and MorphCellId, nodes and cells of Grid() before, become global ids.
+  void KeepOwn(vtkPolyData* surface) const;
+  /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
+  /// of this process's piece.
+  vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const;
+  /// The global ids of points of the piece.
+  std::vector<std::int64_t> IdsOfPiece(const std::vector<morph::Index>& points) const;
+  /// The largest and the mean of values of nodes, each of which counts once. `ids`: global, of the
+  /// nodes that this process has a value for. NaN without any. Collective.
+  std::pair<double, double> MaximumAndMean(
+    const std::vector<std::int64_t>& ids, const std::vector<double>& values) const;
+
+  /// All processes' parts of a surface as one, the same on each of them. Where processes have equal
+  /// parts, as where each has read the whole surface, one of these counts. Collective.
+  static vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part);
+
+private:
+  class Internals;
+  std::unique_ptr<Internals> Own;
+};
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RankGrids.h"
+
+#include "Meshes.h"
+#include "Pieces.h"
+#include "TestGrids.h"
+
+#include <vtkCellData.h>
+#include <vtkDummyController.h>
+#include <vtkIdTypeArray.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+
+namespace rank_grids
+{
+using morph::Index;
+
+namespace
+{
+void setGlobalIds(vtkDataSetAttributes* data, const std::vector<std::int64_t>& ids)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName("GlobalIds");
+  for (const std::int64_t id : ids)
+  {
+    array->InsertNextValue(static_cast<vtkIdType>(id));
+  }
+  data->SetGlobalIds(array);
+}
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> piece(
+  const morph::distributed::Ranks& ranks, const morph::Mesh& whole)
+{
+  const auto mine = pieces::pieceOf(
+    whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank());
+  vtkSmartPointer<vtkUnstructuredGrid> grid = grids::make(mine.mesh);
+  setGlobalIds(grid->GetPointData(), mine.nodeIds);
+  setGlobalIds(grid->GetCellData(), mine.cellIds);
+  return grid;
+}
+
+std::vector<Index> globalIds(vtkDataSet* data, const char* name)
+{
+  vtkDataArray* array = data->GetPointData()->GetArray(name);
+  std::vector<Index> ids;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    ids.push_back(static_cast<Index>(array->GetComponent(i, 0)));
+  }
+  return ids;
+}
+
+void alone(const std::function<void()>& work)
+{
+  vtkSmartPointer<vtkMultiProcessController> all =
+    vtkMultiProcessController::GetGlobalController();
+  vtkNew<vtkDummyController> one;
+  vtkMultiProcessController::SetGlobalController(one);
+  work();
+  vtkMultiProcessController::SetGlobalController(all);
+}
+
+double distance(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece,
+  vtkUnstructuredGrid* whole)
+{
+  const std::vector<Index> ids = globalIds(piece, "GlobalIds");
+  double largest = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    double a[3], b[3];
+    piece->GetPoint(static_cast<vtkIdType>(i), a);
+    whole->GetPoint(static_cast<vtkIdType>(ids[i]), b);
+    for (int j = 0; j < 3; ++j)
+    {
+      largest = std::max(largest, std::abs(a[j] - b[j]));
+    }
+  }
+  return ranks.maximum(largest);
+}
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Ranks.h"
+#include "Mesh/Mesh.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <functional>
+#include <vector>
+
+/// Grids for the tests of filters on MPI ranks.
+namespace rank_grids
+{
+/// This rank's random cells of a mesh, with global ids of points and cells.
+vtkSmartPointer<vtkUnstructuredGrid> piece(
+  const morph::distributed::Ranks& ranks, const morph::Mesh& whole);
+
+std::vector<morph::Index> globalIds(vtkDataSet* data, const char* name);
+
+/// Calls `work` as a program of one process would.
+void alone(const std::function<void()>& work);
+
+/// The largest distance, on any rank, of this rank's points from those of the whole mesh with the
+/// same ids.
+double distance(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece,
+  vtkUnstructuredGrid* whole);
+}

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps, Validity and stiffness of the filters on MPI ranks, against the same filters on one.
+#include "Meshes.h"
+#include "Pieces.h"
+#include "RankGrids.h"
+#include "TestGrids.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFEMWarpMorph.h>
+#include <vtkInversionFreeMorph.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using morph::distributed::Ranks;
+using Setting = std::function<void(vtkFEMWarpMorph*)>;
+
+/// FEMWARP inverts cells, in one step.
+grids::Row waves(const grids::Row& x)
+{
+  return { x[0], x[1], x[2] + 2 * std::sin(M_PI / 3 * x[0]) };
+}
+
+morph::Mesh block()
+{
+  morph::Mesh mesh = meshes::hexes(6, 6, 6);
+  meshes::jitterInterior(mesh, 0.15, meshes::seed());
+  return mesh;
+}
+
+struct Result
+{
+  vtkSmartPointer<vtkUnstructuredGrid> Grid;
+  std::string Status;
+  double LargestValidStep, BoundaryMinimum, MinScaledJacobian;
+  vtkIdType SubSteps, Inverted;
+  std::vector<std::string> Errors, Warnings;
+};
+
+Result morphed(vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
+{
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetTolerance(1e-12);
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, map));
+  set(filter);
+  grids::Listener listener(filter);
+  filter->Update();
+  if (time >= 0)
+  {
+    filter->UpdateTimeStep(time);
+  }
+  return { grids::copy(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0))),
+    filter->GetMorphStatus(), filter->GetLargestValidStep(), filter->GetBoundaryMinimum(),
+    filter->GetMinScaledJacobian(), filter->GetSubSteps(), filter->GetInvertedCells(),
+    listener.Errors, listener.Warnings };
+}
+
+/// Compares a filter on ranks with one on one process.
+void compare(const Ranks& ranks, const grids::Map& map, const Setting& set, const char* status,
+  double time = -1)
+{
+  const morph::Mesh whole = block();
+  Result serial;
+  rank_grids::alone([&] { serial = morphed(grids::make(whole), map, set, time); });
+  const Result mine = morphed(rank_grids::piece(ranks, whole), map, set, time);
+  EXPECT_EQ(serial.Status, status);
+  EXPECT_EQ(mine.Status, serial.Status);
+  EXPECT_EQ(mine.SubSteps, serial.SubSteps);
+  EXPECT_EQ(mine.Inverted, serial.Inverted);
+  EXPECT_NEAR(mine.MinScaledJacobian, serial.MinScaledJacobian, 1e-8);
+  const auto expectSame = [](double a, double b)
+  { EXPECT_TRUE(std::abs(a - b) < 1e-10 || (std::isnan(a) && std::isnan(b))) << a << " " << b; };
+  expectSame(mine.LargestValidStep, serial.LargestValidStep);
+  expectSame(mine.BoundaryMinimum, serial.BoundaryMinimum);
+  EXPECT_LT(rank_grids::distance(ranks, mine.Grid, serial.Grid), 1e-8 * 10);
+  EXPECT_EQ(mine.Errors.size(), ranks.rank() == 0 ? serial.Errors.size() : 0);
+}
+}
+
+TEST(RankSteps, RelativeStepsAgreeWithTheSerialOnes)
+{
+  const Ranks ranks = pieces::world();
+  const auto relative = [](vtkFEMWarpMorph* filter)
+  {
+    filter->SetNumberOfSteps(4);
+    filter->SetSteppingToRelative();
+  };
+  compare(ranks, grids::twist, relative, "Valid");
+  compare(ranks, grids::twist, relative, "Valid", 0.5);
+  // The ranks keep other steps than one another, as their meshes have other sizes.
+  compare(
+    ranks, grids::twist,
+    [&](vtkFEMWarpMorph* filter)
+    {
+      relative(filter);
+      filter->SetStepMemoryLimit(0.008);
+    },
+    "Valid", 0.75);
+  compare(ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetNumberOfSteps(3); }, "Valid", 0.4);
+}
+
+TEST(RankSteps, ValidityAgreesWithTheSerialOne)
+{
+  const Ranks ranks = pieces::world();
+  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToReport(); }, "Inverted");
+  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); }, "SubStepped");
+  compare(ranks, waves,
+    [](vtkFEMWarpMorph* filter)
+    {
+      filter->SetValidityToSubStep();
+      filter->SetMaximumSubSteps(2);
+    },
+    "Partial");
+  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
+}
+
+TEST(RankSteps, RepairGivesAValidMesh)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh whole = block();
+  const auto repair = [](vtkFEMWarpMorph* filter) { filter->SetValidityToRepair(); };
+  Result serial;
+  rank_grids::alone([&] { serial = morphed(grids::make(whole), waves, repair); });
+  const Result mine = morphed(rank_grids::piece(ranks, whole), waves, repair);
+  EXPECT_EQ(serial.Status, "Repaired");
+  EXPECT_EQ(mine.Status, "Repaired");
+  EXPECT_EQ(mine.Inverted, 0);
+  EXPECT_EQ(mine.LargestValidStep, 1);
+  EXPECT_GT(mine.MinScaledJacobian, 0.99 * serial.MinScaledJacobian);
+  EXPECT_TRUE(mine.Errors.empty());
+}
+
+TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
+{
+  const Ranks ranks = pieces::world();
+  std::vector<std::pair<std::string, morph::Mesh>> all = meshes::all(6, 5, 4);
+  all.emplace_back("layers", meshes::layered(meshes::hexes, 6, 0.05, 1.3));
+  for (auto& [name, whole] : all)
+  {
+    meshes::jitterInterior(whole, name == "layers" ? 0 : 0.1, meshes::seed());
+    const double height = whole.points.col(2).maxCoeff();
+    const auto bulge = [&](const grids::Row& x)
+    {
+      const double wave = std::sin(x[0] / whole.points.col(0).maxCoeff() * M_PI);
+      return grids::Row(x[0] + 0.3 * height * wave, x[1], x[2] * (1 - 0.5 * wave * wave));
+    };
+    const auto run = [&](vtkUnstructuredGrid* grid)
+    {
+      vtkNew<vtkInversionFreeMorph> filter;
+      filter->SetInputData(grid);
+      filter->SetBoundaryData(grids::boundary(grid, bulge));
+      filter->Update();
+      return std::pair(std::string(filter->GetMorphStatus()), filter->GetMinScaledJacobian());
+    };
+    std::pair<std::string, double> serial;
+    rank_grids::alone([&] { serial = run(grids::make(whole)); });
+    const auto mine = run(rank_grids::piece(ranks, whole));
+    EXPECT_EQ(mine.first, serial.first) << name;
+    EXPECT_GT(mine.second, 0.99 * serial.second) << name;
+    if (ranks.rank() == 0)
+    {
+      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second
+                << "\n";
+    }
+  }
+}
+
+TEST(RankSteps, StiffnessAgreesWithTheSerialOne)
+{
+  const Ranks ranks = pieces::world();
+  compare(
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToInverseVolume(); }, "Valid");
+  compare(
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToWallDistance(); }, "Valid");
+  compare(ranks, grids::twist,
+    [](vtkFEMWarpMorph* filter)
+    {
+      // The first half of the nodes is a wall; this rank's copies have the same mark.
+      auto* grid = vtkUnstructuredGrid::SafeDownCast(filter->GetInputDataObject(0, 0));
+      vtkNew<vtkDoubleArray> walls;
+      walls->SetName("Wall");
+      for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+      {
+        walls->InsertNextValue(grid->GetPoint(i)[2] < 0.5 ? 1 : 0);
+      }
+      grid->GetPointData()->AddArray(walls);
+      filter->SetStiffnessToWallDistance();
+      filter->SetWallArray("Wall");
+    },
+    "Valid");
+}

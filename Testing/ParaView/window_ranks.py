@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView's window on pvserver with two MPI ranks: Morph Mesh of a mesh in two pieces, whose
+surfaces have the names and whose result has the numbers of one rank; a drag of the box.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
+         pvpython window_ranks.py
+"""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview import simple
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
+
+import ranks
+from distributed import grid_of, model, write, write_pieces
+from versions import BOX_FIELDS
+from window_events import MAIN, PANEL, VIEW, Events
+
+PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+SURFACE, UP = "Surface 2", "0.1"
+NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCellId")
+BOX = f"Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
+
+
+class WindowOnRanks(unittest.TestCase):
+    def test_morph_and_drag(self):
+        points, cells = model(VTK_HEXAHEDRON, (8, 6, 5), 1)
+        owner = (points[cells].mean(1)[:, 1] > points[:, 1].mean()).astype(int)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            whole = str(folder / "whole.vtu")
+            write(grid_of(points, cells, VTK_HEXAHEDRON), whole)
+            serial = MorphMesh(Input=simple.OpenDataFile(whole), Surfaces=[SURFACE])
+            serial.Transform.Translate = [0, 0, float(UP)]
+            serial.UpdatePipeline()
+            self.assertEqual(serial.MorphStatus, "Valid")
+            names = sorted(serial.GetProperty("Surfaces").GetAvailable())
+            path = write_pieces(str(folder), "pieces", points, cells, VTK_HEXAHEDRON, owner, 2, True)
+
+            server, port = ranks.start_server(
+                ranks.command(2, "pvserver"), PV_PLUGIN_PATH=str(Path(PLUGIN).parent))
+            self.addCleanup(server.wait, 60)
+            self.addCleanup(server.terminate)
+            events = Events()
+            events.open(path)
+            events.filter("MorphMesh")
+            events.apply()  # lists the surfaces
+            for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+                events.set("Surfaces/ArraySelectionWidget", command,
+                           f"{buttons},0,12,8,/{names.index(SURFACE)}:0")
+            events.set(BOX + "translateZ", "set_string", UP)
+            events.apply()
+            for number in NUMBERS:
+                events.expect(f"{PANEL}{number}/DoubleLineEdit0", self.rounded(serial, number))
+            home = folder / "home"
+            home.mkdir()
+            code, messages = events.play(home, seconds=200, arguments=[
+                f"--server-url=cs://localhost:{port}", "--plugins=MeshMorphing",
+                f"--plugin-search-paths={Path(PLUGIN).parent}"])
+            self.assertEqual(code, 0, messages)
+            self.assertNotIn("ERR|", messages)
+
+    @staticmethod
+    def rounded(morph, number):
+        shown = repr(float(getattr(morph, number)))
+        return shown[:-2] if shown.endswith(".0") else shown
+
+
+if __name__ == "__main__":
+    unittest.main()

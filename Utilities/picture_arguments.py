@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the scripts that draw the documentation's pictures take at the prompt."""
+
+import argparse
+import os
+from pathlib import Path
+
+IMAGES = Path(__file__).resolve().parent.parent / "Documentation" / "images"
+
+
+def picture_parser(description):
+    """A parser with --output, whose description is the first paragraph of the text."""
+    parser = argparse.ArgumentParser(description=description.split("\n\n")[0])
+    parser.add_argument("--output", type=Path, default=IMAGES,
+                        help="directory to write to (default: %(default)s)")
+    return parser
+
+
+def add_plugin(parser):
+    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
+                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+
+
+def parse(parser):
+    """The arguments, with their folder made. Ends the program where nothing can be drawn."""
+    arguments = parser.parse_args()
+    if not os.environ.get("DISPLAY"):
+        parser.error("no display: run under xvfb-run -a")
+    arguments.output = arguments.output.resolve()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    return arguments
