@@ -46,7 +46,7 @@ class QuickLaunch(unittest.TestCase):
             how["stdout"] = subprocess.DEVNULL
             with subprocess.Popen(how.pop("args"), **how) as paraview:
                 try:
-                    self.assertIn("Reader", self.wait(seen, "Reader", 60))
+                    self.assertIn("Reader", self.wait(seen, "Reader", 150))
                     for _ in range(6):
                         launch(keyboard)
                         if "Morph" in self.wait(seen, "Morph", 15):
