@@ -7,8 +7,8 @@
  * what the rest of the boundary does, zones, layers, and how the geometry is found.
  *
  * Port 0 takes the mesh. The other ports are optional: port 1 a vtkSelection of what moves, port 2
- * the target surface, port 3 the vtkSelection of a zone, and port 4 the handles, or the control
- * points of the lattice.
+ * the target surface, port 3 the vtkSelection of a zone; port 4 the handles, or the control points
+ * of the lattice.
  *
  * @sa vtkBoundaryDisplacement vtkMorphMesh
  */
