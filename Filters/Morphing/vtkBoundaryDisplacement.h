@@ -16,13 +16,14 @@
  *   HeldPatches stay in any case, except for the nodes that they share with what moves.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm), or its
- * boundary (vtkPolyData) as vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it: several of these filters
- * in a row move several parts, each in its own way. Such a boundary moves from its current
- * position. Its geometry is that of its point arrays GeometryDimension and GeometryId, or is found
- * at its RestPosition. Port 1, optional, takes the vtkSelection of MOVE_SELECTION. Selected cells
- * move all of their nodes that are on the boundary. Port 2, optional, takes the target of
- * MOTION_TARGET (vtkPolyData, an STL file for instance). Port 3, optional, takes the selection of
- * a zone. Port 4, optional, takes the control points of MOTION_HANDLES and MOTION_LATTICE.
+ * boundary (vtkPolyData) as vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it:
+ * several of these filters in a row move several parts, each in its own way. Such a boundary moves
+ * from its current position. Its geometry is that of its point arrays GeometryDimension and
+ * GeometryId, or is found at its RestPosition. Port 1, optional, takes the vtkSelection of
+ * MOVE_SELECTION. Selected cells move all of their nodes that are on the boundary. Port 2,
+ * optional, takes the target of MOTION_TARGET (vtkPolyData, an STL file for instance). Port 3,
+ * optional, takes the selection of a zone. Port 4, optional, takes the control points of
+ * MOTION_HANDLES and MOTION_LATTICE.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:
@@ -60,7 +61,8 @@
  * Errors of handles and lattices: none at all, those in the same place, arrays or columns that are
  * missing, not numeric or of the wrong length, and control points outside of LatticeSize.
  *
- * @sa vtkDisplacementAlgorithm vtkMorphBoundary vtkClassifyBoundary vtkExtractMorphBoundary vtkMorphAlgorithm
+ * @sa vtkDisplacementAlgorithm vtkMorphBoundary vtkClassifyBoundary vtkExtractMorphBoundary
+ * vtkMorphAlgorithm
  */
 #ifndef vtkBoundaryDisplacement_h
 #define vtkBoundaryDisplacement_h

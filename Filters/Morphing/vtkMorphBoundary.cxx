@@ -369,8 +369,7 @@ void vtkMorphBoundary::vtkInternals::Run(
   how.neighbors = this->Filter->NumberOfNeighbors;
   how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->UnattachedMotion);
   morph::BoundaryMotion motion =
-    morph::beginMotion(
-      mesh.points, task.BodyOfNode, faces, geometry, match.Ids, match.Targets);
+    morph::beginMotion(mesh.points, task.BodyOfNode, faces, geometry, match.Ids, match.Targets);
   this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.Ids.size()));
   this->Results.SetInteger("HeldVertices", motion.count(morph::BoundaryMotion::Held));
   this->Results.SetInteger("ProjectedPoints", 0);

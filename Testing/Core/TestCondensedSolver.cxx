@@ -86,8 +86,8 @@ TEST(CondensedSolver, RowsThatAreNotRemovableStay)
   CsrMatrix matrix = lattice();
   ThreadedMonitor monitor;
   CondensedSolver solver;
-  solver.prepare(matrix, std::vector<bool>(Nodes + Cells, false),
-    Points::Random(Nodes + Cells, 3), monitor);
+  solver.prepare(
+    matrix, std::vector<bool>(Nodes + Cells, false), Points::Random(Nodes + Cells, 3), monitor);
   EXPECT_EQ(solver.remaining().matrix().rows(), Nodes + Cells);
 }
 

@@ -557,9 +557,8 @@ TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
   const auto bytes = [&](int n)
   {
     const auto grid = rank_grids::piece(ranks, meshes::hexes(n, n, n));
-    for (vtkDataSetAttributes* data :
-      { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
-        static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
+    for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+           static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
     {
       data->RemoveArray("Number");
       data->RemoveArray("Cell");

@@ -253,8 +253,8 @@ TEST(PartOfSolverMesh, KeepsPolyhedraAndSets)
   EXPECT_EQ(part.coordinates[3], 6);
   EXPECT_EQ(part.cellNumbers, std::vector<morph::Index>{ 7 });
   EXPECT_EQ(part.connectivity, (std::vector<morph::Index>{ 0, 1, 2, 3 }));
-  EXPECT_EQ(part.faces,
-    (std::vector<morph::Index>{ 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 }));
+  EXPECT_EQ(
+    part.faces, (std::vector<morph::Index>{ 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 }));
   EXPECT_EQ(part.faceOffsets, (std::vector<morph::Index>{ 0, 16 }));
   ASSERT_EQ(part.sets.size(), 2U);
   EXPECT_TRUE(part.sets[0].cells.empty());

@@ -23,7 +23,8 @@ bool couples(const CsrMatrix& matrix, int i, int j)
     columns + matrix.outerIndexPtr()[i], columns + matrix.outerIndexPtr()[i + 1], j);
 }
 
-/// Whether the matrix has no more entries without the row. `neighbors`: the columns of its other entries.
+/// Whether the matrix has no more entries without the row. `neighbors`: the columns of its other
+/// entries.
 bool staysSparse(const CsrMatrix& matrix, const std::vector<int>& neighbors)
 {
   const std::size_t most = neighbors.size(); // of 2 n + 1 entries that go, in pairs
@@ -51,8 +52,8 @@ std::vector<int> placesOf(const std::vector<int>& rows, Index count)
 
 CsrMatrix sorted(const CsrRows<double>& rows, Index columns)
 {
-  const Eigen::Map<const CsrMatrix> unsorted(rows.rows, columns,
-    static_cast<Index>(rows.entries()), rows.start, rows.column, rows.value);
+  const Eigen::Map<const CsrMatrix> unsorted(
+    rows.rows, columns, static_cast<Index>(rows.entries()), rows.start, rows.column, rows.value);
   const Eigen::SparseMatrix<double, Eigen::ColMajor, int> byColumn(unsorted);
   return CsrMatrix(byColumn);
 }
@@ -125,46 +126,45 @@ CondensedSolver::Stage CondensedSolver::condense(
   {
     stage.inverse[static_cast<Index>(i)] = 1 / matrix.coeff(removed[i], removed[i]);
   }
-  stage.coupling = sorted(assembleRows<double>(static_cast<int>(removed.size()), monitor,
-                            [&](int i, const auto& add)
-                            {
-                              for (CsrMatrix::InnerIterator entry(matrix, removed[i]); entry;
-                                   ++entry)
-                              {
-                                if (entry.col() != removed[i])
-                                {
-                                  add(placeOfKept[entry.col()], entry.value());
-                                }
-                              }
-                            }),
-    width);
+  stage.coupling =
+    sorted(assembleRows<double>(static_cast<int>(removed.size()), monitor,
+             [&](int i, const auto& add)
+             {
+               for (CsrMatrix::InnerIterator entry(matrix, removed[i]); entry; ++entry)
+               {
+                 if (entry.col() != removed[i])
+                 {
+                   add(placeOfKept[entry.col()], entry.value());
+                 }
+               }
+             }),
+      width);
   // Own entries first, and factors that commute: the result is symmetric to the last bit.
-  CsrMatrix rest = sorted(assembleRows<double>(static_cast<int>(width), monitor,
-                            [&](int i, const auto& add)
-                            {
-                              const int row = stage.kept[i];
-                              for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
-                              {
-                                if (placeOfKept[entry.col()] >= 0)
-                                {
-                                  add(placeOfKept[entry.col()], entry.value());
-                                }
-                              }
-                              for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
-                              {
-                                const int r = placeOfRemoved[entry.col()];
-                                if (r < 0)
-                                {
-                                  continue;
-                                }
-                                for (CsrMatrix::InnerIterator other(stage.coupling, r); other;
-                                     ++other)
-                                {
-                                  add(static_cast<int>(other.col()),
-                                    -(entry.value() * other.value()) * stage.inverse[r]);
-                                }
-                              }
-                            }),
+  CsrMatrix rest = sorted(
+    assembleRows<double>(static_cast<int>(width), monitor,
+      [&](int i, const auto& add)
+      {
+        const int row = stage.kept[i];
+        for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+        {
+          if (placeOfKept[entry.col()] >= 0)
+          {
+            add(placeOfKept[entry.col()], entry.value());
+          }
+        }
+        for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+        {
+          const int r = placeOfRemoved[entry.col()];
+          if (r < 0)
+          {
+            continue;
+          }
+          for (CsrMatrix::InnerIterator other(stage.coupling, r); other; ++other)
+          {
+            add(static_cast<int>(other.col()), -(entry.value() * other.value()) * stage.inverse[r]);
+          }
+        }
+      }),
     width);
   matrix.swap(rest);
   return stage;

@@ -92,8 +92,7 @@ std::vector<vtkSmartPointer<Data>> gather(
         }
         buffer->SetNumberOfValues(static_cast<vtkIdType>(one.size()));
         std::copy(one.begin(), one.end(), buffer->GetPointer(0));
-        result.emplace_back(
-          Data::SafeDownCast(vtkCommunicator::UnMarshalDataObject(buffer.Get())));
+        result.emplace_back(Data::SafeDownCast(vtkCommunicator::UnMarshalDataObject(buffer.Get())));
       }
     });
   return result;
@@ -103,8 +102,8 @@ template <typename Item>
 std::vector<std::vector<Item>> gatherParts(
   const Ranks& ranks, const std::vector<Item>& mine, std::size_t& bytes)
 {
-  auto parts = ranks.exchange(
-    std::vector<std::vector<Item>>(static_cast<std::size_t>(ranks.count()), mine));
+  auto parts =
+    ranks.exchange(std::vector<std::vector<Item>>(static_cast<std::size_t>(ranks.count()), mine));
   for (const std::vector<Item>& part : parts)
   {
     bytes += part.size() * sizeof(Item);
@@ -356,7 +355,8 @@ void WholeSurface::Internals::Assemble(
     }
   }
   grid->SetPoints(points);
-  std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b)
+  std::sort(origins.begin(), origins.end(),
+    [](const Origin& a, const Origin& b)
     { return std::tie(a.id, a.part) < std::tie(b.id, b.part); });
   grid->Allocate(cellCount);
   for (std::size_t i = 0; i < origins.size(); ++i)
@@ -382,9 +382,8 @@ void WholeSurface::Internals::Assemble(
   {
     for (const FaceRecord& face : part)
     {
-      places.emplace_back(
-        std::lower_bound(this->CellIds.begin(), this->CellIds.end(), face.cell) -
-          this->CellIds.begin(),
+      places.emplace_back(std::lower_bound(this->CellIds.begin(), this->CellIds.end(), face.cell) -
+                            this->CellIds.begin(),
         static_cast<int>(face.side));
     }
   }
@@ -428,8 +427,7 @@ void WholeSurface::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
   const bool isNew = own.Mesh.Take(piece, 1, GridMesh::UnknownCells::Refuse, monitor);
-  const bool same =
-    !isNew && own.Grid && own.Piece == piece && own.PieceTime == piece->GetMTime();
+  const bool same = !isNew && own.Grid && own.Piece == piece && own.PieceTime == piece->GetMTime();
   if (own.Mesh.Ranks().sum(Index(!same)) == 0)
   {
     return;
@@ -629,10 +627,10 @@ void WholeSurface::KeepOwn(vtkPolyData* surface) const
     for (vtkIdType i = 0; i < from->GetNumberOfCells(); ++i, ++cell)
     {
       from->GetCellAtId(i, corners);
-      const bool isOwn = behind
-                           ? own.RankOfCell[static_cast<Index>(behind->GetComponent(cell, 0))] == rank
-                           : own.RankOfNode[static_cast<Index>(
-                               nodeOf->GetComponent(corners->GetId(0), 0))] == rank;
+      const bool isOwn =
+        behind
+          ? own.RankOfCell[static_cast<Index>(behind->GetComponent(cell, 0))] == rank
+          : own.RankOfNode[static_cast<Index>(nodeOf->GetComponent(corners->GetId(0), 0))] == rank;
       if (!isOwn)
       {
         continue;
@@ -724,7 +722,8 @@ std::pair<double, double> WholeSurface::MaximumAndMean(
     all.push_back({ ids[i], values[i] });
   }
   all = this->Own->Mesh.Ranks().gather(all);
-  std::sort(all.begin(), all.end(), [](const Value& a, const Value& b)
+  std::sort(all.begin(), all.end(),
+    [](const Value& a, const Value& b)
     { return std::tie(a.id, a.value) < std::tie(b.id, b.value); });
   double most = std::numeric_limits<double>::quiet_NaN(), sum = 0;
   Index count = 0;

@@ -67,8 +67,7 @@ public:
   morph::Index NodeOf(std::int64_t id) const;
   /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
   /// nodes that it names are left out. Collective.
-  BoundaryMatch::Result Match(
-    vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
+  BoundaryMatch::Result Match(vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
 
   /// Calls `work`, the same on each process, which must not communicate; throws as
   /// Ranks::Together() does. A message with ids says of what they are. Collective.
