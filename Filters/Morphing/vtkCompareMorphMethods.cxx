@@ -206,7 +206,10 @@ int vtkCompareMorphMethods::RequestData(
   if (filters::Ranks::Count(true) > 1)
   {
     reset();
-    vtkErrorMacro("vtkCompareMorphMethods needs a single MPI rank. Run on one.");
+    if (filters::Ranks::IsFirst())
+    {
+      vtkErrorMacro("vtkCompareMorphMethods needs a single MPI rank. Run on one.");
+    }
     return 1;
   }
   const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
