@@ -31,7 +31,7 @@ struct PatchReport
 /// x 3, see morph::Morpher::setReference(); `moved` is the start and the result, ghosts included.
 /// `seeds`: local cells that are no ghosts. The mesh has no polyhedra. Throws Error on all ranks
 /// where a rank runs out of memory or the user cancels. Collective. Cost: for each cell of a patch
-/// one message item of 8 bytes a corner, and 88 bytes a node.
+/// one message item of 8 bytes a corner, and 96 bytes a node.
 PatchReport repairPatches(const DistributedMesh& mesh, const Points& reference,
   const NodePartition& partition, const std::vector<Index>& seeds, const PatchLimits& limits,
   Points& moved, Monitor& monitor);

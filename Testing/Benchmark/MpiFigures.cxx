@@ -241,11 +241,11 @@ void Run::cube(const Problem& problem)
   this->add(problem, "hypre / our solver, warm", median(all.hypreWarm) / median(warmSolver), "");
   this->add(problem, "hypre's iterations, a coordinate", all.iterations, "");
   this->add(problem, "our multigrid's iterations, all coordinates at once", iterations, "");
-  this->add(problem, "nodes a rank sends at its interface", all.interfaceNodes, "");
+  this->add(problem, "nodes a rank sends as ghosts", all.interfaceNodes, "");
   this->add(problem, "bytes a rank sends a warm step", all.bytes, "B");
-  this->add(problem, "bytes a rank sends a warm step / (24 B an interface node)",
+  this->add(problem, "bytes a rank sends a warm step / (24 B a ghost)",
     all.bytes / (24 * all.interfaceNodes), "");
-  this->add(problem, "bytes a rank sends an iteration / (8 B an interface node)",
+  this->add(problem, "bytes a rank sends an iteration / (8 B a ghost)",
     all.bytes / (3 * all.iterations) / (8 * all.interfaceNodes), "");
   this->add(problem, "messages a rank sends a warm step", all.messages, "");
   this->add(problem, "reductions a warm step", all.reductions, "");
@@ -266,7 +266,7 @@ void Run::cube(const Problem& problem)
 
 Report measureMpi(const Options& options, bool& correct)
 {
-  const int side = options.quick ? 40 : 100;
+  const int side = options.quick ? 16 : 100;
   Run run(options);
   run.cube(twistedBrick(side, side, side, AxisZ));
   correct = run.correct;

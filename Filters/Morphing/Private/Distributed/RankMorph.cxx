@@ -272,9 +272,14 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     {
       seconds = secondsSince(start);
     }
-    const double minimum =
-      ranks.minimum(morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
-                      .fixedMinimum(result.Moved));
+    double minimum = 0;
+    ranks.together(
+      [&]
+      {
+        minimum = morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
+                    .fixedMinimum(result.Moved);
+      });
+    minimum = ranks.minimum(minimum);
     result.BoundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
