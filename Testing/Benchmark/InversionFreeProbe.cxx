@@ -13,17 +13,15 @@
 #include "Topology.h"
 #endif
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -34,7 +32,7 @@ namespace
 using morph::Index;
 
 constexpr double Nanosecond = 1e-9;
-constexpr double MebiByte = 1024; // in the kilobytes of getrusage()
+constexpr double MebiByte = 1024; // in kibibytes
 
 constexpr const char* Usage =
   "Usage: inversion-free-probe PROBLEM femwarp|inversion-free|inversion-free-from-rest THREADS\n"
@@ -136,11 +134,19 @@ double seconds()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// The maximum resident memory so far, in MiB. getrusage() would count the caller's, too.
 double mostMemory()
 {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / MebiByte;
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line))
+  {
+    if (line.compare(0, 6, "VmHWM:") == 0)
+    {
+      return std::atof(line.c_str() + 6) / MebiByte;
+    }
+  }
+  return 0;
 }
 
 /// The counts were called `counts` once.

@@ -3,6 +3,8 @@
 
 #include "LinearMethods/GraphLaplace.h"
 #include "Mesh/CellEdges.h"
+#include "Mesh/KRing.h"
+#include "Mesh/SubMesh.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -25,6 +27,22 @@ constexpr int RefreshSteps = 3;
 constexpr double Enough = 0.75;
 // A minimum of this part of the best known one may be raised beyond it.
 constexpr double WorthRaising = 0.6;
+
+constexpr int RaisedRings = 10; // of cells around repaired ones, whose nodes raise the minimum
+
+/// Returns the cells whose scaled Jacobian is 0 or less.
+std::vector<Index> notPositive(const std::vector<double>& scaledJacobian)
+{
+  std::vector<Index> cells;
+  for (std::size_t c = 0; c < scaledJacobian.size(); ++c)
+  {
+    if (scaledJacobian[c] <= 0)
+    {
+      cells.push_back(static_cast<Index>(c));
+    }
+  }
+  return cells;
+}
 
 /// Returns the mean edge of the volume cells, from node to node around them; 1 if there are none.
 double meanEdge(const Mesh& mesh)
@@ -58,6 +76,16 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest));
   this->scale_ = std::exp2(-std::round(std::log2(meanEdge(this->referenceMesh_))));
   this->referenceMesh_.points *= this->scale_;
+  const Points atRest = rest.points * this->scale_;
+  this->minimumAtRest_ =
+    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
+  if (this->nearOnly_)
+  {
+    this->validAtRest_ = this->minimumAtRest_ > 0;
+    this->hasFemWarp_ = false;
+    this->hasSimplexLinear_ = false;
+    return;
+  }
 
   ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
     last(monitor, 0.5, 0.9);
@@ -65,13 +93,10 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
   monitor.check();
-  const Points atRest = rest.points * this->scale_;
   MeshEnergy energy(this->referenceMesh_, this->partition().free);
   energy.setTargets(targetMatrices(this->referenceMesh_, this->orientation_, atRest,
     TargetConstruction::Initial, CellWeights::Volume, monitor));
   this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
-  this->minimumAtRest_ =
-    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
   this->prepareFemWarp(rest, second);
   try
   {
@@ -210,16 +235,21 @@ bool InversionFree::minimizeEnergy(const MovableQuality& quality, double goal, d
   return untangling.valid;
 }
 
-bool InversionFree::untangleNear(
-  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const
+void InversionFree::raiseNear(
+  const std::vector<Index>& repaired, double goal, Points& points, Monitor& monitor) const
 {
-  MeshEnergy nothing(this->referenceMesh_, {});
-  FoldoverContinuation stages(nothing, this->minimizer_);
-  const bool done = Untangling(
-    this->referenceMesh_, this->orientation_, this->partition(), this->boundary_, this->geometry_)
-                      .runNear(this->targets(aim, true, monitor), stages, points, monitor);
-  effort = stages.effort();
-  return done;
+  const KRing ring = kRingOfCells(this->referenceMesh_, nodeToCells(this->referenceMesh_),
+    this->partition().free, repaired, RaisedRings);
+  const SubMesh part(this->referenceMesh_, ring.cells);
+  const std::vector<Index> free = part.numbersOf(ring.nodes);
+  std::vector<std::int8_t> signs;
+  for (const Index c : part.cells)
+  {
+    signs.push_back(this->orientation_[c]);
+  }
+  Points local = points(part.nodes, allColumns);
+  raiseMinimumQuality(MovableQuality(part.mesh, signs, free), goal, local, monitor);
+  points(part.nodes, allColumns) = local;
 }
 
 InversionFree::Outcome InversionFree::improve(
@@ -231,12 +261,15 @@ InversionFree::Outcome InversionFree::improve(
   Points bestPoints = alternative;
   MovableQuality::Result best = quality.measure(alternative, monitor);
   Outcome outcome;
+  const std::vector<Index> inverted = notPositive(best.scaledJacobian);
+  const bool isRepair = enough == 0;
   const bool raisesFirst = this->raisesMinimum() && this->target_ == TargetConstruction::Stretched;
-  if (raisesFirst && best.inverted > 0 && this->validAtRest_)
+  if (raisesFirst && !inverted.empty() && this->validAtRest_)
   {
     ProgressRange near(monitor, 0.1, 0.3);
     Points untangled = alternative;
-    if (this->untangleNear(aim, untangled, outcome.effort, near))
+    if (untangleNear(this->referenceMesh_, this->orientation_, this->partition().free, inverted,
+          isRepair ? 2 : 5, aim, this->minimizer_, untangled, outcome.effort, near))
     {
       best = quality.measure(untangled, monitor);
       bestPoints = std::move(untangled);
@@ -244,6 +277,17 @@ InversionFree::Outcome InversionFree::improve(
   }
   const bool isValid = best.inverted == 0;
   outcome.untangled = isValid;
+  if (isRepair && isValid && raisesFirst && !inverted.empty())
+  {
+    this->raiseNear(inverted, goal, bestPoints, monitor);
+    points = std::move(bestPoints);
+    return outcome;
+  }
+  if (this->nearOnly_)
+  {
+    points = alternative;
+    return outcome;
+  }
   // Raising the minimum of a valid mesh costs far less than minimising the energy.
   if (isValid && raisesFirst)
   {
@@ -317,6 +361,13 @@ EvaluateReport InversionFree::report(
 EvaluateReport InversionFree::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
+  if (this->nearOnly_)
+  {
+    throw Error(Error::Kind::InvalidInput,
+      "The inversion-free morph was prepared to repair another "
+      "method's mesh near its inverted cells. To evaluate it, "
+      "prepare it without NearOnly.");
+  }
   const NodePartition& partition = this->partition();
   // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
   if (this->validAtRest_ && this->target_ != TargetConstruction::IdealSkew &&
@@ -392,6 +443,12 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   Points points = before;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
   const Outcome outcome = this->improve(points, { guide, this->target_ }, before, 0, monitor);
+  if (this->nearOnly_ && !outcome.untangled)
+  {
+    Outcome failed;
+    failed.effort = outcome.effort;
+    return this->report(failed, {}, monitor);
+  }
   const std::vector<Index> determined =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 

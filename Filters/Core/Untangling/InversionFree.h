@@ -8,7 +8,7 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "Morpher/Morpher.h"
 #include "Quality/MovableQuality.h"
-#include "Untangling/FoldoverContinuation.h"
+#include "Untangling/NearUntangling.h"
 
 #include <memory>
 
@@ -40,7 +40,7 @@ namespace morph
 /// prepare(): as FEMWARP and simplex-linear, and passes over the cells. evaluate(): raising the
 /// minimum takes passes over the cells, and 100 to 1000 over those around the worst ones. The
 /// energy takes 5 to 40 Newton steps of 0.4 to 0.8 microseconds of processor time a tetrahedron
-/// (ten a hexahedron), each with a linear solution. It temporarily takes 4 kB a hexahedron. The
+/// (ten a hexahedron), each with a linear solution. It temporarily takes 2.5 kB a hexahedron. The
 /// result is not linear in the boundary, so there is no adjoint.
 class InversionFree : public Morpher
 {
@@ -75,12 +75,17 @@ public:
   /// Sets how often the stretched targets are recomputed from the current mesh. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
 
+  /// Sets whether repair() moves only nodes near inverted cells, or none where these cannot be
+  /// untangled so. prepare() then takes passes over the cells alone, and evaluate() throws Error.
+  /// Default off.
+  void setNearOnly(bool on) { this->nearOnly_ = on; }
+
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
   /// prescribed nodes in place. Where its inverted cells can be untangled by the nodes near them,
-  /// and the minimum raised near the worst cells, no other node moves. A valid mesh whose minimum
-  /// scaled Jacobian is higher than the repaired one's stays. Quadratic cells that are inverted
+  /// no other node moves; then those within ten rings raise the minimum there. A valid mesh whose
+  /// minimum scaled Jacobian is higher than the repaired one's stays. Quadratic cells that are inverted
   /// between their corners are untangled last (HigherOrderUntangling.h).
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
@@ -95,12 +100,6 @@ private:
     bool kept = false;          ///< the result is the alternative
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
-  };
-  /// What the cells' targets are made from, see targetMatrices().
-  struct Aim
-  {
-    const Points& guide;
-    TargetConstruction target;
   };
   void prepareFemWarp(const Mesh& rest, Monitor& monitor);
   /// Replaces the start `points` by the graph-Laplace mesh if that has fewer inverted cells. Then
@@ -125,9 +124,10 @@ private:
   {
     return this->raising_ && this->target_ != TargetConstruction::Initial;
   }
-  /// Untangles `points` near its inverted cells alone. Returns whether the mesh is valid.
-  bool untangleNear(
-    const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
+  /// Raises the minimum over the cells near `repaired` ones; nodes elsewhere stay. `goal`: as of
+  /// raiseMinimumQuality(). Cost: a pass over the mesh, then that of the cells within ten rings.
+  void raiseNear(
+    const std::vector<Index>& repaired, double goal, Points& points, Monitor& monitor) const;
   /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
   /// minimum of the best mesh so far, 0 without a valid one.
   bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Aim& aim,
@@ -142,6 +142,7 @@ private:
   TargetConstruction target_ = TargetConstruction::Stretched;
   FoldoverContinuation::Minimizer minimizer_ = FoldoverContinuation::Minimizer::Newton;
   bool raising_ = true;
+  bool nearOnly_ = false;
   int refreshes_ = 2;
 
   Points reference_;

@@ -17,7 +17,8 @@ namespace
 {
 constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
 constexpr int Rounds = 40;
-constexpr int Rings = 5;
+// A ring of tetrahedra has several times as many cells, and more of them are poor.
+constexpr int Rings = 5, RingsOfTetrahedra = 3;
 // A gain of this many significant ones in a full round promises more from the same power.
 constexpr double Promising = 30;
 // A mesh within this part of the bound is left as it is.
@@ -47,6 +48,13 @@ int firstSquarings(double minimum, double goal)
 
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
+
+int ringsFor(const Mesh& mesh)
+{
+  const auto tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
+    [](std::uint8_t type) { return cellShape(type)->shape == Shape::Tet; });
+  return 2 * static_cast<Index>(tetrahedra) > mesh.numberOfCells() ? RingsOfTetrahedra : Rings;
+}
 
 std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& quality)
 {
@@ -118,6 +126,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     return;
   }
   const Adjacency around = nodeToCells(mesh);
+  const int rings = ringsFor(mesh);
   Points trial = points;
   int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal));
   // Once a power's second round has gained little, those of higher powers do.
@@ -130,7 +139,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
     const KRing patch =
-      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), Rings);
+      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings);
     const auto cells = static_cast<double>(patch.cells.size());
     const double left = (limits.cellEvaluations - effort.cellEvaluations) / cells;
     if (left < LeastSteps)

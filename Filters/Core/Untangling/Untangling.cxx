@@ -18,9 +18,7 @@ constexpr int Rings = 5; // of cells
 // Maximum numbers of stages with folds. The whole mesh needs few: then only single places are
 // tangled. Cells near folded faces become valid soon or never.
 constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
-constexpr int StagesOfPatch = 15;   // without folds
-constexpr int StagesAfter = 1;      // of a mesh that is untangled but for its folds
-constexpr double MostTangled = 0.1; // of all cells: a patch then spans the mesh
+constexpr int StagesAfter = 1; // of a mesh that is untangled but for its folds
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
@@ -105,36 +103,6 @@ bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& ener
       energy.setTargets(targets);
       return stages.untangle(points, whole, StagesAfter);
     }
-  }
-  return false;
-}
-
-bool Untangling::runNear(const TargetMatrices& targets, FoldoverContinuation& stages,
-  Points& points, Monitor& monitor) const
-{
-  const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
-  if (tangled.empty() || static_cast<double>(tangled.size()) >
-                           MostTangled * static_cast<double>(this->mesh_.numberOfCells()))
-  {
-    return false;
-  }
-  Points trial = points;
-  std::vector<Index> seeds = tangled;
-  for (const int rings : { Rings, 3 * Rings })
-  {
-    if (this->untanglePatch(seeds, rings, targets, stages, StagesOfPatch, trial, monitor))
-    {
-      points.swap(trial);
-      return true;
-    }
-    // The patch grows where it has stayed tangled, from the mesh that it has become.
-    std::vector<Index> left = tangledCells(this->mesh_, trial, targets);
-    if (left.size() > tangled.size())
-    {
-      trial = points;
-      continue;
-    }
-    seeds = std::move(left);
   }
   return false;
 }

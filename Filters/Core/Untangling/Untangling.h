@@ -39,13 +39,6 @@ public:
   Result run(const std::function<TargetMatrices()>& targets, MeshEnergy& energy,
     FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
 
-  /// Untangles `points` by moving only the nodes within 5 rings of tangled cells, then within 15
-  /// rings of those that are left.
-  /// Returns whether all tetrahedra are positive; otherwise `points` stay. Gives up at once if
-  /// more than a tenth of all cells is tangled. Cost: passes over the cells.
-  bool runNear(const TargetMatrices& targets, FoldoverContinuation& stages, Points& points,
-    Monitor& monitor) const;
-
 private:
   struct InvertedCounts
   {

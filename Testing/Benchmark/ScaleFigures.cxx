@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScaleFigures.h"
+
+#include "Bandwidth.h"
+#include "FigureRun.h"
+#include "LinearSystem.h"
+#include "Machine.h"
+#include "Threads.h"
+#ifdef MORPH_BENCHMARK_HYPRE
+#include "HypreBaseline.h"
+#endif
+
+#include "Boundary/Classification.h"
+#include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "LinearMethods/SimplexLinear.h"
+#include "LinearMethods/WeightedResidual.h"
+#include "Mesh/Topology.h"
+#include "Quality/ScaledJacobian.h"
+
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+
+namespace benchmark
+{
+namespace
+{
+constexpr double Tolerance = 1e-8;
+constexpr double LeastEfficiency = 0.8; // of two threads
+constexpr double MostOfBandwidth = 1.5; // of a warm step's time over the bound
+constexpr int AxisZ = 2;
+
+class Run : public FigureRun
+{
+public:
+  using FigureRun::FigureRun;
+
+  void measure(const Problem& problem);
+
+private:
+  /// Times `work` on one thread and on all: adds its seconds and parallel efficiency. Returns its
+  /// median seconds on all threads.
+  double stage(const Problem& problem, const std::string& name,
+    const std::function<void(morph::Monitor&)>& work);
+  template <typename Method>
+  double method(const Problem& problem, const std::string& name);
+  void mesh(const Problem& problem, double femWarpCold);
+  void againstHypre(const Problem& problem);
+};
+
+double Run::stage(
+  const Problem& problem, const std::string& name, const std::function<void(morph::Monitor&)>& work)
+{
+  std::vector<double> one, all;
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    for (const int threads : { 1, this->cores_ })
+    {
+      const auto monitor = makeMonitor(threads);
+      this->settleDown();
+      const Stopwatch watch;
+      work(*monitor);
+      (threads == 1 ? one : all).push_back(watch.seconds());
+      if (this->cores_ == 1)
+      {
+        all = one;
+        break;
+      }
+    }
+  }
+  this->add(problem, name + withThreads(this->cores_), median(all), "s");
+  if (this->cores_ > 1)
+  {
+    this->add(problem, name + ": parallel efficiency" + withThreads(this->cores_),
+      median(one) / median(all) / this->cores_, "",
+      this->cores_ == 2 ? Target::atLeast(LeastEfficiency) : Target::none());
+  }
+  return median(all);
+}
+
+/// Prepare and warm evaluate. Returns the seconds of both.
+template <typename Method>
+double Run::method(const Problem& problem, const std::string& name)
+{
+  say(problem.name + ", " + name);
+  std::unique_ptr<Method> prepared;
+  const double prepare = this->stage(problem, name + ", prepare",
+    [&](morph::Monitor& monitor)
+    {
+      prepared = std::make_unique<Method>();
+      if constexpr (std::is_same_v<Method, morph::FemWarp> ||
+                    std::is_same_v<Method, morph::LogBarrierWarp>)
+      {
+        prepared->setTolerance(Tolerance);
+      }
+      prepared->prepare(problem.mesh, problem.partition, monitor);
+    });
+  morph::Points moved;
+  morph::EvaluateReport report;
+  const auto evaluate = [&](morph::Monitor& monitor)
+  { report = prepared->evaluate(problem.target, moved, monitor); };
+  const double warm = this->stage(problem, name + ", warm evaluate", evaluate);
+  const auto nodes = static_cast<double>(problem.mesh.numberOfNodes());
+  this->add(
+    problem, name + ": memory kept a node", static_cast<double>(prepared->memory()) / nodes, "B");
+  this->add(problem, name + ": iterations", report.iterations, "");
+  if (report.bytesMoved > 0)
+  {
+    constexpr std::size_t Arrays = std::size_t(1) << 30;
+    const auto monitor = makeMonitor(this->cores_);
+    const Bandwidth bandwidth =
+      measureBandwidth(this->options_.quick ? Arrays >> 6 : Arrays, *monitor);
+    this->add(problem, name + ": warm over the time that its traffic takes",
+      warm / (report.bytesMoved / bandwidth.best()), "", Target::atMost(MostOfBandwidth));
+  }
+  return prepare + warm;
+}
+
+/// What the filters do beside a method, and its share of FEMWARP's cold step with them.
+void Run::mesh(const Problem& problem, double femWarpCold)
+{
+  say(problem.name + ", mesh");
+  morph::BoundaryFaces faces;
+  const double boundary = this->stage(problem, "boundary faces",
+    [&](morph::Monitor& monitor) { faces = morph::boundaryFaces(problem.mesh, monitor); });
+  const double surfaces = this->stage(problem, "surfaces and curves, of Extract Morph Boundary",
+    [&](morph::Monitor& monitor) { morph::classify(problem.mesh, faces, {}, monitor); });
+  const double quality = this->stage(problem, "quality",
+    [&](morph::Monitor& monitor)
+    { morph::measureQuality(problem.mesh, problem.mesh.points, {}, {}, monitor); });
+  const double whole = boundary + quality + femWarpCold;
+  this->add(problem, "share of boundary faces in a cold FEMWARP step", boundary / whole, "");
+  this->add(problem, "share of quality in a cold FEMWARP step", quality / whole, "");
+  this->add(problem, "surfaces and curves over a cold FEMWARP step", surfaces / whole, "");
+}
+
+/// Three right-hand sides by our solver and by hypre's, on one thread each.
+void Run::againstHypre(const Problem& problem)
+{
+#ifdef MORPH_BENCHMARK_HYPRE
+  say(problem.name + ", hypre");
+  std::vector<double> prepare, warm, start, setUp, solve;
+  HypreResult hypre;
+  morph::EvaluateReport report;
+  const auto monitor = makeMonitor(1);
+  for (int i = 0; i < this->options_.repeat; ++i)
+  {
+    morph::FemWarp femWarp;
+    femWarp.setTolerance(Tolerance);
+    morph::Points moved;
+    this->settleDown();
+    const Stopwatch prepareWatch;
+    femWarp.prepare(problem.mesh, problem.partition, *monitor);
+    prepare.push_back(prepareWatch.seconds());
+    femWarp.evaluate(problem.target, moved, *monitor);
+    const Stopwatch warmWatch;
+    report = femWarp.evaluate(problem.target, moved, *monitor);
+    warm.push_back(warmWatch.seconds());
+    const LinearSystem system = linearSystem(femWarp, problem);
+    this->settleDown();
+    hypre = solveByHypre(system, Tolerance);
+    start.push_back(hypre.startSeconds);
+    setUp.push_back(hypre.setUpSeconds);
+    solve.push_back(hypre.solveSeconds);
+    this->checkAgainst(
+      problem, "difference from hypre", hypre.x, solution(femWarp, problem, moved));
+  }
+  this->add(problem, "MPI's start", start.front(), "s");
+  this->add(problem, "iterations" + withThreads(1), report.iterations, "");
+  this->add(problem, "hypre's iterations", hypre.iterations, "");
+  this->add(problem, "hypre's set-up", median(setUp), "s");
+  this->add(problem, "hypre's solution of three right-hand sides", median(solve), "s");
+  // Ours assembles the system as well, hypre's is given it.
+  this->add(problem, "hypre's set-up / prepare, assembly included" + withThreads(1),
+    median(setUp) / median(prepare), "", Target::atLeast(1));
+  this->add(problem, "hypre's solution / warm evaluate" + withThreads(1),
+    median(solve) / median(warm), "", Target::atLeast(1));
+#else
+  say(problem.name + ": built without hypre");
+#endif
+}
+
+void Run::measure(const Problem& problem)
+{
+  this->againstHypre(problem);
+  const double cold = this->method<morph::FemWarp>(problem, "FEMWARP");
+  this->mesh(problem, cold);
+  this->method<morph::LogBarrierWarp>(problem, "LBWARP");
+  this->method<morph::WeightedResidual>(problem, "weighted residual");
+  this->method<morph::SimplexLinear>(problem, "simplex-linear");
+}
+}
+
+Report measureScaleFigures(const Options& options, bool& correct)
+{
+  Run run(options);
+  for (const std::string& side : options.files)
+  {
+    const int cells = std::atoi(side.c_str());
+    if (cells < 2 || cells > 500)
+    {
+      throw std::runtime_error("Cells a side are from 2 to 500, not \"" + side + "\".");
+    }
+    run.measure(twistedBrick(cells, cells, cells, AxisZ));
+  }
+  correct = run.correct;
+  return run.report;
+}
+}
