@@ -3,8 +3,9 @@
 upstream to the finished picture, and where the time goes. Median of several drags after the first,
 which prepares the method. With --surface: with the output Surface in place of the mesh, beside the
 floor, the same view of a surface of that size whose points change. --fade: the boundary fades
-instead of following. --outer: only the cells behind the surface are measured. With --shapes: from a changed weight of Morph Shapes to the picture of its output
-Surface, beside the floor. With --morph-mesh: from a box dragged as Live Drag does it.
+instead of following. --outer: only the cells behind the surface are measured. With --shapes: from a
+changed weight of Morph Shapes to the picture of its output Surface, beside the floor. With
+--morph-mesh: from a box dragged as Live Drag does it.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
          pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\

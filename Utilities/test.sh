@@ -18,8 +18,8 @@ Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--n
 From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
-- builds with sanitizers (preset asan) and runs core and fuzz, and filters where half of the budget
-  of $sanitizer_budget minutes is left;
+- builds with sanitizers (preset asan) and runs core, fuzz and the library of MPI ranks on two of
+  them, and filters where half of the budget of $sanitizer_budget minutes is left;
 - on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
   plain-vtk), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
@@ -119,6 +119,12 @@ sanitized() {
     build asan --target MeshMorphingCoreTests MeshMorphingFuzz
   stage sanitizers "tests asan (core)" tests asan -L core || status=1
   stage sanitizers "tests asan (fuzz)" tests asan -L fuzz || status=1
+  if grep -q "^build MeshMorphingDistributedTests:" build/asan/build.ninja; then
+    stage sanitizers "build asan (MPI ranks)" build asan --target MeshMorphingDistributedTests
+    stage sanitizers "tests asan (MPI ranks)" tests asan -R '^mpi\.Distributed2$' || status=1
+  else
+    left_out+=("MPI ranks with sanitizers: this build has no MPI or no hypre")
+  fi
   if [ "$asan_filters" = no ] && [ "$(seconds_of sanitizers)" -gt $((sanitizer_budget * 30)) ]; then
     left_out+=("filters with sanitizers: less than half of the budget was left")
     return

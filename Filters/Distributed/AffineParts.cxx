@@ -54,8 +54,7 @@ AffineParts::AffineParts(const DistributedMesh& mesh, const std::vector<Index>& 
   this->spread_.assign(sums.size(), Eigen::Matrix3d::Zero());
   for (const Coupled& pair : this->coupled_)
   {
-    const Eigen::RowVector3d arm =
-      rest.row(prescribed[pair.node]) - this->centre_[pair.component];
+    const Eigen::RowVector3d arm = rest.row(prescribed[pair.node]) - this->centre_[pair.component];
     this->spread_[pair.component] += arm.transpose() * arm;
   }
   sumAll(mesh.ranks(), this->spread_);

@@ -37,8 +37,8 @@ public:
     Eigen::RowVector3d force = Eigen::RowVector3d::Zero();
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   };
-  void add(Load& load, Index component, const Eigen::RowVector3d& x,
-    const Eigen::RowVector3d& force) const
+  void add(
+    Load& load, Index component, const Eigen::RowVector3d& x, const Eigen::RowVector3d& force) const
   {
     load.force += force;
     load.moment += (x - this->centre_[component]).transpose() * force;
@@ -46,8 +46,7 @@ public:
   /// The adjoint of the fits' displacements at the loads' points: adds the derivatives to
   /// `prescribed` (#prescribed x 3) at the nodes that this rank owns. `loads`: of this rank, for
   /// each component.
-  void addTranspose(
-    const DistributedMesh& mesh, std::vector<Load> loads, Points& prescribed) const;
+  void addTranspose(const DistributedMesh& mesh, std::vector<Load> loads, Points& prescribed) const;
 
 private:
   struct Coupled

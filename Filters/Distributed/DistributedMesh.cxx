@@ -75,10 +75,10 @@ struct DistributedMesh::Builder
   };
 
   DistributedMesh& mesh;
-  std::set<std::pair<Index, int>> sent;         ///< cells, by rank
-  std::vector<std::vector<Node>> nodes;         ///< for each rank
-  std::vector<std::set<Index>> nodesSent;       ///< by rank
-  std::vector<std::vector<std::int64_t>> cells; ///< for each rank
+  std::set<std::pair<Index, int>> sent;             ///< cells, by rank
+  std::vector<std::vector<Node>> nodes;             ///< for each rank
+  std::vector<std::set<Index>> nodesSent;           ///< by rank
+  std::vector<std::vector<std::int64_t>> cells;     ///< for each rank
   std::vector<std::vector<Index>> packed, unpacked; ///< cells of all layers, for each rank
 
   explicit Builder(DistributedMesh& owner)

@@ -22,7 +22,8 @@ public:
     const std::function<Index(std::int64_t id)>& localOf);
   /// `sends`: for each rank what it has of this one, `receives`: what this one has of it, in the
   /// same order. Not collective.
-  Halo(const std::vector<std::vector<Index>>& sends, const std::vector<std::vector<Index>>& receives);
+  Halo(
+    const std::vector<std::vector<Index>>& sends, const std::vector<std::vector<Index>>& receives);
 
   /// Overwrites the ghosts' rows with those of their owners; #nodes x 3.
   void update(const Ranks& ranks, Points& values) const;

@@ -313,7 +313,7 @@ std::unique_ptr<HypreSolver> HypreSolver::transposed(const Ranks& ranks) const
   // The first row of each rank, which says whose a column is.
   const std::vector<std::int64_t> first = ranks.gather(std::vector<std::int64_t>{ this->first_ });
   std::vector<std::vector<Entry>> to(ranks.count());
-  for (Index i = 0; i < rows && this->unknowns_ > 0; ++i)
+  for (Index i = 0; i<rows&& this->unknowns_> 0; ++i)
   {
     HYPRE_Int size = 0;
     HYPRE_BigInt* columns = nullptr;

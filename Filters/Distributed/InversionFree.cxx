@@ -40,8 +40,7 @@ void InversionFree::takeEvaluateOptions(const Morpher& serial)
 void InversionFree::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
-  const Points& reference =
-    this->reference_.rows() > 0 ? this->reference_ : mesh.mesh().points;
+  const Points& reference = this->reference_.rows() > 0 ? this->reference_ : mesh.mesh().points;
   if (this->measure(reference, monitor).inverted > 0)
   {
     throw Error("The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
@@ -116,8 +115,8 @@ void InversionFree::raise(const Points& reference, Points& points, Monitor& moni
   for (int round = 0; round < RaisingRounds; ++round)
   {
     Points trial = points;
-    const PatchReport report = repairPatches(
-      this->mesh(), reference, this->partition(), best.worst, {}, trial, monitor);
+    const PatchReport report =
+      repairPatches(this->mesh(), reference, this->partition(), best.worst, {}, trial, monitor);
     if (report.isTooLarge || report.patches == 0)
     {
       return;
@@ -159,8 +158,7 @@ EvaluateReport InversionFree::displace(
     }
   }
   const Points& reference = this->reference_.rows() > 0 ? this->reference_ : rest;
-  const RepairReport repaired =
-    repairInverted(mesh, reference, this->partition(), points, second);
+  const RepairReport repaired = repairInverted(mesh, reference, this->partition(), points, second);
   if (repaired.tooLarge > 0 && ranks.rank() == 0)
   {
     monitor.warn("On MPI ranks bad cells are repaired in patches, each on one rank. The patches "

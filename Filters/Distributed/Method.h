@@ -41,8 +41,7 @@ public:
   /// morph::LinearMorpher::applyTranspose(). `gradient`: #local nodes x 3, read at the nodes that
   /// this rank owns. `prescribed`: becomes #prescribed x 3, the derivatives at the nodes that this
   /// rank owns, and zero at the others. Throws Error on all ranks.
-  EvaluateReport applyTranspose(
-    const Points& gradient, Points& prescribed, Monitor& monitor) const;
+  EvaluateReport applyTranspose(const Points& gradient, Points& prescribed, Monitor& monitor) const;
 
   const NodePartition& partition() const { return this->partition_; }
 

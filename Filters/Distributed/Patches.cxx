@@ -157,7 +157,7 @@ private:
 /// One patch, on the rank that repairs it.
 struct Patch
 {
-  std::map<std::int64_t, PatchNode> nodes;                                      ///< by id
+  std::map<std::int64_t, PatchNode> nodes;                                          ///< by id
   std::map<std::int64_t, std::pair<std::uint8_t, std::vector<std::int64_t>>> cells; ///< by id
 
   /// Returns the moved nodes.
@@ -174,7 +174,8 @@ struct Patch
     {
       const Index n = static_cast<Index>(local.size());
       local[id] = n;
-      const auto put = [n](Points& points, const Position& x) { points.row(n) << x[0], x[1], x[2]; };
+      const auto put = [n](Points& points, const Position& x)
+      { points.row(n) << x[0], x[1], x[2]; };
       put(mesh.points, node.rest);
       put(reference, node.reference);
       put(moved, node.moved);
@@ -248,10 +249,11 @@ std::vector<Patch> gatherPatches(const DistributedMesh& mesh, const Points& refe
         stream.push_back(mesh.nodeId(node));
         if (sent.emplace(patch, node).second)
         {
-          const auto row = [node](const Points& points)
-          { return Position{ points(node, 0), points(node, 1), points(node, 2) }; };
-          nodes[rank].push_back({ patch, mesh.nodeId(node), labels.of[node] != None,
-            row(reference), row(mesh.mesh().points), row(moved) });
+          const auto row = [node](const Points& points) {
+            return Position{ points(node, 0), points(node, 1), points(node, 2) };
+          };
+          nodes[rank].push_back({ patch, mesh.nodeId(node), labels.of[node] != None, row(reference),
+            row(mesh.mesh().points), row(moved) });
         }
       }
     });
@@ -379,8 +381,7 @@ RepairReport repairInverted(const DistributedMesh& mesh, const Points& reference
       [&]
       {
         monitor.check();
-        bad = invertedCells(
-          measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor));
+        bad = invertedCells(measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor));
       });
     return ranks.sum(static_cast<Index>(bad.size()));
   };

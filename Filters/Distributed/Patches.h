@@ -26,7 +26,7 @@ struct PatchReport
   bool isTooLarge = false;      ///< beyond the limits: nothing was done
 };
 
-/// Repairs a mesh in patches round some cells, each on one rank by morph::InversionFree::repair().
+/// Repairs a mesh in patches around some cells, each on one rank by morph::InversionFree::repair().
 /// Patches that touch are one; the nodes on a patch's rim stay. `reference`, `moved`: #local nodes
 /// x 3, see morph::Morpher::setReference(); `moved` is the start and the result, ghosts included.
 /// `seeds`: local cells that are no ghosts. The mesh has no polyhedra. Throws Error on all ranks

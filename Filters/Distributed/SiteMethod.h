@@ -36,8 +36,8 @@ private:
   Points gather(const Points& rows) const;
 
   std::unique_ptr<Morpher> serial_;
-  std::vector<Index> owned_; ///< numbers in partition().prescribed of the nodes this rank owns
-  std::vector<Index> place_; ///< of each gathered node in the order of ids
+  std::vector<Index> owned_;   ///< numbers in partition().prescribed of the nodes this rank owns
+  std::vector<Index> place_;   ///< of each gathered node in the order of ids
   std::size_t firstPlace_ = 0; ///< of this rank's nodes in place_
   std::size_t gatheredBytes_ = 0;
 };

@@ -15,8 +15,8 @@ namespace morph::distributed
 namespace
 {
 /// The positions of the walls, on all ranks. `named`: of stiffness.walls, all ranks.
-Points gatherWalls(const DistributedMesh& mesh, const std::vector<Index>& prescribed,
-  const CellStiffness& stiffness)
+Points gatherWalls(
+  const DistributedMesh& mesh, const std::vector<Index>& prescribed, const CellStiffness& stiffness)
 {
   const Ranks& ranks = mesh.ranks();
   const bool isNamed = ranks.sum(static_cast<Index>(stiffness.walls.size())) > 0;

@@ -59,8 +59,7 @@ void SystemMethod::doPrepare(Monitor& monitor)
   }
   columns.insert(columns.end(), ghosts.begin(), ghosts.end());
   this->transposed_.reset();
-  const std::vector<double> factors =
-    stiffnessFactors(mesh, prescribed, this->stiffness_, monitor);
+  const std::vector<double> factors = stiffnessFactors(mesh, prescribed, this->stiffness_, monitor);
   this->isUniform_ = ranks.sum(Index(!factors.empty())) == 0;
   Rows rows = this->assemble(columns, factors, monitor);
 
@@ -126,8 +125,7 @@ EvaluateReport SystemMethod::displace(
   Points fitted(free.rows(), 3);
   for (Index i = 0; i < free.rows(); ++i)
   {
-    fitted.row(i) =
-      fits[this->parts_.ofRow()[i]].displacement(rest.row(this->ownFree()[i]));
+    fitted.row(i) = fits[this->parts_.ofRow()[i]].displacement(rest.row(this->ownFree()[i]));
   }
   Points rhs = Points::Zero(free.rows(), 3);
   const std::vector<Index>& held = this->partition().prescribed;
@@ -174,8 +172,7 @@ EvaluateReport SystemMethod::displaceTranspose(
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : this->solver_;
   ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved =
-    solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
+  const SolveReport solved = solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
@@ -252,8 +249,10 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
   ranks.together(
-    [&] {
-      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
+    [&]
+    {
+      system =
+        logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));

@@ -38,8 +38,8 @@ protected:
   };
   /// Assembles the rows of ownFree(). `columns`: the local nodes of the other columns. `factors`:
   /// of the cells, see stiffnessFactors(). Communicates where it has to, and throws on all ranks.
-  virtual Rows assemble(const std::vector<Index>& columns, const std::vector<double>& factors,
-    Monitor& monitor) = 0;
+  virtual Rows assemble(
+    const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor) = 0;
   /// The method's own counts, of the whole mesh.
   virtual std::vector<Statistic> counts() const { return {}; }
 

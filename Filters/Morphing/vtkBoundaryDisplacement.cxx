@@ -246,8 +246,7 @@ int vtkBoundaryDisplacement::RequestData(
     this->Internals->WholeOutput->Initialize();
     if (!mesh.IsElsewhere)
     {
-      this->Internals->Displace(
-        this, input, { selection, target, zone, control }, output, monitor);
+      this->Internals->Displace(this, input, { selection, target, zone, control }, output, monitor);
     }
   };
   const auto clear = [&]

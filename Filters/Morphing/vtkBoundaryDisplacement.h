@@ -46,8 +46,13 @@
  * coordinates that are not finite, or that no node reaches; patches or arrays that do not exist;
  * positions that are not finite, beyond 1e50, or in single precision beyond 3.4e38; nodes without a
  * normal. The output is then empty: a morph would take an unchanged boundary for a motion of zero.
- * An execution that is aborted gives an empty output and no message. With several MPI ranks all of
- * them have to execute it. Cost, where everything is kept: a few passes over the boundary.
+ * An execution that is aborted gives an empty output and no message. Cost, where everything is
+ * kept: a few passes over the boundary.
+ *
+ * With several MPI ranks all of them have to execute it. Of a mesh in pieces each rank gathers the
+ * whole boundary, and keeps the part of its cells; ids are global, and the target is gathered, too.
+ * Patches are then listed after the first execution. Errors there: zones, KeepLayers, picking in a
+ * view, and a boundary instead of the mesh on port 0.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.
@@ -60,8 +65,8 @@
 #ifndef vtkBoundaryDisplacement_h
 #define vtkBoundaryDisplacement_h
 
-#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 #include "vtkDisplacementAlgorithm.h"
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
 
@@ -74,7 +79,8 @@ class vtkPolyData;
 class vtkSelection;
 class vtkStringArray;
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement : public vtkDisplacementAlgorithm
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement
+  : public vtkDisplacementAlgorithm
 {
 public:
   static vtkBoundaryDisplacement* New();

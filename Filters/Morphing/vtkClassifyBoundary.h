@@ -32,10 +32,13 @@
  *
  * A mesh without any outer face gives a warning. Errors, with empty outputs: overlapping AMR,
  * no volume cells, cells that a morph does not support, coordinates that are not finite or above
- * 1e50. Also an extent below 1e-50, arrays of the wrong type or length or that contradict the mesh,
- * and cells on more than one MPI rank. An execution that is aborted gives empty outputs and no
- * message. With several MPI ranks all of them have to execute it. Cost: a pass over the cells, and
- * a sort of the boundary's edges.
+ * 1e50. Also an extent below 1e-50, and arrays of the wrong type or length or that contradict the
+ * mesh. An execution that is aborted gives empty outputs and no message. Cost: a pass over the
+ * cells, and a sort of the boundary's edges.
+ *
+ * With several MPI ranks all of them have to execute it. Of a mesh in pieces each rank gathers the
+ * boundary, numbered by global ids, and keeps the part of its cells: a curve is where its first
+ * node is. MorphPointId and MorphCellId are global ids.
  *
  * M. L. Staten et al., "A Comparison of Mesh Morphing Methods for 3D Shape Optimization", Proc.
  * 20th Int. Meshing Roundtable (2011) 293-311.

@@ -127,17 +127,17 @@ void vtkDisplacementAlgorithm::SetSelectionExtractor(vtkExtractSelection* extrac
   }
 }
 
-#define morphObjectMacro(name, type)                      \
-  void vtkDisplacementAlgorithm::Set##name(type* object)  \
-  {                                                       \
-    if (replaced(this->Shared->name, object))             \
-    {                                                     \
-      this->Modified();                                   \
-    }                                                     \
-  }                                                       \
-  type* vtkDisplacementAlgorithm::Get##name()             \
-  {                                                       \
-    return this->Shared->name;                            \
+#define morphObjectMacro(name, type)                     \
+  void vtkDisplacementAlgorithm::Set##name(type* object) \
+  {                                                      \
+    if (replaced(this->Shared->name, object))            \
+    {                                                    \
+      this->Modified();                                  \
+    }                                                    \
+  }                                                      \
+  type* vtkDisplacementAlgorithm::Get##name()            \
+  {                                                      \
+    return this->Shared->name;                           \
   }
 morphObjectMacro(Region, vtkImplicitFunction);
 morphObjectMacro(ZoneRegion, vtkImplicitFunction);

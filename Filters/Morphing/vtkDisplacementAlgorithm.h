@@ -6,9 +6,9 @@
  * It has the properties that vtkBoundaryDisplacement and vtkMorphMesh have in common: the motion,
  * what the rest of the boundary does, zones, layers, and how the geometry is found.
  *
- * Port 0 takes the mesh. The other ports are optional: port 1 a vtkSelection of what moves, port 2
- * the target surface, port 3 the vtkSelection of a zone, and port 4 the handles, or the control
- * points of the lattice.
+ * Port 0 takes the mesh. The other ports are optional. Port 1 takes a vtkSelection of what moves,
+ * port 2 the target surface, and port 3 the vtkSelection of a zone. Port 4 takes handles, or the
+ * control points of a lattice.
  *
  * @sa vtkBoundaryDisplacement vtkMorphMesh
  */

@@ -29,6 +29,9 @@
  * Where PostSmooth or Validity has changed the mesh after the method, the derivatives are those of
  * the method alone, and a warning is raised.
  *
+ * On several MPI ranks each gives the derivatives at its piece's points, the same at copies of a
+ * node. Points of several ranks that stand for one node all get its derivatives: count them once.
+ *
  * Time: as vtkMorphAlgorithm's, updates from within RequestData included; port 2 is asked for the
  * output's time.
  *

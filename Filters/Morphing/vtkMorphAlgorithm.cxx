@@ -321,10 +321,10 @@ std::string vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* g
       return filters::Input::RequireBoundary(
         this->Steps.FromBoundary() ? this->Ports.Fetch(1, this->Steps.Time(step)) : boundary);
     });
-  return this->OnRanks().Run({ grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
-                               this->Filter->OutputPointsPrecision,
-                               { options.MeasureAll, this->Filter->Certify },
-                               this->Filter->FeatureLines, output, badCells, surface },
+  return this->OnRanks().Run(
+    { grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
+      this->Filter->OutputPointsPrecision, { options.MeasureAll, this->Filter->Certify },
+      this->Filter->FeatureLines, output, badCells, surface },
     options, monitor);
 }
 

@@ -188,8 +188,8 @@ public:
    * step before, in double precision, for which the method is prepared again; the first step starts
    * from the undeformed mesh. The undeformed mesh remains the reference of the measures and of
    * vtkInversionFreeMorph's targets. A relative step does not depend on the steps that were asked
-   * for: missing ones are computed, the boundary being asked for their times (on one MPI rank
-   * only). PrepareSeconds and EvaluateSeconds are those of the last step
+   * for: missing ones are computed, the boundary being asked for their times (on several MPI ranks
+   * for a distributed mesh only). PrepareSeconds and EvaluateSeconds are those of the last step
    * alone, 0 where it was kept. Has no effect without steps. Default Absolute.
    */
   vtkSetClampMacro(Stepping, int, STEPPING_ABSOLUTE, STEPPING_RELATIVE);

@@ -45,8 +45,11 @@
  * port 1 names no node of a dimension up to PrescribedDimension; a target without polygons. The
  * output is then empty: a morph would take an unchanged boundary for a motion of zero.
  * MinScaledJacobian and FoldedFaces are then -1. An execution that is aborted gives the same, and
- * no message. With several MPI ranks all of them have to execute it. Cost: for each surface node a
- * search for the nearest curve nodes, and a few searches in the target.
+ * no message. Cost: for each surface node a search for the nearest curve nodes, and a few searches
+ * in the target.
+ *
+ * With several MPI ranks all of them have to execute it. Of a mesh in pieces each rank gathers the
+ * whole boundary, what is given of it, and the target, and keeps the part of its cells.
  *
  * M. L. Staten, S. J. Owen, S. M. Shontz, A. G. Salinger, T. S. Coffey, "A Comparison of Mesh
  * Morphing Methods for 3D Shape Optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311.

@@ -288,8 +288,8 @@ int vtkMorphMesh::RequestData(
         own.TakeZone(zone);
         ofGrid = own.OfGrid(selection);
       });
-    partial = own.Run(ofGrid, filters::Ports::Asked(request, outputVector), output, badCells,
-      surface, monitor);
+    partial = own.Run(
+      ofGrid, filters::Ports::Asked(request, outputVector), output, badCells, surface, monitor);
   };
   const auto clear = [&]
   {

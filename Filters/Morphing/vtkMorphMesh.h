@@ -34,15 +34,19 @@
  *
  * After an error there is one message, and output 0 is the undeformed mesh. MorphStatus is then
  * "Failed", and InvertedCells and MinScaledJacobian are -1. The errors and warnings are those of
- * vtkBoundaryDisplacement and vtkMorphAlgorithm. A mesh on several MPI ranks is an error.
+ * vtkBoundaryDisplacement and vtkMorphAlgorithm.
+ *
+ * With several MPI ranks all of them have to execute it. The mesh may be in pieces on them: results
+ * are then those of the whole mesh, surfaces are listed after the first execution, and soft zones
+ * are an error.
  *
  * @sa vtkDisplacementAlgorithm vtkBoundaryDisplacement vtkMorphAlgorithm vtkFEMWarpMorph
  */
 #ifndef vtkMorphMesh_h
 #define vtkMorphMesh_h
 
-#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 #include "vtkDisplacementAlgorithm.h"
+#include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
 #include <memory> // for std::unique_ptr
 

@@ -17,6 +17,7 @@
 #include <vtkSMProxy.h>
 #include <vtkSmartPointer.h>
 
+#include <QComboBox>
 #include <QEvent>
 #include <QTimer>
 
@@ -65,6 +66,7 @@ bool BoxDragDecorator::eventFilter(QObject* object, QEvent* event)
 void BoxDragDecorator::find()
 {
   this->Asked = false;
+  this->labelTransforms();
   for (auto* widget : this->parentWidget()->findChildren<pqInteractivePropertyWidget*>())
   {
     vtkAbstractWidget* const shown = widget->widgetProxy()->GetWidget();
@@ -88,6 +90,18 @@ void BoxDragDecorator::find()
     const float last = -1;
     this->Events->Connect(shown, vtkCommand::InteractionEvent, this, SLOT(follow()), nullptr, last);
     this->Events->Connect(shown, vtkCommand::EndInteractionEvent, this, SLOT(end()), nullptr, last);
+  }
+}
+
+void BoxDragDecorator::labelTransforms() const
+{
+  for (auto* list : this->parentWidget()->findChildren<QComboBox*>())
+  {
+    const int place = list->findText("RotateAroundOriginTransform");
+    if (place >= 0)
+    {
+      list->setItemText(place, tr("Rotation about a point"));
+    }
   }
 }
 

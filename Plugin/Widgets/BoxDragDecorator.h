@@ -42,6 +42,8 @@ private:
   /// Finds interactive widgets that the panel has made since: another kind of region or transform
   /// has another one.
   void find();
+  /// ParaView has no label for one of its transforms, and would show its name.
+  void labelTransforms() const;
   void color(vtkWidgetRepresentation* shown) const;
 };
 

@@ -169,7 +169,8 @@ void checkMotion(const Arguments& arguments)
   if (!motion.isMade() &&
       (!motion.frozen.empty() || !motion.rigid.empty() || motion.keepLayers > 0))
   {
-    throw UsageError("--freeze, --rigid and --keep-layers need --move, --target, --handles or --lattice.");
+    throw UsageError(
+      "--freeze, --rigid and --keep-layers need --move, --target, --handles or --lattice.");
   }
   if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
   {
@@ -184,9 +185,8 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
   }
-  if (motion.byControlPoints() &&
-      (hasNumbers || motion.radius != 0 || !motion.target.empty() ||
-        (!motion.handles.empty() && !motion.lattice.empty())))
+  if (motion.byControlPoints() && (hasNumbers || motion.radius != 0 || !motion.target.empty() ||
+                                    (!motion.handles.empty() && !motion.lattice.empty())))
   {
     throw UsageError("Only one of --handles, --lattice, --target, --radius, and --translate, "
                      "--rotate and --scale is possible.");
@@ -359,11 +359,13 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--align", nullptr, "rotate and shift the target onto what moves first",
       flag(result.motion.align) },
     { "--handles", "<csv>",
-      "points that take what moves along smoothly (without --move, everything): columns x, y, z, dx, "
+      "points that take what moves along smoothly (without --move, everything): columns x, y, z, "
+      "dx, "
       "dy, dz\nand, optional, radius (0: no limit)",
       text(result.motion.handles) },
     { "--lattice", "<csv>",
-      "control points of a box that move what is inside (without --move, everything): columns i, j, "
+      "control points of a box that move what is inside (without --move, everything): columns i, "
+      "j, "
       "k,\ndx, dy, dz",
       text(result.motion.lattice) },
     { "--lattice-size", "<l,m,n>", "its control points in each direction, by default 3,3,3",

@@ -151,14 +151,12 @@ void Run::distributed(const Problem& problem, const Ranks& ranks, Times& times, 
   }
   const MpiTraffic sent = MpiTraffic::now() - start;
   times.warm.push_back(median(seconds));
-  times.hypreWarm.push_back(
-    ranks.maximum((method.solver().seconds().solve - first.solve) / Warm));
+  times.hypreWarm.push_back(ranks.maximum((method.solver().seconds().solve - first.solve) / Warm));
   times.iterations = report.iterations / 3.;
   times.bytes = ranks.maximum(sent.bytes / Warm);
   times.messages = ranks.maximum(sent.messages / Warm);
   times.reductions = ranks.maximum(sent.reductions / Warm);
-  times.interfaceNodes =
-    ranks.maximum(static_cast<double>(mesh.halo().bytes(1)) / sizeof(double));
+  times.interfaceNodes = ranks.maximum(static_cast<double>(mesh.halo().bytes(1)) / sizeof(double));
   for (Index n = 0; n < local.rows(); ++n)
   {
     if (mesh.owns(n))
@@ -204,9 +202,8 @@ void Run::cube(const Problem& problem)
       morph::FemWarpSystem system = morph::femWarpSystem(
         problem.mesh, method->rows(), problem.partition.prescribed, {}, *monitor);
       const Points coordinates = problem.mesh.points(method->rows(), morph::allColumns);
-      const Points displacement = problem.target -
-                                  problem.mesh.points(
-                                    problem.partition.prescribed, morph::allColumns);
+      const Points displacement =
+        problem.target - problem.mesh.points(problem.partition.prescribed, morph::allColumns);
       const Points rhs = -(system.coupling * displacement);
       const Stopwatch watch;
       morph::SpdSolver own;
@@ -231,14 +228,13 @@ void Run::cube(const Problem& problem)
     (alone - serial).rowwise().norm().maxCoeff() / problem.size, 1e-6);
   const double two = median(all.cold), single = median(one.cold);
   this->add(problem, "1 rank / " + ranks + ", cold", single / two, "", Target::atLeast(1.6));
-  this->add(
-    problem, "1 rank / " + ranks + ", warm", median(one.warm) / median(all.warm), "");
+  this->add(problem, "1 rank / " + ranks + ", warm", median(one.warm) / median(all.warm), "");
   const double ours = two - median(all.hypreCold), theirs = median(cold) - median(solver);
   this->add(problem,
     "all but hypre, " + ranks + " / all but the solver, serial" + withThreads(world.count()),
     ours / theirs, "", Target::atMost(1.5));
-  this->add(problem, ranks + " / serial" + withThreads(world.count()) + ", cold",
-    two / median(cold), "");
+  this->add(
+    problem, ranks + " / serial" + withThreads(world.count()) + ", cold", two / median(cold), "");
   this->add(problem, ranks + " / serial" + withThreads(world.count()) + ", warm",
     median(all.warm) / median(warm), "");
   this->add(problem, "hypre / our solver, cold", median(all.hypreCold) / median(solver), "");
@@ -270,7 +266,7 @@ void Run::cube(const Problem& problem)
 
 Report measureMpi(const Options& options, bool& correct)
 {
-  const int side = options.quick ? 16 : 100;
+  const int side = options.quick ? 40 : 100;
   Run run(options);
   run.cube(twistedBrick(side, side, side, AxisZ));
   correct = run.correct;

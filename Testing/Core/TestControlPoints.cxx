@@ -71,7 +71,8 @@ double coxDeBoor(const std::vector<double>& knots, int i, int degree, double t)
 {
   if (degree == 0)
   {
-    const bool isLast = t == knots.back() && knots[i + 1] == knots.back() && knots[i] < knots[i + 1];
+    const bool isLast =
+      t == knots.back() && knots[i + 1] == knots.back() && knots[i] < knots[i + 1];
     return (knots[i] <= t && t < knots[i + 1]) || isLast ? 1 : 0;
   }
   const auto part = [&](double numerator, double width, int of)
@@ -136,8 +137,7 @@ TEST(HandleMotion, OfAnAffineMotionIsAffine)
   for (const Index count : { 4, 5, 30 })
   {
     const HandleMotion motion(handlesAt(randomPoints(count, -1, 1), affineDisplacement));
-    EXPECT_LT(
-      motions::difference(at(motion, places), valuesAt(places, affineDisplacement)), 1e-10);
+    EXPECT_LT(motions::difference(at(motion, places), valuesAt(places, affineDisplacement)), 1e-10);
   }
 }
 
@@ -164,8 +164,7 @@ TEST(HandleMotion, EndsAtTheRadius)
   EXPECT_LT((values.row(0) - handle.displacement).norm(), 1e-15);
   EXPECT_EQ(values.row(1), Row(0, 0, 0));
   const double q = 0.5 / 0.75;
-  EXPECT_LT(
-    (values.row(2) - std::pow(1 - q, 4) * (4 * q + 1) * handle.displacement).norm(), 1e-15);
+  EXPECT_LT((values.row(2) - std::pow(1 - q, 4) * (4 * q + 1) * handle.displacement).norm(), 1e-15);
 }
 
 TEST(HandleMotion, DoesNotDependOnPlaceUnitOrOrder)
@@ -217,8 +216,8 @@ TEST(LatticeMotion, OfAnAffineMotionIsAffineInside)
         lattice.low;
       places.row(0) = lattice.low;
       places.row(1) = lattice.high;
-      EXPECT_LT(motions::difference(at(lattice, places), valuesAt(places, affineDisplacement)),
-        1e-10 * 7);
+      EXPECT_LT(
+        motions::difference(at(lattice, places), valuesAt(places, affineDisplacement)), 1e-10 * 7);
     }
   }
 }

@@ -379,3 +379,38 @@ TEST(SurfaceResidual, RefusesWhatItCannotUse)
   EXPECT_THROW(method.prepare(s.prescribed, s.points, { { 0, 1, 48 } }, monitor), Error);
   EXPECT_THROW(method.prepare(s.prescribed, s.points, { { 0, 1, -1 } }, monitor), Error);
 }
+
+TEST(SurfaceResidual, ItsLinearPartIsAllOfItOnPlanesAndShells)
+{
+  meshes::ThreadedMonitor monitor;
+  const auto difference = [&](const Surface& surface, const Motion& motion)
+  {
+    SurfaceResidual method;
+    method.prepare(surface.prescribed, surface.points, surface.loops, monitor);
+    const Points target = apply(surface.prescribed, motion);
+    Points whole, linear;
+    method.evaluate(target, whole, monitor);
+    method.evaluateLinear(target - surface.prescribed, linear, monitor);
+    return (surface.points + linear - whole).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(difference(annulus(0, true), bent), 1e-14);
+  EXPECT_LT(difference(annulus(0, false), sheared), 1e-14);
+  EXPECT_LT(difference(shell(), bent), 1e-14);
+  // The normal of a dome turns with its rim, unless the rim is shifted alone.
+  const auto shifted = [](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+  { return x + Eigen::RowVector3d(1, -2, 3); };
+  EXPECT_LT(difference(annulus(0.5, true), shifted), 1e-14);
+  EXPECT_GT(difference(annulus(0.5, true), sheared), 0.01);
+
+  SurfaceResidual method;
+  Points moved;
+  EXPECT_THROW(method.evaluateLinear(Points::Zero(3, 3), moved, monitor), Error);
+  const Surface one = shell();
+  method.prepare(one.prescribed, one.points, one.loops, monitor);
+  const Points two = Points::Random(one.prescribed.rows(), 3);
+  Points a, b, sum;
+  method.evaluateLinear(two, a, monitor);
+  method.evaluateLinear(one.prescribed, b, monitor);
+  method.evaluateLinear(two - 3 * one.prescribed, sum, monitor);
+  EXPECT_LT((sum - (a - 3 * b)).cwiseAbs().maxCoeff(), 1e-13);
+}

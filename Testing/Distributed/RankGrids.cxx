@@ -56,16 +56,15 @@ std::vector<Index> globalIds(vtkDataSet* data, const char* name)
 
 void alone(const std::function<void()>& work)
 {
-  vtkSmartPointer<vtkMultiProcessController> all =
-    vtkMultiProcessController::GetGlobalController();
+  vtkSmartPointer<vtkMultiProcessController> all = vtkMultiProcessController::GetGlobalController();
   vtkNew<vtkDummyController> one;
   vtkMultiProcessController::SetGlobalController(one);
   work();
   vtkMultiProcessController::SetGlobalController(all);
 }
 
-double distance(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece,
-  vtkUnstructuredGrid* whole)
+double distance(
+  const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece, vtkUnstructuredGrid* whole)
 {
   const std::vector<Index> ids = globalIds(piece, "GlobalIds");
   double largest = 0;

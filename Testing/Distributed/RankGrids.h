@@ -24,6 +24,6 @@ void alone(const std::function<void()>& work);
 
 /// The largest distance, on any rank, of this rank's points from those of the whole mesh with the
 /// same ids.
-double distance(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece,
-  vtkUnstructuredGrid* whole);
+double distance(
+  const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* piece, vtkUnstructuredGrid* whole);
 }

@@ -118,12 +118,12 @@ void compare(const Ranks& ranks)
   for (std::size_t i = 0; i < named.size(); ++i)
   {
     // Copies of a point on several ranks all have the node's derivatives.
-    largest = std::max(largest,
-      (gradient.row(static_cast<Index>(i)) - expected.at(named[i])).cwiseAbs().maxCoeff());
+    largest = std::max(
+      largest, (gradient.row(static_cast<Index>(i)) - expected.at(named[i])).cwiseAbs().maxCoeff());
   }
   EXPECT_LT(ranks.maximum(largest), 1e-8) << filter->GetClassName();
-  EXPECT_EQ(ranks.sum(static_cast<Index>(named.size())) >= static_cast<Index>(expected.size()),
-    true);
+  EXPECT_EQ(
+    ranks.sum(static_cast<Index>(named.size())) >= static_cast<Index>(expected.size()), true);
 }
 
 /// The sum of slope . position over the nodes, each counted once.

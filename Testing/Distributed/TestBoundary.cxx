@@ -3,6 +3,7 @@
 #include "Meshes.h"
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
+#include "Private/Distributed/WholeSurface.h"
 #include "RankGrids.h"
 #include "RankParts.h"
 #include "TestGrids.h"
@@ -10,10 +11,15 @@
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
 #include <vtkClassifyBoundary.h>
+#include <vtkCompareMorphMethods.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkFEMWarpMorph.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMorphBoundary.h>
+#include <vtkMorphMesh.h>
+#include <vtkMorphShapes.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -25,6 +31,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <map>
 #include <set>
 
@@ -179,8 +186,7 @@ TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
       "Number" };
     for (const char* array : arrays)
     {
-      expectSameRows(
-        output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
+      expectSameRows(output->GetPointData(), serial->GetOutput()->GetPointData(), array, ids);
     }
     expectSameSurface(ranks, filter->GetSurfaces(), serial->GetSurfaces(), arrays,
       { "GeometryId", "MorphCellId", "Cell" });
@@ -498,4 +504,76 @@ TEST(RankBoundary, MorphBoundaryTakesCopiesAndPositionsAndNamesUnknownIds)
   {
     EXPECT_NE(listener.Errors.front().find("12345"), std::string::npos);
   }
+}
+
+TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
+{
+  const Ranks ranks = pieces::world();
+  if (ranks.count() < 2)
+  {
+    GTEST_SKIP() << "needs several ranks";
+  }
+  const auto expect = [&](vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* boundary,
+                        const std::string& message)
+  {
+    SCOPED_TRACE(message);
+    filter->SetInputDataObject(0, input);
+    if (boundary)
+    {
+      filter->SetInputDataObject(1, boundary);
+    }
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
+    for (const std::string& error : listener.Errors)
+    {
+      EXPECT_NE(error.find(message), std::string::npos) << error;
+    }
+  };
+  const auto piece = rank_grids::piece(ranks, meshes::hexes(4, 3, 3));
+  const auto moved = grids::boundary(piece, grids::affine);
+  expect(vtkNew<vtkCompareMorphMethods>(), piece, moved, "vtkCompareMorphMethods needs");
+  expect(vtkNew<vtkMorphShapes>(), piece, moved, "vtkMorphShapes needs it on one");
+  expect(vtkNew<vtkBoundaryDisplacement>(), moved, nullptr, "takes the volume mesh there");
+
+  const auto polyhedra = rank_grids::piece(ranks, meshes::honeycomb(3));
+  expect(vtkNew<vtkFEMWarpMorph>(), polyhedra, grids::boundary(polyhedra, grids::affine),
+    "vtkFEMWarpMorph of a mesh with polyhedra needs one MPI rank");
+
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, piece);
+  const std::string composite = "Composite data on several MPI ranks: ";
+  expect(vtkNew<vtkFEMWarpMorph>(), blocks, moved, composite + "vtkFEMWarpMorph");
+  expect(vtkNew<vtkMorphBoundary>(), blocks, moved, composite + "vtkMorphBoundary");
+  expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");
+  expect(vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
+  expect(vtkNew<vtkClassifyBoundary>(), blocks, nullptr, composite + "vtkClassifyBoundary");
+}
+
+TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
+{
+  const Ranks ranks = pieces::world();
+  morph::Monitor monitor;
+  const auto bytes = [&](int n)
+  {
+    const auto grid = rank_grids::piece(ranks, meshes::hexes(n, n, n));
+    for (vtkDataSetAttributes* data :
+      { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+        static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
+    {
+      data->RemoveArray("Number");
+      data->RemoveArray("Cell");
+    }
+    morph::filters::WholeSurface surface;
+    surface.Take(grid, monitor);
+    const int boundary = (n + 1) * (n + 1) * (n + 1) - (n - 1) * (n - 1) * (n - 1);
+    return static_cast<double>(surface.Bytes()) / boundary;
+  };
+  const double small = bytes(8), large = bytes(16);
+  if (ranks.rank() == 0)
+  {
+    std::cout << "bytes a boundary node: " << small << ", " << large << '\n';
+  }
+  EXPECT_LT(large, 1.2 * small);
+  EXPECT_LT(large, 400);
 }

@@ -75,8 +75,7 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
     serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
   }
   const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(serial));
-  const DistributedMesh mesh =
-    pieces::distribute(ranks, whole, method->layers(), meshes::seed());
+  const DistributedMesh mesh = pieces::distribute(ranks, whole, method->layers(), meshes::seed());
   const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
   method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
   Points moved;

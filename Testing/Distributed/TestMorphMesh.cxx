@@ -12,11 +12,11 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkMorphMesh.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-#include <vtkMorphMesh.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
@@ -80,8 +80,7 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         filter->SetDisplacementToVector();
         filter->SetVector(0.1, 0, 0.2);
       } },
-    { "target",
-      [&](vtkMorphMesh* filter)
+    { "target", [&](vtkMorphMesh* filter)
       {
         filter->AddSurface("Surface 0");
         filter->SetDisplacementToTarget();
@@ -89,9 +88,9 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         filter->SetTargetReach(1);
         filter->SetTargetAngle(180);
       } } };
-  for (auto& [name, mesh] : { std::pair("hexes", meshes::hexes(5, 4, 3)),
-         std::pair("tets", meshes::tets(4, 3, 3)),
-         std::pair("quadratic", meshes::quadraticTets(3, 2, 2)) })
+  for (auto& [name, mesh] :
+    { std::pair("hexes", meshes::hexes(5, 4, 3)), std::pair("tets", meshes::tets(4, 3, 3)),
+      std::pair("quadratic", meshes::quadraticTets(3, 2, 2)) })
   {
     for (const auto& [what, configure] : cases)
     {
@@ -124,7 +123,8 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
         EXPECT_GT(serial->GetMaxTargetDistanceBefore(), 0);
         EXPECT_NEAR(
           filter->GetMaxTargetDistanceBefore(), serial->GetMaxTargetDistanceBefore(), 1e-8);
-        EXPECT_NEAR(filter->GetMeanTargetDistanceBefore(), serial->GetMeanTargetDistanceBefore(), 1e-8);
+        EXPECT_NEAR(
+          filter->GetMeanTargetDistanceBefore(), serial->GetMeanTargetDistanceBefore(), 1e-8);
         EXPECT_NEAR(filter->GetMaxTargetDistance(), serial->GetMaxTargetDistance(), 1e-8);
         EXPECT_NEAR(filter->GetMeanTargetDistance(), serial->GetMeanTargetDistance(), 1e-8);
       }
@@ -187,27 +187,27 @@ TEST(RankMorphMesh, ShowsItsSurfacesAndKeepsWhatADragNeeds)
   EXPECT_TRUE(listener.Errors.empty());
 }
 
-TEST(RankMorphMesh, SaysThatItDoesNotRepair)
+TEST(RankMorphMesh, RepairsByDefault)
 {
   const Ranks ranks = pieces::world();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(rank_grids::piece(ranks, meshes::hexes(5, 4, 3)));
-  filter->AddSurface("Surface 1");
-  filter->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.1, 0, 0.1);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
-  EXPECT_TRUE(listener.Errors.empty());
-  filter->SetVector(-5, -6, -7);
-  filter->Update();
-  if (ranks.count() > 1)
+  const morph::Mesh mesh = meshes::hexes(5, 4, 3);
+  const auto run = [](vtkMorphMesh* filter, vtkUnstructuredGrid* grid)
   {
-    EXPECT_STREQ(filter->GetMorphStatus(), "Inverted");
-    EXPECT_GT(filter->GetInvertedCells(), 0);
-    EXPECT_EQ(listener.Errors.size(), ranks.rank() == 0 ? 1u : 0u);
-  }
+    filter->SetInputData(grid);
+    filter->AddSurface("Surface 1");
+    filter->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
+    filter->SetDisplacementToVector();
+    filter->SetVector(0.1, 0, 0.1);
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty());
+  };
+  vtkNew<vtkMorphMesh> serial, filter;
+  rank_grids::alone([&] { run(serial, grids::make(mesh)); });
+  run(filter, rank_grids::piece(ranks, mesh));
+  EXPECT_EQ(filter->GetValidity(), vtkMorphAlgorithm::VALIDITY_REPAIR);
+  EXPECT_STREQ(filter->GetMorphStatus(), serial->GetMorphStatus());
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
 }
 
 TEST(RankMorphMesh, OneErrorEndsAllRanks)
@@ -275,4 +275,31 @@ TEST(RankMorphMesh, AnAbortOnOneRankEndsAllWithoutAMessage)
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
   EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
+}
+
+TEST(RankMorphMesh, MovesAMeshThatOneRankHas)
+{
+  const Ranks ranks = pieces::world();
+  const auto whole = grids::make(meshes::hexes(5, 4, 3));
+  vtkNew<vtkMorphMesh> serial, filter;
+  turnAndShift(serial);
+  serial->SetInputData(whole);
+  rank_grids::alone([&] { serial->Update(); });
+  turnAndShift(filter);
+  vtkNew<vtkUnstructuredGrid> none;
+  filter->SetInputData(ranks.rank() == 0 ? whole.Get() : none.Get());
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
+  if (ranks.rank() == 0)
+  {
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+    EXPECT_EQ(grids::points(output),
+      grids::points(vtkUnstructuredGrid::SafeDownCast(serial->GetOutputDataObject(0))));
+  }
+  else
+  {
+    EXPECT_EQ(output->GetNumberOfPoints(), 0);
+  }
 }

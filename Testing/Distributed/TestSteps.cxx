@@ -46,7 +46,8 @@ struct Result
   std::vector<std::string> Errors, Warnings;
 };
 
-Result morphed(vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
+Result morphed(
+  vtkUnstructuredGrid* grid, const grids::Map& map, const Setting& set, double time = -1)
 {
   vtkNew<vtkFEMWarpMorph> filter;
   filter->SetTolerance(1e-12);
@@ -106,22 +107,28 @@ TEST(RankSteps, RelativeStepsAgreeWithTheSerialOnes)
       filter->SetStepMemoryLimit(0.008);
     },
     "Valid", 0.75);
-  compare(ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetNumberOfSteps(3); }, "Valid", 0.4);
+  compare(
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetNumberOfSteps(3); }, "Valid",
+    0.4);
 }
 
 TEST(RankSteps, ValidityAgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToReport(); }, "Inverted");
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); }, "SubStepped");
-  compare(ranks, waves,
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToReport(); }, "Inverted");
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); }, "SubStepped");
+  compare(
+    ranks, waves,
     [](vtkFEMWarpMorph* filter)
     {
       filter->SetValidityToSubStep();
       filter->SetMaximumSubSteps(2);
     },
     "Partial");
-  compare(ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
+  compare(
+    ranks, waves, [](vtkFEMWarpMorph* filter) { filter->SetValidityToRefuse(); }, "Failed");
 }
 
 TEST(RankSteps, RepairGivesAValidMesh)
@@ -143,34 +150,54 @@ TEST(RankSteps, RepairGivesAValidMesh)
 TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
 {
   const Ranks ranks = pieces::world();
-  std::vector<std::pair<std::string, morph::Mesh>> all = meshes::all(6, 5, 4);
+  std::vector<std::pair<std::string, morph::Mesh>> all = {
+    { "tets", meshes::tets(6, 5, 4) },
+    { "hexes and pyramids", meshes::hexesAndPyramids(6, 5, 4) },
+    { "hex20", meshes::quadraticHexes(5, 4, 3, false) },
+    { "tet10", meshes::quadraticTets(4, 3, 3) },
+  };
   all.emplace_back("layers", meshes::layered(meshes::hexes, 6, 0.05, 1.3));
+  all.emplace_back("fine", meshes::hexes(16, 16, 16)); // its patches are parts of it
   for (auto& [name, whole] : all)
   {
-    meshes::jitterInterior(whole, name == "layers" ? 0 : 0.1, meshes::seed());
+    // Jittered quadratic cells are inverted inside.
+    const bool isLinear = whole.types[0] == morph::Hexahedron || whole.types[0] == morph::Tetra ||
+                          whole.types[0] == morph::Wedge;
+    meshes::jitterInterior(whole, isLinear && name != "layers" ? 0.1 : 0, meshes::seed());
     const double height = whole.points.col(2).maxCoeff();
-    const auto bulge = [&](const grids::Row& x)
+    const double length = whole.points.col(0).maxCoeff(), deep = isLinear ? 0.5 : 0.3;
+    grids::Map motion = [&](const grids::Row& x)
     {
-      const double wave = std::sin(x[0] / whole.points.col(0).maxCoeff() * M_PI);
-      return grids::Row(x[0] + 0.3 * height * wave, x[1], x[2] * (1 - 0.5 * wave * wave));
+      const double wave = std::sin(x[0] / length * M_PI);
+      return grids::Row(x[0] + 0.6 * deep * height * wave, x[1], x[2] * (1 - deep * wave * wave));
     };
+    if (name == "fine")
+    {
+      motion = [](const grids::Row& x)
+      {
+        const double r = std::hypot(x[0] - 8, x[1] - 8), dent = std::cos(r / 4 * M_PI / 2);
+        return grids::Row(x[0], x[1], x[2] == 0 && r < 4 ? 3.5 * dent * dent : x[2]);
+      };
+    }
     const auto run = [&](vtkUnstructuredGrid* grid)
     {
       vtkNew<vtkInversionFreeMorph> filter;
       filter->SetInputData(grid);
-      filter->SetBoundaryData(grids::boundary(grid, bulge));
+      filter->SetBoundaryData(grids::boundary(grid, motion));
       filter->Update();
-      return std::pair(std::string(filter->GetMorphStatus()), filter->GetMinScaledJacobian());
+      return std::pair(
+        std::string(filter->GetMorphStatus()) + " " + std::to_string(filter->GetInvertedCells()),
+        filter->GetMinScaledJacobian());
     };
     std::pair<std::string, double> serial;
     rank_grids::alone([&] { serial = run(grids::make(whole)); });
     const auto mine = run(rank_grids::piece(ranks, whole));
+    EXPECT_EQ(serial.first, "Valid 0") << name;
     EXPECT_EQ(mine.first, serial.first) << name;
     EXPECT_GT(mine.second, 0.99 * serial.second) << name;
     if (ranks.rank() == 0)
     {
-      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second
-                << "\n";
+      std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second << "\n";
     }
   }
 }
@@ -179,10 +206,13 @@ TEST(RankSteps, StiffnessAgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
   compare(
-    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToInverseVolume(); }, "Valid");
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToInverseVolume(); },
+    "Valid");
   compare(
-    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToWallDistance(); }, "Valid");
-  compare(ranks, grids::twist,
+    ranks, grids::twist, [](vtkFEMWarpMorph* filter) { filter->SetStiffnessToWallDistance(); },
+    "Valid");
+  compare(
+    ranks, grids::twist,
     [](vtkFEMWarpMorph* filter)
     {
       // The first half of the nodes is a wall; this rank's copies have the same mark.

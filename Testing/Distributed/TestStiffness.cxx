@@ -155,8 +155,7 @@ TEST(DistributedStiffness, AgreesWithTheSerialOne)
 TEST(DistributedAdjoint, AgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
-  const std::vector<std::pair<std::string, Make>> methods = { { "FEMWARP",
-                                                               stiff<morph::FemWarp> },
+  const std::vector<std::pair<std::string, Make>> methods = { { "FEMWARP", stiff<morph::FemWarp> },
     { "LBWARP", stiff<morph::LogBarrierWarp> },
     { "weighted residual", plain<morph::WeightedResidual> },
     { "simplex-linear", plain<morph::SimplexLinear> },

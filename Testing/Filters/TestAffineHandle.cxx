@@ -300,9 +300,10 @@ TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
   auto grid = grids::make(meshes::ring(24, 3, 0.2));
   auto filter = displaced::make(grid);
   filter->SetMovingToPatches();
-  filter->AddPatch(
-    displaced::surfaceName(filter, [](const Row& x) { return std::abs(x[2] - 0.8) < 1e-9; })
-      .c_str());
+  filter->AddPatch(displaced::surfaceName(filter,
+    [](const Row& x) {
+      return std::abs(x[2] - 0.8) < 1e-9;
+    }).c_str());
   const auto described = [&]
   {
     filter->Update();

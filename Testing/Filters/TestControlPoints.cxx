@@ -252,8 +252,8 @@ TEST(Lattice, TakesTablesAndListsAndLeavesWhatIsOutside)
     EXPECT_LT((listed.Now.row(i) - listed.Rest.row(i) - by).norm(), isInside ? 1e-14 : 1e-300);
   }
   filter->RemoveAllLatticeDisplacements();
-  filter->SetControlPointsData(
-    table({ "i", "j", "k", "dx", "dy", "dz" }, { { 1, 1, 1, 0.25, 0, 0 }, { 1, 1, 1, 0.25, 0, 0 } }));
+  filter->SetControlPointsData(table(
+    { "i", "j", "k", "dx", "dy", "dz" }, { { 1, 1, 1, 0.25, 0, 0 }, { 1, 1, 1, 0.25, 0, 0 } }));
   EXPECT_LT(largest(run(filter).Now - listed.Now), 1e-15);
   filter->AddLatticeDisplacement(3, 0, 0, 1, 0, 0);
   EXPECT_NE(errorOf(filter).find("no control point 3"), std::string::npos);

@@ -478,7 +478,6 @@ TEST(EmptyBoundary, IsSaid)
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     ASSERT_EQ(listener.Warnings.size(), 1u);
     EXPECT_NE(listener.Warnings[0].find("The boundary is empty"), std::string::npos);
-    EXPECT_EQ(
-      vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
   }
 }

@@ -34,11 +34,11 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def start_server(program, **variables):
+def start_server(program):
     """Starts pvserver by `program`, a command; returns it and its port once it listens."""
     port = free_port()
     server = subprocess.Popen(program + [f"--server-port={port}"],
-                              env={**environment(), **variables}, stdout=subprocess.DEVNULL)
+                              env=environment(), stdout=subprocess.DEVNULL)
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and server.poll() is None:
         with socket.socket() as probe:

@@ -46,10 +46,11 @@ class Events:
         self.do(MAIN + "menubar", "activate", menu.split("/")[0])
         self.do(MAIN + "menubar/" + menu, "activate", action)
 
-    def load_plugin(self, path):
+    def load_plugin(self, path, side="Local"):
+        """side: "Local" for this client, "Remote" for the server that it is connected to."""
         manager = MAIN + "PluginManagerDialog/"
         self.menu("menuTools", "actionManage_Plugins")
-        self.do(manager + "splitter/localGroup/loadLocal", "activate")
+        self.do(manager + f"splitter/{side.lower()}Group/load{side}", "activate")
         self.do(manager + PLUGIN_FILE_DIALOG, "filesSelected", path)
         self.do(manager + "buttonBox/1QPushButton0", "activate")
 

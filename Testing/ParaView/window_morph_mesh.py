@@ -25,6 +25,8 @@ NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCel
            "LargestValidStep")
 BOX = f"Transform/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
 
+KIND = "Transform/ProxySelectionWidget/comboBox"
+
 
 class Clicks(Events):
     """Counts what a user presses and types."""
@@ -87,10 +89,17 @@ class MorphMeshInTheWindow(unittest.TestCase):
             events.filter("MorphMesh")
             events.apply()  # nothing is ticked
             events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+            events.set(KIND, "set_string", "Rotation about a point")
+            events.apply()
+            events.save_state(Path(name) / "state.pvsm")
             code, messages = events.play(Path(name))
             self.assertEqual(code, 0, messages)
             self.assertNotIn("ERR|", messages)
             self.assertNotIn("rror:", messages)
+            simple.ResetSession()
+            simple.LoadState(str(Path(name) / "state.pvsm"))
+            self.assertEqual(simple.FindSource("MorphMesh2").Transform.GetXMLName(),
+                             "RotateAroundOriginTransform")
 
 
 if __name__ == "__main__":

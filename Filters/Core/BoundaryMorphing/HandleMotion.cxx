@@ -113,8 +113,7 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
   this->centre_ = 0.5 * (low + high);
   this->size_ = std::max(extent, widest) > 0 ? std::max(extent, widest) : 1;
 
-  const std::vector<Index> unlimited =
-    ofRadius.count(0) ? ofRadius.at(0) : std::vector<Index>();
+  const std::vector<Index> unlimited = ofRadius.count(0) ? ofRadius.at(0) : std::vector<Index>();
   this->hasPolynomial_ = !unlimited.empty();
   Eigen::MatrixXd directions(3, 0);
   if (this->hasPolynomial_)

@@ -186,8 +186,7 @@ std::vector<double> stiffnessFactors(const Mesh& mesh, const std::vector<Index>&
   if (stiffness.kind == CellStiffness::Kind::WallDistance)
   {
     requireWalls(mesh, stiffness);
-    whole.walls =
-      mesh.points(stiffness.walls.empty() ? prescribed : stiffness.walls, allColumns);
+    whole.walls = mesh.points(stiffness.walls.empty() ? prescribed : stiffness.walls, allColumns);
   }
   return stiffnessFactors(mesh, stiffness, whole, monitor);
 }

@@ -60,8 +60,8 @@ void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& cho
   }
 }
 
-bool BoundaryFields::Give(const morph::AffineMotion& motion, const BoundaryModel& model,
-  const morph::Points& moved) const
+bool BoundaryFields::Give(
+  const morph::AffineMotion& motion, const BoundaryModel& model, const morph::Points& moved) const
 {
   const double tolerance = AffineArrays::Rounding(
     model.Points().cwiseAbs().maxCoeff() + moved.cwiseAbs().maxCoeff(), false);

@@ -59,17 +59,7 @@ std::vector<std::uint8_t> markedBy(vtkPointSet* input, const std::string& name)
     throw Error("MovingArray names '" + name + "', which is " +
                 (array ? "not as long as the input has points." : "no point array of the input."));
   }
-  std::vector<std::uint8_t> isMarked(input->GetNumberOfPoints(), 0);
-  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
-  {
-    for (int j = 0; j < array->GetNumberOfComponents(); ++j)
-    {
-      // A NaN marks nothing.
-      const double value = array->GetComponent(i, j);
-      isMarked[i] = isMarked[i] || value < 0 || value > 0;
-    }
-  }
-  return isMarked;
+  return Choice::Marked(array);
 }
 
 void addNodesBetween(const morph::BoundaryFaces& faces, std::vector<std::uint8_t>& isChosen)
@@ -115,6 +105,20 @@ std::vector<std::uint8_t> facesWithin(
 
 namespace Choice
 {
+std::vector<std::uint8_t> Marked(vtkDataArray* array)
+{
+  std::vector<std::uint8_t> isMarked(array->GetNumberOfTuples(), 0);
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int j = 0; j < array->GetNumberOfComponents(); ++j)
+    {
+      const double value = array->GetComponent(i, j);
+      isMarked[i] = isMarked[i] || value < 0 || value > 0;
+    }
+  }
+  return isMarked;
+}
+
 Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options)
 {
   const morph::BoundaryFaces& faces = model.Faces();

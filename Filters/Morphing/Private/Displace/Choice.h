@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkExtractSelection;
 class vtkImplicitFunction;
 class vtkPointSet;
@@ -53,4 +54,7 @@ struct Result
 /// `model` was made from. Throws morph::Error where nothing on the boundary is chosen, with what is
 /// missing.
 Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options);
+
+/// For each tuple, whether one of its values is not 0. A NaN marks nothing.
+std::vector<std::uint8_t> Marked(vtkDataArray* array);
 }

@@ -197,9 +197,10 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
     vtkPointSet* points = pointsOf(given);
     if (points->GetNumberOfPoints() != count)
     {
-      throw Error("The lattice has " + std::to_string(count) + " control points, the product of "
-                  "LatticeSize, and " + std::to_string(points->GetNumberOfPoints()) +
-                  " are given.");
+      throw Error("The lattice has " + std::to_string(count) +
+                  " control points, the product of "
+                  "LatticeSize, and " +
+                  std::to_string(points->GetNumberOfPoints()) + " are given.");
     }
     vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);
     for (Index i = 0; i < count; ++i)
@@ -213,7 +214,8 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
   if (!bad.empty())
   {
     throw Error("Control points have displacements that are not finite or beyond 1e50: control "
-                "points " + morph::listIds(bad) + ", those of the first direction counted first.");
+                "points " +
+                morph::listIds(bad) + ", those of the first direction counted first.");
   }
   return result;
 }

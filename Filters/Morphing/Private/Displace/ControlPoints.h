@@ -18,8 +18,7 @@ namespace morph::filters::ControlPoints
 {
 /// The handles of both. `listed`: place, displacement, radius. Throws morph::Error for data of
 /// another type, and for arrays or columns that are missing, not numeric or too short.
-std::vector<Handle> Handles(
-  vtkDataObject* given, const std::vector<std::array<double, 7>>& listed);
+std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed);
 
 /// The displacements of all control points of a lattice, as LatticeMotion has them. `listed`: i, j,
 /// k, displacement. Throws as above and for ids that are no whole number or not in the lattice,

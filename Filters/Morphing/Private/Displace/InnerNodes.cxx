@@ -65,22 +65,40 @@ Eigen::RowVector3d transformed(
 
 std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::string& name)
 {
-  std::vector<std::uint8_t> isLayer;
   if (name.empty())
   {
-    return isLayer;
+    return {};
   }
   vtkDataArray* array = grid->GetCellData()->GetArray(name.c_str());
   if (!array || array->GetNumberOfTuples() != grid->GetNumberOfCells())
   {
     throw Error("LayersArray names '" + name + "', which is no cell array of the input.");
   }
-  for (vtkIdType c = 0; c < array->GetNumberOfTuples(); ++c)
+  return Choice::Marked(array);
+}
+
+/// Where nodes move, in the order of their ids.
+using PlaceOfNode = std::map<Index, Eigen::RowVector3d>;
+
+PlaceOfNode placesOf(const Choice::Result& choice, const Points& targets)
+{
+  PlaceOfNode places;
+  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
   {
-    const double value = array->GetComponent(c, 0);
-    isLayer.push_back(value < 0 || value > 0);
+    places[choice.Moving[i]] = targets.row(static_cast<Index>(i));
   }
-  return isLayer;
+  return places;
+}
+
+void setMoving(const PlaceOfNode& places, Choice::Result& choice, Points& targets)
+{
+  choice.Moving.clear();
+  targets.resize(static_cast<Index>(places.size()), 3);
+  for (const auto& [node, to] : places)
+  {
+    targets.row(static_cast<Index>(choice.Moving.size())) = to;
+    choice.Moving.push_back(node);
+  }
 }
 }
 
@@ -116,11 +134,7 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
 void InnerNodes::Constrain(
   const BoundaryModel& model, const Options& options, Choice::Result& choice, Points& targets) const
 {
-  std::map<Index, Eigen::RowVector3d> moving;
-  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
-  {
-    moving[choice.Moving[i]] = targets.row(static_cast<Index>(i));
-  }
+  PlaceOfNode moving = placesOf(choice, targets);
   std::vector<Index> held = choice.Held;
   const auto isOuter = [&](Index node)
   { return std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node); };
@@ -143,13 +157,7 @@ void InnerNodes::Constrain(
       }
     }
   }
-  choice.Moving.clear();
-  targets.resize(static_cast<Index>(moving.size()), 3);
-  for (const auto& [node, to] : moving)
-  {
-    targets.row(static_cast<Index>(choice.Moving.size())) = to;
-    choice.Moving.push_back(node);
-  }
+  setMoving(moving, choice, targets);
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   choice.Held.clear();
@@ -203,7 +211,7 @@ void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& 
     return result.Roles[node] == Surroundings::IsZone ||
            result.Roles[node] == Surroundings::IsLayer;
   };
-  std::map<Index, Eigen::RowVector3d> moving;
+  PlaceOfNode moving;
   for (const Index node : model.Faces().nodes)
   {
     if (isPlaced(node) && !std::binary_search(choice.Held.begin(), choice.Held.end(), node))
@@ -215,18 +223,13 @@ void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& 
   {
     return;
   }
-  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+  for (const auto& [node, to] : placesOf(choice, targets))
   {
-    moving[choice.Moving[i]] = targets.row(static_cast<Index>(i));
+    moving[node] = to;
   }
   Choice::Result all = choice;
-  all.Moving.clear();
-  Points places(static_cast<Index>(moving.size()), 3);
-  for (const auto& [node, to] : moving)
-  {
-    places.row(static_cast<Index>(all.Moving.size())) = to;
-    all.Moving.push_back(node);
-  }
+  Points places;
+  setMoving(moving, all, places);
   const Surroundings::Result around = this->Around.Spread(model, all, places, options, monitor);
   for (const Index node : model.Faces().nodes)
   {

@@ -259,8 +259,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   const bool byPoints = filter->Motion == MOTION_HANDLES || filter->Motion == MOTION_LATTICE;
   if (byPoints && !this->Choice.Moving.empty())
   {
-    given =
-      this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
+    given = this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
   }
   monitor.check();
 

@@ -2,6 +2,7 @@
 #include "Private/Displace/Zones.h"
 
 #include "Private/Blocks/MergedBlocks.h"
+#include "Private/Displace/Choice.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
 
@@ -23,20 +24,6 @@ using Zones::Part;
 using Flags = std::vector<std::uint8_t>;
 
 /// Flags of the tuples with a component other than 0; a NaN marks nothing.
-Flags marked(vtkDataArray* array)
-{
-  Flags flags(array->GetNumberOfTuples(), 0);
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
-    for (int j = 0; j < array->GetNumberOfComponents(); ++j)
-    {
-      const double value = array->GetComponent(i, j);
-      flags[i] = flags[i] || value < 0 || value > 0;
-    }
-  }
-  return flags;
-}
-
 void takeNodes(const morph::Mesh& mesh, Flags isNode, Part& part)
 {
   part.IsNode = std::move(isNode);
@@ -105,11 +92,11 @@ void takeNamed(
   vtkDataArray* ofCells = grid->GetCellData()->GetArray(part.Name.c_str());
   if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
   {
-    takeCells(mesh, marked(ofCells), part);
+    takeCells(mesh, Choice::Marked(ofCells), part);
   }
   else if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
   {
-    takeNodes(mesh, marked(ofPoints), part);
+    takeNodes(mesh, Choice::Marked(ofPoints), part);
   }
   else if (!takeBlock(mesh, blocks, part))
   {

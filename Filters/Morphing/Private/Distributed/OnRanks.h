@@ -47,7 +47,7 @@ public:
     /// the relative steps instead of Boundary and Fraction, or null; all processes call
     /// Motion::Boundary for the same steps
     const Session::Motion* Series;
-    int Precision;             ///< of the points, see MorphOutput::Write()
+    int Precision; ///< of the points, see MorphOutput::Write()
     MorphOutput::Measures Measures;
     bool FeatureLines;
     vtkUnstructuredGrid* Output;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/InversionFree.h"
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
+#include "Distributed/Patches.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
@@ -222,8 +224,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const auto& ranks = whole.ranks();
   const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
   const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
-    match.Targets,
-    [&] { return this->Make(options); } };
+    match.Targets, [&] { return this->Make(options); } };
   StepResult result;
   result.BoundaryInverted = validity.RequireFeasible();
 
@@ -242,6 +243,15 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
   const auto start = Clock::now();
   const morph::EvaluateReport report = method.evaluate(match.Targets, result.Moved, evaluating);
+  const bool isInversionFree = dynamic_cast<const morph::distributed::InversionFree*>(&method);
+  const morph::Index followers =
+    ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
+  if (isInversionFree && followers > 0)
+  {
+    // The method has moved the corners; nodes between them have followed.
+    morph::distributed::repairInverted(
+      whole, this->Mesh.Whole().mesh().points, partition, result.Moved, evaluating);
+  }
   double seconds = secondsSince(start);
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
   ranks.together(
@@ -262,9 +272,9 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     {
       seconds = secondsSince(start);
     }
-    const double minimum = ranks.minimum(
-      morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
-        .fixedMinimum(result.Moved));
+    const double minimum =
+      ranks.minimum(morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
+                      .fixedMinimum(result.Moved));
     result.BoundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
@@ -393,9 +403,8 @@ std::string Morphing::Run(
   return isFirst ? step->Valid.Error : "";
 }
 
-void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
-  vtkDataArray* gradient, const Session::Options& options, vtkDoubleArray* boundaryGradient,
-  morph::Monitor& monitor)
+void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+  const Session::Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
   own.Take(rest, options, monitor);

@@ -43,8 +43,7 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
   results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
   if (task.Measures.Certify)
   {
-    const morph::CertificateReport report =
-      Certify(mesh, task.Output, mesh.Unmeasured(), monitor);
+    const morph::CertificateReport report = Certify(mesh, task.Output, mesh.Unmeasured(), monitor);
     Quality::Write(report, task.Output);
     results.Set(report);
   }

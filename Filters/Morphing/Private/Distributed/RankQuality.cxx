@@ -13,8 +13,7 @@ namespace morph::filters::RankQuality
 {
 using morph::distributed::DistributedMesh;
 
-Measured Measure(
-  const DistributedMesh& mesh, const morph::Points& points, morph::Monitor& monitor)
+Measured Measure(const DistributedMesh& mesh, const morph::Points& points, morph::Monitor& monitor)
 {
   std::vector<std::uint8_t> skip = mesh.isGhost();
   for (std::size_t c = 0; c < skip.size(); ++c)
@@ -25,8 +24,7 @@ Measured Measure(
   Measured result;
   mesh.ranks().together(
     [&] {
-      result.Mine =
-        morph::measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor);
+      result.Mine = morph::measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor);
     });
   result.Whole = morph::distributed::reduce(mesh.ranks(), result.Mine, mesh.cellIds());
   return result;
@@ -82,8 +80,7 @@ std::string Found(
   lines = mesh.ranks().gather(lines);
   keepWorst();
   std::ostringstream text;
-  text << measured.Bad()
-       << " cells are inverted or degenerate. The worst, with their centres:";
+  text << measured.Bad() << " cells are inverted or degenerate. The worst, with their centres:";
   for (const Line& line : lines)
   {
     text << "\n  cell " << line.id << " at (" << line.centre[0] << ", " << line.centre[1] << ", "

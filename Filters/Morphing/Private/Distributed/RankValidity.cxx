@@ -105,8 +105,8 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   const morph::Points& rest = this->Mesh.mesh().points;
   const auto inverted = [&](const morph::Points& points)
   {
-    return RankQuality::GatherIds(this->Mesh,
-      morph::invertedCells(RankQuality::Measure(this->Mesh, points, monitor).Mine));
+    return RankQuality::GatherIds(
+      this->Mesh, morph::invertedCells(RankQuality::Measure(this->Mesh, points, monitor).Mine));
   };
   const std::vector<morph::Index> atRest = inverted(rest);
   if (!atRest.empty())
@@ -136,8 +136,7 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
     made.report = method->evaluate(path(time), made.moved, second);
     if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
     {
-      morph::distributed::repairInverted(
-        valid, this->Reference, this->Partition, made.moved, part);
+      morph::distributed::repairInverted(valid, this->Reference, this->Partition, made.moved, part);
     }
     made.inverted = inverted(made.moved);
     return made;
@@ -197,8 +196,10 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
     if (report.tooLarge > 0)
     {
       return this->Remaining(moved,
-        "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would have " +
-          std::to_string(report.tooLarge) + " cells of " + std::to_string(this->Mesh.volumeCells()) +
+        "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would "
+        "have " +
+          std::to_string(report.tooLarge) + " cells of " +
+          std::to_string(this->Mesh.volumeCells()) +
           "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
           "or run on one rank.",
         monitor);
@@ -211,8 +212,7 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
   }
   if (mode == vtkMorphAlgorithm::VALIDITY_REFUSE)
   {
-    throw morph::Error("The morph is refused: " +
-                       RankQuality::Found(this->Mesh, measured, moved) +
+    throw morph::Error("The morph is refused: " + RankQuality::Found(this->Mesh, measured, moved) +
                        "Set Validity to Repair or Sub Step, or move the boundary less.");
   }
   if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)

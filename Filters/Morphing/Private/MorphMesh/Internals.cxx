@@ -31,7 +31,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <tuple>
 
 namespace filters = morph::filters;
@@ -126,8 +125,7 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     from->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
   const bool byPoints =
     from->Displacement == DISPLACEMENT_HANDLES || from->Displacement == DISPLACEMENT_LATTICE;
-  const int ofSurfaces = !this->Surfaces.empty() || byTarget
-                           ? vtkBoundaryDisplacement::MOVE_PATCHES
+  const int ofSurfaces = !this->Surfaces.empty() || byTarget ? vtkBoundaryDisplacement::MOVE_PATCHES
                          : selectionMoves ? vtkBoundaryDisplacement::MOVE_SELECTION
                          : byPoints       ? vtkBoundaryDisplacement::MOVE_EVERYTHING
                                           : vtkBoundaryDisplacement::MOVE_NOTHING;
@@ -210,9 +208,7 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
   to->SetBoundaryIdArray(nullptr);
   to->SetDisplacementArray(nullptr);
   to->SetScaleFactor(1);
-  to->SetValidity(from->Live             ? vtkMorphAlgorithm::VALIDITY_NONE
-                  : this->CannotRepair() ? vtkMorphAlgorithm::VALIDITY_REPORT
-                                         : from->Validity);
+  to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
   to->SetQuality(from->Quality);
   to->SetFeatureLines(from->FeatureLines);
   to->SetNumberOfSteps(from->NumberOfSteps);
@@ -237,11 +233,6 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
   {
     monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP and LBWARP alone.");
   }
-}
-
-bool vtkMorphMesh::vtkInternals::CannotRepair() const
-{
-  return this->IsDistributed && this->Filter->Validity == vtkMorphAlgorithm::VALIDITY_REPAIR;
 }
 
 void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
@@ -374,15 +365,7 @@ std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstru
   surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
   this->TakeResults();
   this->WriteDistances(output);
-  if (!follower.Errors().empty())
-  {
-    return follower.Errors().front();
-  }
-  const bool isValid = std::string(this->Results.Text("MorphStatus")) != "Inverted";
-  return isValid || !this->CannotRepair() || !filters::Ranks::IsFirst()
-           ? std::string()
-           : "The morphed mesh has inverted cells, and Validity Repair needs one MPI rank, while "
-             "the mesh is distributed over several. Move the surfaces less, or run on one.";
+  return follower.Errors().empty() ? std::string() : follower.Errors().front();
 }
 
 void vtkMorphMesh::vtkInternals::TakeResults()

@@ -29,8 +29,7 @@ class vtkPolyData;
 class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
 {
 public:
-  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces,
-    SoftZones;
+  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces, SoftZones;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
@@ -93,9 +92,6 @@ private:
 
   void ConfigureDisplacement(vtkSelection* selection);
   void ConfigureMorph(morph::Monitor& monitor);
-  /// Validity Repair on several MPI processes: a valid mesh passes, and an inverted one comes with
-  /// an error.
-  bool CannotRepair() const;
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
   vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
