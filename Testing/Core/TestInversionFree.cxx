@@ -442,6 +442,50 @@ TEST(InversionFree, RepairMovesOnlyNodesNearTheInvertedCells)
   EXPECT_GT(far, 100);
 }
 
+TEST(InversionFree, NearOnlyRepairsOrLeavesTheMeshAsItIs)
+{
+  Mesh mesh = meshes::hexesAndPyramids(12, 6, 6);
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
+  meshes::ThreadedMonitor one(1), three(3);
+  InversionFree method, again;
+  method.setNearOnly(true);
+  again.setNearOnly(true);
+  method.prepare(mesh, motions::outerPartition(mesh), one);
+  again.prepare(mesh, motions::outerPartition(mesh), three);
+  Points moved = mesh.points;
+  const Index node = method.partition().free[method.partition().free.size() / 2];
+  moved.row(node) += motions::Row(1.6, 0, 0);
+  ASSERT_FALSE(morph::invertedCells(mesh, moved, orientation, one).empty());
+  Points other = moved;
+  EXPECT_EQ(count(method.repair(moved, one), "Untangled"), 1);
+  EXPECT_TRUE(morph::invertedCells(mesh, moved, orientation, one).empty());
+  again.repair(other, three);
+  EXPECT_TRUE(motions::identical(moved, other));
+
+  // A node of the top past its neighbor there: the boundary is folded.
+  Points spoilt = mesh.points;
+  for (const Index top : method.partition().prescribed)
+  {
+    if ((mesh.points.row(top) - motions::Row(6, 3, 6)).norm() < 1e-9)
+    {
+      spoilt(top, 1) += 1.4;
+    }
+  }
+  const Points before = spoilt;
+  ASSERT_FALSE(morph::invertedCells(mesh, spoilt, orientation, one).empty());
+  EXPECT_EQ(count(method.repair(spoilt, one), "Untangled"), 0);
+  EXPECT_TRUE(motions::identical(spoilt, before));
+  EXPECT_TRUE(one.warnings.empty());
+
+  std::string message;
+  EXPECT_EQ(
+    motions::kindOf([&]
+      { method.evaluate(target(mesh, [](const motions::Row& x) { return x; }), moved, one); },
+      message),
+    morph::Error::Kind::InvalidInput);
+}
+
 TEST(InversionFree, CancelLeavesTheResultUntouched)
 {
   const Mesh mesh = meshes::hexes(5, 5, 5);
