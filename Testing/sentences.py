@@ -63,7 +63,8 @@ def comments(source):
 
 def texts(xml):
     """The texts of the proxies and properties of a file of the plugin."""
-    for attributes, content in re.findall(r"<Documentation([^>]*)>(.*?)</Documentation>", xml, re.S):
+    documentation = r"<Documentation([^>]*)>(.*?)</Documentation>"
+    for attributes, content in re.findall(documentation, xml, re.S):
         yield from re.findall(r'_help="([^"]*)"', attributes)
         yield re.sub(r"<[^>]*>", "", content).strip()
 

@@ -133,8 +133,8 @@ class Comparison:
         print(f"{title}", flush=True)
         for name, run in result.items():
             memory = (run["memoryMost"] - run["memoryBefore"]) * 2 ** 10 / run["cells"]
-            print(f"    {name}: evaluate {run['evaluate']:.3f} s, processor {run['evaluateCpu']:.3f}"
-                  f" s; minimum {run['minimum']:.4f}, mean {run['mean']:.4f},"
+            print(f"    {name}: evaluate {run['evaluate']:.3f} s,"
+                  f" processor {run['evaluateCpu']:.3f} s; minimum {run['minimum']:.4f}, mean {run['mean']:.4f},"
                   f" {run['inverted']:.0f} inverted; {run.get('NewtonSteps', 0):.0f} Newton steps,"
                   f" {run.get('LinearIterations', 0):.0f} linear iterations, KeptLinear"
                   f" {run.get('KeptLinear', 0):.0f}; {memory:.1f} kB a cell", flush=True)

@@ -31,8 +31,8 @@ public:
   /// Cost: messages of the size of the interfaces, and a directory of 40 bytes a node.
   DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
 
-  /// The same mesh with its nodes elsewhere: what follows from cells, bodies, their orientation, the
-  /// outer boundary and the size stay those of this one. `points`: #nodes x 3, ghosts as their
+  /// The same mesh with its nodes elsewhere: what follows from cells, bodies, their orientation,
+  /// the outer boundary and the size stay those of this one. `points`: #nodes x 3, ghosts as their
   /// owners have them. Not collective.
   DistributedMesh at(Points points) const;
 

@@ -3,9 +3,9 @@
 
 Run: pvpython openfoam_ring.py
 Prints, for each solver and diffusivity, the largest lean of the wall-normal lines in degrees, the
-relative height of the first cells, and the number of inverted cells. The turn has equal steps, since
-the terms that set displacementSBRStress apart come from the step before. A solver may fail on a
-mesh that it has inverted. Needs OpenFOAM's blockMesh and moveDynamicMesh.
+relative height of the first cells, and the number of inverted cells. The turn has equal steps,
+since the terms that set displacementSBRStress apart come from the step before. A solver may fail on
+a mesh that it has inverted. Needs OpenFOAM's blockMesh and moveDynamicMesh.
 """
 import os
 import pathlib
@@ -30,7 +30,8 @@ CONTROL = """application moveDynamicMesh; startFrom startTime; startTime 0; stop
 endTime %(steps)d; deltaT 1; writeControl timeStep; writeInterval %(steps)d; writeFormat ascii;
 writePrecision 17; libs ("libfvMotionSolvers.so");"""
 SCHEMES = """ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
-divSchemes { default Gauss linear; } laplacianSchemes { default Gauss linear limited corrected 0.33; }
+divSchemes { default Gauss linear; }
+laplacianSchemes { default Gauss linear limited corrected 0.33; }
 interpolationSchemes { default linear; } snGradSchemes { default limited corrected 0.33; }"""
 SOLUTION = """solvers { "cellDisplacement.*"
 { solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; } }
@@ -44,7 +45,8 @@ MOVING = {"pointVectorField": "type solidBodyMotionDisplacement; value uniform (
 
 
 def blocks(points):
-    """blockMeshDict: a block for each interval of the angle. `points`: #z x #around x #radii x 3."""
+    """blockMeshDict: a block for each interval of the angle. `points`: #z x #around x #radii
+    x 3."""
     high, around, radii = points.shape[:3]
     corners = points[[0, -1]][:, :, [0, -1]]
     a = np.arange(corners.size // 3).reshape(2, around, 2)  # k, j, inner or outer
@@ -115,7 +117,8 @@ def moved(solver, diffusivity, steps, rest):
               f" motionSolver {solver}; {solver}Coeffs {{ diffusivity {diffusivity}; }}")
         for field, kind in (("pointDisplacement", "pointVectorField"),
                             ("cellDisplacement", "volVectorField")):
-            write(case, f"0/{field}", kind, FIELD % MOVING[kind].replace("%.17g", repr(ring.ANGLE / steps)))
+            motion = MOVING[kind].replace("%.17g", repr(ring.ANGLE / steps))
+            write(case, f"0/{field}", kind, FIELD % motion)
         call(case, "blockMesh")
         before = read_points(case / "constant/polyMesh/points")
         call(case, "moveDynamicMesh")
@@ -134,13 +137,13 @@ def main():
         try:
             result = moved(solver, diffusivity, steps, rest)
         except RuntimeError as error:
-            step = re.findall(r"\nTime = (\d+)", str(error))
-            print(f"| {solver}, {steps} steps | {diffusivity} | fails at step {step[-1] if step else 0} | | |",
+            step = ["0", *re.findall(r"\nTime = (\d+)", str(error))][-1]
+            print(f"| {solver}, {steps} steps | {diffusivity} | fails at step {step} | | |",
                   flush=True)
             continue
         lean, height = ring.figures(rest, result)
-        print(f"| {solver}, {steps} steps | {diffusivity} | {lean:.2f} | {height:.4f} | {inverted(result)} |",
-              flush=True)
+        print(f"| {solver}, {steps} steps | {diffusivity} | {lean:.2f} | {height:.4f} "
+              f"| {inverted(result)} |", flush=True)
 
 
 if __name__ == "__main__":

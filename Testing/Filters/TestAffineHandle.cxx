@@ -295,8 +295,8 @@ TEST(AffineHandleOf, PlanesThatFollowIsUsedUnlessTheyAreMadeToSlide)
 
 TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
 {
-  // The end of a ring moves along its axis, which its walls follow along themselves; and turns about
-  // it, which the walls follow along circles.
+  // The end of a ring moves along its axis, which its walls follow along themselves; and turns
+  // about it, which the walls follow along circles.
   auto grid = grids::make(meshes::ring(24, 3, 0.2));
   auto filter = displaced::make(grid);
   filter->SetMovingToPatches();

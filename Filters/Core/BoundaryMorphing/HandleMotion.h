@@ -36,8 +36,9 @@ public:
   static constexpr Index MostHandles = 2000;
 
   /// Throws Error for no handle, more than MostHandles, numbers that are not finite or beyond 1e50,
-  /// and a negative radius. Throws it too for handles in the same place (1e-10 of their extent), and
-  /// where rounding or overlapping radii leave no solution. Cost: n^3 2/3 multiplications and additions; 8 n^2 bytes.
+  /// and a negative radius. Throws it too for handles in the same place (1e-10 of their extent),
+  /// and where rounding or overlapping radii leave no solution. Cost: n^3 2/3 multiplications and
+  /// additions; 8 n^2 bytes.
   explicit HandleMotion(const std::vector<Handle>& handles);
 
   /// The displacements at `places`, #places x 3. Exactly 0 outside of all radii where each handle

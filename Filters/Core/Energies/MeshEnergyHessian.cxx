@@ -229,8 +229,8 @@ void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
 
 namespace
 {
-/// Adds the blocks of a piece of the batches to the rows of the matrix. A row adds its blocks in the
-/// order of the cells, whatever the pieces.
+/// Adds the blocks of a piece of the batches to the rows of the matrix. A row adds its blocks in
+/// the order of the cells, whatever the pieces.
 class BlockGatherer
 {
 public:

@@ -25,10 +25,10 @@ public:
   }
 
   /// Lowers the regularisation in at most `stages` stages, until no tetrahedron is inverted and the
-  /// energy has settled. Gives up after ten successive stages without progress, or three that have not
-  /// lowered their energy by 1 % either, which soon ends it if the boundary admits no valid mesh.
-  /// Progress means fewer inverted tetrahedra, or a minimum determinant raised by 5 %. Returns
-  /// whether all tetrahedra are positive.
+  /// energy has settled. Gives up after ten successive stages without progress, or three that have
+  /// not lowered their energy by 1 % either, which soon ends it if the boundary admits no valid
+  /// mesh. Progress means fewer inverted tetrahedra, or a minimum determinant raised by 5 %.
+  /// Returns whether all tetrahedra are positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
   /// Improves a valid mesh by at most `steps` steps of the minimiser; the mesh stays valid.
   void improve(Points& points, int steps, Monitor& monitor);

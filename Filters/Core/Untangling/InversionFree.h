@@ -85,8 +85,8 @@ public:
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
   /// prescribed nodes in place. Where its inverted cells can be untangled by the nodes near them,
   /// no other node moves; then those within ten rings raise the minimum there. A valid mesh whose
-  /// minimum scaled Jacobian is higher than the repaired one's stays. Quadratic cells that are inverted
-  /// between their corners are untangled last (HigherOrderUntangling.h).
+  /// minimum scaled Jacobian is higher than the repaired one's stays. Quadratic cells that are
+  /// inverted between their corners are untangled last (HigherOrderUntangling.h).
   EvaluateReport repair(Points& moved, Monitor& monitor) const;
 
 protected:

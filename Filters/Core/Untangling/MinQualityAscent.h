@@ -26,10 +26,10 @@ struct AscentEffort
 /// Raises the minimum scaled Jacobian over what free nodes can change in a mesh that is valid
 /// there, and stays so. Nodes within five rings of the worst cells (three in a mesh of tetrahedra)
 /// move to lower their WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners
-/// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a round
-/// gains little or has converged. It ends after the highest power, or at `goal`; a mesh that has
-/// reached that, see hasReached(), is left as it is. `points`: #nodes x 3, start and best result.
-/// Cost: a pass over the cells a round, and the minimisation near the worst cells.
+/// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a
+/// round gains little or has converged. It ends after the highest power, or at `goal`; a mesh that
+/// has reached that, see hasReached(), is left as it is. `points`: #nodes x 3, start and best
+/// result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
 AscentEffort raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 

@@ -33,9 +33,9 @@ public:
     bool valid = false;         ///< all tetrahedra are positive
     std::vector<Index> onFolds; ///< inverted cells on folded faces, ascending
   };
-  /// Untangles `points`, #nodes x 3, start and result. `targets`: makes those of all cells. They are
-  /// as large as what `energy` keeps of them, so they are made when needed and not held besides.
-  /// `energy` may end with other targets.
+  /// Untangles `points`, #nodes x 3, start and result. `targets`: makes those of all cells. They
+  /// are as large as what `energy` keeps of them, so they are made when needed and not held
+  /// besides. `energy` may end with other targets.
   Result run(const std::function<TargetMatrices()>& targets, MeshEnergy& energy,
     FoldoverContinuation& stages, Points& points, Monitor& monitor) const;
 

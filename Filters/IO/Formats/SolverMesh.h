@@ -46,9 +46,9 @@ struct SolverMesh
   NamedSet& set(const std::string& name);
 };
 
-/// The nodes and cells at these positions, in the order given, and what is left of each set, also of
-/// those of which nothing is left. `nodes`: ascending; they include those of the cells. Cost: one
-/// pass over the nodes, the cells and the sets' members.
+/// The nodes and cells at these positions, in the order given, and what is left of each set, also
+/// of those of which nothing is left. `nodes`: ascending; they include those of the cells. Cost:
+/// one pass over the nodes, the cells and the sets' members.
 SolverMesh partOf(
   const SolverMesh& mesh, const std::vector<Index>& nodes, const std::vector<Index>& cells);
 
