@@ -134,8 +134,9 @@ class Comparison:
         for name, run in result.items():
             memory = (run["memoryMost"] - run["memoryBefore"]) * 2 ** 10 / run["cells"]
             print(f"    {name}: evaluate {run['evaluate']:.3f} s,"
-                  f" processor {run['evaluateCpu']:.3f} s; minimum {run['minimum']:.4f}, mean {run['mean']:.4f},"
-                  f" {run['inverted']:.0f} inverted; {run.get('NewtonSteps', 0):.0f} Newton steps,"
+                  f" processor {run['evaluateCpu']:.3f} s; minimum {run['minimum']:.4f},"
+                  f" mean {run['mean']:.4f}, {run['inverted']:.0f} inverted;"
+                  f" {run.get('NewtonSteps', 0):.0f} Newton steps,"
                   f" {run.get('LinearIterations', 0):.0f} linear iterations, KeptLinear"
                   f" {run.get('KeptLinear', 0):.0f}; {memory:.1f} kB a cell", flush=True)
 
