@@ -441,6 +441,8 @@ class Cgns(Files):
         for name, code in (("cube.cgns", "d"), ("cube_adf.cgns", "d"), ("cube_single.cgns", "f")):
             with self.subTest(name=name):
                 path, out = self.folder / name, self.folder / "out.cgns"
+                if "adf" in name and "required for parallel" in run(*MOVE, path, out).stderr:
+                    self.skipTest("this library of CGNS, made for MPI, writes no ADF")
                 rounding = self.rounding(self.morph(path, out))
                 exact = self.exact(path)
                 self.assertEqual(len(exact) // 3, 64)
