@@ -13,9 +13,8 @@ import unittest
 
 import numpy
 from paraview import servermanager, simple
-from paraview.simple import (Calculator, GhostCellsGenerator, LoadPlugin, PassArrays,
-                             Transform, XMLPartitionedUnstructuredGridReader,
-                             XMLUnstructuredGridReader)
+from paraview.simple import (Calculator, LoadPlugin, PassArrays, Transform,
+                             XMLPartitionedUnstructuredGridReader, XMLUnstructuredGridReader)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, vtkUnstructuredGrid
@@ -136,8 +135,10 @@ def job(folder):
     for case in cases:
         grid = XMLPartitionedUnstructuredGridReader(FileName=[case["file"]])
         if case.get("ghosts"):
-            grid = GhostCellsGenerator(Input=grid, BuildIfRequired=0,
-                                       MinimumNumberOfGhosts=case["ghosts"])
+            # ParaView 6.1 has another name for it.
+            ghost_cells = getattr(simple, "GhostCellsGenerator", None) or simple.GhostCells
+            grid = ghost_cells(Input=grid, BuildIfRequired=0,
+                               MinimumNumberOfGhosts=case["ghosts"])
         source = grid
         if "elsewhere" in case:
             source = XMLPartitionedUnstructuredGridReader(FileName=[case["elsewhere"]])
