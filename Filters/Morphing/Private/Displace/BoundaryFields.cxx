@@ -68,7 +68,7 @@ bool BoundaryFields::Give(
   for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
   {
     const morph::Index node = model.NodeOfPoint()[i];
-    Eigen::Matrix<double, 1, 4> fields;
+    Eigen::Matrix<double, 1, 4> fields(0, 0, 0, 0); // GCC 14 does not see that it is filled
     this->Fields->GetTypedTuple(static_cast<vtkIdType>(i), fields.data());
     const Eigen::RowVector3d place =
       model.Points().row(node) + morph::affineDisplacement(motion, fields);
