@@ -20,10 +20,10 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import producer  # noqa: E402  (needs the path above)
 import Models  # noqa: E402
 from Models.model_mesh import add_array  # noqa: E402
-from built_plugin import load_plugin  # noqa: E402
+from built_plugin import add_plugin, load_plugin  # noqa: E402
 from models_folds import MovedSurfaces, output  # noqa: E402
 from models_picture import Look, Panel, paint, save_picture  # noqa: E402
-from picture_arguments import add_plugin, parse, picture_parser  # noqa: E402
+from picture_arguments import parse, picture_parser  # noqa: E402
 
 RED = (214, 39, 40)
 

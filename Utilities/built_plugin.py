@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Loads the plugin into ParaView's Python."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -8,6 +9,12 @@ from paraview import simple
 
 #: Not all of build/paraview: tests install another, perhaps older, plugin there.
 BUILT = Path(__file__).resolve().parent.parent / "build" / "paraview" / "lib"
+
+
+def add_plugin(parser):
+    """Adds --plugin, whose value load_plugin() takes, to an argparse.ArgumentParser."""
+    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
+                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
 
 
 def load_plugin(given):

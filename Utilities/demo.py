@@ -24,7 +24,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from built_plugin import load_plugin  # noqa: E402  (needs the path above)
+from built_plugin import add_plugin, load_plugin  # noqa: E402  (needs the path above)
 from demo_picture import Panel, producer, save_picture  # noqa: E402
 import Models  # noqa: E402
 from Models.model_mesh import vtk_points  # noqa: E402
@@ -187,8 +187,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--output", type=Path, default=Path("demo-output"),
                         help="directory to write to (default: %(default)s)")
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    add_plugin(parser)
     parser.add_argument("--steps", type=int, default=20,
                         help="steps from the initial to the final shape (default: %(default)s)")
     parser.add_argument("--no-picture", action="store_true", help="do not render")

@@ -20,8 +20,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, save_picture  # noqa: E402  (needs the path above)
 from inversion_free_table import CANISTER_OFFSET, Case, morphed, number  # noqa: E402
-from built_plugin import load_plugin  # noqa: E402
-from picture_arguments import add_plugin, parse, picture_parser  # noqa: E402
+from built_plugin import add_plugin, load_plugin  # noqa: E402
+from picture_arguments import parse, picture_parser  # noqa: E402
 
 CASE = Case("canister", "hex", True, 1.2)
 

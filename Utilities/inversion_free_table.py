@@ -8,7 +8,6 @@ Prints the table of Documentation/InversionFree.md: minimum scaled Jacobian, and
 number of inverted cells where there are any."""
 
 import argparse
-import os
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -19,7 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import producer  # noqa: E402  (needs the path above)
 import Models  # noqa: E402
-from built_plugin import load_plugin  # noqa: E402
+from built_plugin import add_plugin, load_plugin  # noqa: E402
 from models_folds import output  # noqa: E402
 
 METHODS = ("MorphFEMWARP", "MorphInversionFree")
@@ -89,8 +88,7 @@ def quality(grid):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    add_plugin(parser)
     return parser.parse_args()
 
 

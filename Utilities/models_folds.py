@@ -12,7 +12,6 @@ which a boundary face is folded, and how many are at S_F. A face is folded where
 turns against that corner on the exact surfaces."""
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -23,7 +22,7 @@ from vtkmodules.vtkCommonCore import vtkLogger
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from built_plugin import load_plugin  # noqa: E402  (needs the path above)
+from built_plugin import add_plugin, load_plugin  # noqa: E402  (needs the path above)
 from demo_picture import producer  # noqa: E402
 import Models  # noqa: E402
 
@@ -134,8 +133,7 @@ def parse_arguments():
     parser.add_argument("models", nargs="*", metavar="MODEL", help="default: all four")
     parser.add_argument("--size", choices=("small", "paper"), default="small",
                         help="default: %(default)s")
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    add_plugin(parser)
     arguments = parser.parse_args()
     known = Models.NAMES + Models.VARIANTS
     unknown = [name for name in arguments.models if name not in known]

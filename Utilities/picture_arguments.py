@@ -16,11 +16,6 @@ def picture_parser(description):
     return parser
 
 
-def add_plugin(parser):
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
-
-
 def parse(parser):
     """The arguments, with their folder made. Ends the program where nothing can be drawn."""
     arguments = parser.parse_args()

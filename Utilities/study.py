@@ -26,7 +26,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 import study_scaling  # noqa: E402
 import study_timing  # noqa: E402
-from built_plugin import load_plugin  # noqa: E402
+from built_plugin import add_plugin, load_plugin  # noqa: E402
 from study_boundary import read_boundaries, times  # noqa: E402
 from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPPINGS, STEPS  # noqa: E402
@@ -96,8 +96,7 @@ def parse_arguments():
     parser.add_argument("--quick", action="store_true",
                         help="a small bore, 4 steps, one brick: in a minute")
     parser.add_argument("--report", action="store_true", help="run nothing")
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    add_plugin(parser)
     arguments = parser.parse_args()
     if arguments.klu is None:
         built = ROOT / "build" / "paraview" / "bin" / "benchmark-mesh"

@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 from demo_picture import producer  # noqa: E402
-from built_plugin import load_plugin  # noqa: E402
+from built_plugin import add_plugin, load_plugin  # noqa: E402
 from study_boundary import Boundaries, exact_positions, quality_limit, times  # noqa: E402
 from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPS  # noqa: E402
@@ -195,8 +195,7 @@ def check_smoothing():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--plugin", default=os.environ.get("MESHMORPHING_PLUGIN"),
-                        help="default: $MESHMORPHING_PLUGIN, or the one under build/paraview")
+    add_plugin(parser)
     load_plugin(parser.parse_args().plugin)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     check_steppings()
