@@ -5,7 +5,9 @@
 #include "Pieces.h"
 #include "TestGrids.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
+#include <vtkCommand.h>
 #include <vtkDummyController.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMultiProcessController.h>
@@ -61,6 +63,17 @@ void alone(const std::function<void()>& work)
   vtkMultiProcessController::SetGlobalController(one);
   work();
   vtkMultiProcessController::SetGlobalController(all);
+}
+
+void abortOnLastRank(const morph::distributed::Ranks& ranks, vtkAlgorithm* filter)
+{
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  if (ranks.rank() == ranks.count() - 1)
+  {
+    filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  }
 }
 
 double distance(

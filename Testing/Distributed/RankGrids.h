@@ -4,6 +4,7 @@
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
 
+#include <vtkAlgorithm.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -21,6 +22,9 @@ std::vector<morph::Index> globalIds(vtkDataSet* data, const char* name);
 
 /// Calls `work` as a program of one process would.
 void alone(const std::function<void()>& work);
+
+/// Aborts the filter on the last rank alone, as soon as it reports progress there.
+void abortOnLastRank(const morph::distributed::Ranks& ranks, vtkAlgorithm* filter);
 
 /// The largest distance, on any rank, of this rank's points from those of the whole mesh with the
 /// same ids.

@@ -7,8 +7,6 @@
 #include "TestGrids.h"
 
 #include <vtkAlgorithm.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkNew.h>
 #include <vtkSmoothingMorph.h>
@@ -61,13 +59,7 @@ TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
   vtkNew<vtkFEMWarpMorph> filter;
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  if (ranks.rank() == ranks.count() - 1)
-  {
-    filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  }
+  rank_grids::abortOnLastRank(ranks, filter);
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());

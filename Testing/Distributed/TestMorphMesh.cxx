@@ -7,7 +7,6 @@
 #include "TestGrids.h"
 
 #include <vtkBoundaryDisplacement.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
@@ -264,13 +263,7 @@ TEST(RankMorphMesh, AnAbortOnOneRankEndsAllWithoutAMessage)
   vtkNew<vtkMorphMesh> filter;
   turnAndShift(filter);
   filter->SetInputData(piece);
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  if (ranks.rank() == ranks.count() - 1)
-  {
-    filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  }
+  rank_grids::abortOnLastRank(ranks, filter);
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());

@@ -6,12 +6,11 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
+#include "Private/Morph/MorphOutput.h"
 
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <limits>
-#include <string>
 #include <utility>
 
 namespace morph::filters::RankOutput
@@ -24,20 +23,8 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
 {
   const auto& ranks = mesh.Ranks();
   const morph::Quality whole = morph::distributed::reduce(ranks, mine, mesh.Whole().cellIds());
-  const morph::Index bad = whole.inverted + whole.degenerate;
-  std::string status = step.Valid.Status;
-  double largestValidStep = step.Valid.LargestValidStep;
-  if (status != "Inverted" && bad > 0)
-  {
-    // The mesh in double precision is valid, and what is written is not.
-    status = "Inverted";
-    largestValidStep = std::numeric_limits<double>::quiet_NaN();
-    if (ranks.rank() == 0)
-    {
-      monitor.warn("Rounding to single precision inverts " + std::to_string(bad) +
-                   " cells. Set OutputPointsPrecision to double.");
-    }
-  }
+  MorphOutput::SetStatus(
+    step, whole.inverted + whole.degenerate, results, ranks.rank() == 0 ? &monitor : nullptr);
   Quality::Write(mine, task.Output);
   results.Set(whole);
   results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
@@ -47,8 +34,6 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
     Quality::Write(report, task.Output);
     results.Set(report);
   }
-  results.SetText("MorphStatus", status);
-  results.SetNumber("LargestValidStep", largestValidStep);
 }
 }
 
@@ -112,12 +97,6 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const Step
   results.SetInteger("SurfaceInvertedCells", ranks.sum(surfaceInverted));
   mesh.WriteGlobalIds(task.BadCells);
   mesh.WriteGlobalIds(task.Surface);
-  results.SetInteger("BoundaryInvertedCells", step.BoundaryInverted);
-  results.SetInteger("SubSteps", step.Valid.SubSteps);
-  results.SetInteger("SolverIterations", step.Iterations);
-  results.SetInteger("PrescribedPoints", step.Prescribed);
-  results.SetInteger("UnmatchedPoints", step.Unmatched);
-  results.SetCounts(step.Statistics);
-  results.Write(task.Output);
+  MorphOutput::WriteCounts(step, results, task.Output);
 }
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace morph::filters
@@ -122,7 +121,7 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   limits.attempts = this->Options.MaximumSubSteps;
   if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
   {
-    limits.failures = 6; // as on one process
+    limits.failures = Validity::RepairFailures;
   }
   limits.forbidden = [&](double time) { return this->ForbiddenBy(path(time), monitor); };
   const auto attempt = [&](const morph::Points& from, double time, morph::Monitor& part)
@@ -143,27 +142,8 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   };
   const morph::SubStepResult result = morph::takeSubSteps(rest, limits, attempt, monitor);
   moved = result.moved;
-  Validity::Outcome outcome;
-  outcome.Status = "SubStepped";
-  outcome.LargestValidStep = result.reached;
-  outcome.SubSteps = result.attempts;
-  if (result.reached < 1)
-  {
-    std::ostringstream text;
-    text << "No valid mesh was found for the whole motion: " << result.attempts
-         << " steps came as far as " << result.reached
-         << " of it, and the result is the valid mesh there. "
-         << (result.isForbidden ? "The boundary then leaves no room to "
-                                : "The next step inverted ")
-         << result.inverted.size() << " cells: cell ids " << morph::listIds(result.inverted)
-         << (result.isForbidden
-                ? ". Mend the boundary there, move it less, or give it another path by steps of "
-                  "its own."
-                : ". Move the boundary less, or refine the mesh there.");
-    outcome.Status = "Partial";
-    outcome.Error = text.str();
-  }
-  return outcome;
+  return Validity::OfSubSteps(
+    result, "leaves", ": cell ids " + morph::listIds(result.inverted) + ". ");
 }
 
 Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const

@@ -32,17 +32,7 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   const morph::Quality quality =
     known ? step.Valid.Measured
           : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
-  std::string status = step.Valid.Status;
-  double largestValidStep = step.Valid.LargestValidStep;
-  if (status != "Inverted" && quality.inverted + quality.degenerate > 0)
-  {
-    // The mesh in double precision is valid, and what is written is not.
-    status = "Inverted";
-    largestValidStep = std::numeric_limits<double>::quiet_NaN();
-    monitor.warn("Rounding to single precision inverts " +
-                 std::to_string(quality.inverted + quality.degenerate) +
-                 " cells. Set OutputPointsPrecision to double.");
-  }
+  SetStatus(step, quality.inverted + quality.degenerate, results, &monitor);
   Quality::Write(quality, output);
   results.Set(quality);
   results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
@@ -57,8 +47,6 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   BadCells::Extract(quality, output, badCells);
   results.SetInteger(
     "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
-  results.SetText("MorphStatus", status);
-  results.SetNumber("LargestValidStep", largestValidStep);
 }
 
 /// Measures the cells behind the outer faces alone.
@@ -89,6 +77,24 @@ void Write(const Session& session, const StepResult& step, int precision, Measur
     badCells->Initialize();
     measureSurface(session, results, output, surface, monitor);
   }
+  WriteCounts(step, results, output);
+}
+
+void SetStatus(const StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor)
+{
+  const bool isRounded = step.Valid.Status != "Inverted" && bad > 0;
+  if (isRounded && monitor)
+  {
+    monitor->warn("Rounding to single precision inverts " + std::to_string(bad) +
+                  " cells. Set OutputPointsPrecision to double.");
+  }
+  results.SetText("MorphStatus", isRounded ? "Inverted" : step.Valid.Status);
+  results.SetNumber("LargestValidStep",
+    isRounded ? std::numeric_limits<double>::quiet_NaN() : step.Valid.LargestValidStep);
+}
+
+void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output)
+{
   results.SetInteger("BoundaryInvertedCells", step.BoundaryInverted);
   results.SetInteger("SubSteps", step.Valid.SubSteps);
   results.SetInteger("SolverIterations", step.Iterations);

@@ -34,6 +34,12 @@ void Write(const Session& session, const StepResult& step, int precision, Measur
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
 
+/// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
+/// that was valid, both are those of an inverted mesh. `monitor`: is warned of it, or null.
+void SetStatus(const StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor);
+/// Sets the counts of a step and of its method, and adds all results to the output.
+void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output);
+
 /// Writes the undeformed mesh, if `input` is a readable mesh, without a result.
 /// `boundaryInverted`: the number of cells that the boundary itself inverts, if that is the reason.
 void WriteUndeformed(vtkDataObject* input, const char* status, morph::Index boundaryInverted,

@@ -84,6 +84,38 @@ std::string Validity::Found(const morph::Quality& quality, const morph::Points& 
          this->Describe(inverted, quality, points);
 }
 
+Validity::Outcome Validity::OfSubSteps(
+  const morph::SubStepResult& result, const char* room, const std::string& cells)
+{
+  Outcome outcome;
+  outcome.Status = "SubStepped";
+  outcome.LargestValidStep = result.reached;
+  outcome.SubSteps = result.attempts;
+  if (result.reached < 1)
+  {
+    std::ostringstream text;
+    text << "No valid mesh was found for the whole motion: " << result.attempts
+         << " steps came as far as " << result.reached
+         << " of it, and the result is the valid mesh there. ";
+    if (result.isForbidden)
+    {
+      text << "The boundary then " << room << " no room to ";
+    }
+    else
+    {
+      text << "The next step inverted ";
+    }
+    text << result.inverted.size() << " cells" << cells
+         << (result.isForbidden
+                ? "Mend the boundary there, move it less, or give it another path by steps of its "
+                  "own."
+                : "Move the boundary less, or refine the mesh there.");
+    outcome.Status = "Partial";
+    outcome.Error = text.str();
+  }
+  return outcome;
+}
+
 bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
   if (morph::hasPolyhedra(this->Mesh))
@@ -152,40 +184,25 @@ Validity::Outcome Validity::SubStep(const std::function<std::unique_ptr<morph::M
   limits.attempts = this->MaximumSubSteps;
   if (this->IsInversionFree || this->Mode == vtkMorphAlgorithm::VALIDITY_REPAIR)
   {
-    // Its failures take several times as long as its successes.
-    limits.failures = 6;
+    limits.failures = RepairFailures;
   }
   limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
   const morph::SubStepResult result = morph::morphIncrementally(
     this->Mesh, this->Reference, this->Partition, this->Orientation, path, make, limits, monitor);
   moved = result.moved;
-  Outcome outcome;
-  outcome.Status = "SubStepped";
-  outcome.LargestValidStep = result.reached;
-  outcome.SubSteps = result.attempts;
-  if (result.reached < 1)
+  if (result.reached >= 1)
   {
-    std::ostringstream text;
-    text << "No valid mesh was found for the whole motion: " << result.attempts
-         << " steps came as far as " << result.reached
-         << " of it, and the result is the valid mesh there. "
-         << (result.isForbidden ? "The boundary then folds, or leaves no room to "
-                                : "The next step inverted ")
-         << result.inverted.size() << " cells, at the result's places:"
-         << this->Describe(result.inverted,
-              morph::measureQuality(this->Mesh, result.moved, this->Orientation, {}, monitor),
-              result.moved)
-         << (result.isForbidden
-                ? "Mend the boundary there, move it less, or give it another path by steps of its "
-                  "own."
-                : "Move the boundary less, or refine the mesh there.");
-    if (!result.isForbidden && !this->IsInversionFree &&
-        this->Mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
-    {
-      text << " Validity set to Repair often goes all the way where sub-steps stop.";
-    }
-    outcome.Status = "Partial";
-    outcome.Error = text.str();
+    return OfSubSteps(result, "", "");
+  }
+  Outcome outcome = OfSubSteps(result, "folds, or leaves",
+    ", at the result's places:" +
+      this->Describe(result.inverted,
+        morph::measureQuality(this->Mesh, result.moved, this->Orientation, {}, monitor),
+        result.moved));
+  if (!result.isForbidden && !this->IsInversionFree &&
+      this->Mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
+  {
+    outcome.Error += " Validity set to Repair often goes all the way where sub-steps stop.";
   }
   return outcome;
 }

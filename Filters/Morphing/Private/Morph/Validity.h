@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/Topology.h"
+#include "Morpher/IncrementalMorph.h"
 #include "Morpher/Morpher.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -54,6 +55,16 @@ public:
     std::string Error;
     morph::Quality Measured; ///< of the method's own mesh where that is the result; else empty
   };
+
+  /// Sub-steps that repair their meshes end after so many failures. Its failures take several times
+  /// as long as its successes.
+  static constexpr morph::Index RepairFailures = 6;
+
+  /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
+  /// stopped them: `room`, what the boundary does where the next step is forbidden, as "leaves";
+  /// `cells`, a text of where the cells are, to which a sentence may follow.
+  static Outcome OfSubSteps(
+    const morph::SubStepResult& result, const char* room, const std::string& cells);
 
   /// Throws Infeasible if Mode asks for a valid mesh and the targets themselves invert cells; the
   /// message names these cells. To be called before the method is evaluated.
