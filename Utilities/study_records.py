@@ -25,7 +25,9 @@ class Step(NamedTuple):
     degenerate ones included; boundary: of these, the cells that the boundary inverts by itself, at
     a corner whose four nodes are all prescribed; folded: of the others, the cells with a folded
     boundary face. The remaining cells are the method's own. prepare, evaluate: seconds, with so
-    many threads. cells: ids of the first of the method's own."""
+    many threads. cells: ids of the first of the method's own. kept: 1 where the inversion-free
+    morph took Newton steps and returned a linear method's mesh, 0 otherwise, -1 if not recorded.
+    commit: of the sources, empty if not recorded."""
 
     step: int
     t: float
@@ -38,6 +40,8 @@ class Step(NamedTuple):
     evaluate: float
     threads: int
     cells: str
+    kept: int = -1
+    commit: str = ""
 
     @property
     def own(self):
@@ -50,17 +54,26 @@ class Step(NamedTuple):
         return self.own == 0
 
 
+#: Fields of a Step that earlier versions did not write, and what stands for them.
+LATER = Step._fields[-2:]
+
+
 class RowFile:
     """A CSV file that grows by a row at a time.
 
     It is made with its head unless it is there; a last row that an interruption has cut off is
-    dropped. Raises ValueError for a file with another head, as earlier versions wrote it."""
+    dropped. `later`: the last of the fields, which a file of an earlier version lacks; it gets
+    them, empty. Raises ValueError for a file with another head."""
 
-    def __init__(self, path, fields):
+    def __init__(self, path, fields, later=()):
         self._path = path
         text = path.read_text(encoding="utf-8") if path.is_file() else ""
         head = ",".join(fields) + "\n"
         whole = text[:text.rfind("\n") + 1] or head
+        earlier = ",".join(fields[:len(fields) - len(later)]) + "\n"
+        if later and whole.startswith(earlier):
+            empty = "," * len(later) + "\n"
+            whole = head + "".join(line + empty for line in whole.splitlines()[1:])
         if not whole.startswith(head):
             raise ValueError(f"{path} has other columns than {', '.join(fields)}: "
                              "give another folder, or move it away")
@@ -81,27 +94,43 @@ class Records:
     """`path`: of the CSV file; read if it is there, and appended to."""
 
     def __init__(self, path):
-        self._file = RowFile(path, Series._fields + Step._fields)
+        self._file = RowFile(path, Series._fields + Step._fields, LATER)
         self._steps = {}
         for row in self._file.rows():
             self._take(row)
 
     def _take(self, row):
         series = Series(*(row[field] for field in Series._fields))
-        step = Step(*(kind(row[field]) for field, kind in Step.__annotations__.items()))
-        self._steps.setdefault(series, {})[step.step] = step
+        self._put(series, Step(*(kind(row[field] or Step._field_defaults.get(field, ""))
+                                 for field, kind in Step.__annotations__.items())))
+
+    def _put(self, series, step):
+        """The rows of one commit take the place of another's."""
+        found = self._steps.setdefault(series, {})
+        if any(other.commit != step.commit for other in found.values()):
+            found.clear()
+        found[step.step] = step
 
     def add(self, series, step):
         self._file.add(series + step)
-        self._steps.setdefault(series, {})[step.step] = step
+        self._put(series, step)
 
-    def steps(self, series):
-        """Its Steps so far, in order; up to the first that is missing."""
+    def steps(self, series, commit=None):
+        """Its Steps so far, in order; up to the first that is missing. With a commit, only what
+        comes from there."""
         found = self._steps.get(series, {})
         steps = []
-        while len(steps) in found:
+        while len(steps) in found and commit in (None, found[len(steps)].commit):
             steps.append(found[len(steps)])
         return steps
+
+    def commits(self):
+        """{commit: how many series come from it}."""
+        found = {}
+        for steps in self._steps.values():
+            one = next(iter(steps.values())).commit
+            found[one] = found.get(one, 0) + 1
+        return found
 
     def series(self):
         """All series with a result."""

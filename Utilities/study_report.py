@@ -32,7 +32,7 @@ def write_report(folder, records, steps):
     """Writes Results.md and figure-*.png to the folder, as far as there are results.
 
     `steps`: to S_F."""
-    text = ["# Results", "", LEGEND, ""]
+    text = ["# Results", "", LEGEND, "", _commits(records), ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
         found = [series for series in records.series() if series.surfaces == surfaces]
         for model in [name for name in Models.NAMES + Models.VARIANTS
@@ -51,6 +51,13 @@ def write_report(folder, records, steps):
     if (folder / "scaling.csv").is_file():
         text += _scaling_table(folder, scaling.read(folder / "scaling.csv"))
     (folder / "Results.md").write_text("\n".join(text) + "\n", encoding="utf-8")
+
+
+def _commits(records):
+    """Which sources the series come from."""
+    named = [f"{commit or 'not recorded'} ({count})"
+             for commit, count in sorted(records.commits().items())]
+    return f"Commits of the sources, and how many series come from each: {', '.join(named)}."
 
 
 def _table(head, rows):
@@ -117,16 +124,24 @@ def _linear_table(records, steps):
         rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}",
                      _minimum(own[steps]), _survived(own),
                      f"{best} {_minimum(linear[best][steps])}",
-                     f"{lasting} {_survived(linear[lasting])}"])
+                     f"{lasting} {_survived(linear[lasting])}", _kept(own[1:steps + 1])])
     if not rows:
         return []
     return (["## The inversion-free morph beside the linear methods", "",
              "Of the linear methods first that with the fewest inverted cells of its own at S_F, "
-             "and among those the highest minimum scaled Jacobian; then that with the largest t*.",
-             ""]
+             "and among those the highest minimum scaled Jacobian; then that with the largest t*. "
+             "KeptLinear: of the steps to S_F, those that took Newton steps and returned a linear "
+             "method's mesh.", ""]
             + _table(["series, surfaces", "inversion-free at S_F", "t*",
-                      "best linear method at S_F", "longest-lived linear method, t*"],
+                      "best linear method at S_F", "longest-lived linear method, t*",
+                      "KeptLinear"],
                      sorted(rows)))
+
+
+def _kept(steps):
+    """How many of the steps kept a linear method's mesh, as a text."""
+    return ("not recorded" if any(step.kept < 0 for step in steps)
+            else f"{sum(step.kept for step in steps)} of {len(steps)}")
 
 
 def _draw_quality(path, records, model, surfaces, steps):
@@ -200,7 +215,8 @@ def _klu_table(found):
     return (["## The paper's direct solver", "",
              "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, "
              "factorisation and solution (1 thread) in the same run; and that over our step, "
-             "evaluate alone. KLU has 10 minutes a system.", ""]
+             "evaluate alone. KLU has a limit of seconds a system; where it did not end, the row "
+             "has the limit.", ""]
             + _table(["mesh", "method", "prepare", "evaluate", "KLU", "KLU, solution alone",
                       "KLU / evaluate"], rows))
 

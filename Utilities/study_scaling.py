@@ -58,9 +58,9 @@ def seconds(method, rest, boundary, threads):
     return result
 
 
-def run(path, methods, sizes, repeats, threads):
+def run(path, methods, sizes, repeats, threads, deadline):
     """Writes medians of `repeats` runs to the CSV file `path`, and resumes where an earlier call
-    has stopped."""
+    has stopped. Raises OutOfTime between rows."""
     file = RowFile(path, FIELDS)
     done = {(row["motion"], row["method"], int(row["n"])) for row in file.rows()}
     for n in sizes:
@@ -71,6 +71,7 @@ def run(path, methods, sizes, repeats, threads):
         mesh = brick(n)
         rest = producer(mesh.to_vtk())
         for motion, method in missing:
+            deadline.check()
             target = mesh.to_vtk()
             target.SetPoints(vtk_points(moved(mesh.points, motion)))
             boundary = producer(target)

@@ -57,10 +57,11 @@ class SeriesRun:
     """A method at work on a mesh.
 
     `boundaries`: Boundaries at times `ts`; `stepping`: "absolute" or "relative"; `threads`: 1 or
-    more."""
+    more; `commit`: of the sources."""
 
-    def __init__(self, method, mesh, boundaries, ts, stepping, threads):
+    def __init__(self, method, mesh, boundaries, ts, stepping, threads, commit=""):
         self._ts, self._lost, self._threads = ts, boundaries.lost, threads
+        self._commit = commit
         self._rest, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
         self._source = BoundarySource(mesh, boundaries.positions)
         self._proxy = getattr(simple, METHODS[method])(Input=self._rest, Boundary=self._boundary)
@@ -91,7 +92,9 @@ class SeriesRun:
         return Step(number, float(self._ts[number]), value("MinScaledJacobian"),
                     value("MeanScaledJacobian"), len(inverted), boundary,
                     len(inverted) - len(own) - boundary, value("PrepareSeconds"),
-                    value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])))
+                    value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])),
+                    int(field.GetArray("KeptLinear") is not None and value("KeptLinear") > 0),
+                    self._commit)
 
     def mesh(self):
         """The mesh (vtkUnstructuredGrid) of the last step, with the arrays that the filter
@@ -114,15 +117,22 @@ def finished(steps, to_final, ts):
     return len(steps) > to_final and not all(step.valid for step in steps)
 
 
-def run(series, mesh, boundaries, ts, to_final, records, threads):
+def run(series, mesh, boundaries, ts, to_final, records, threads, commit, fresh, deadline):
     """Runs what is missing of the series, and records each step. A method that gives no mesh ends
-    it."""
+    it.
+
+    `fresh`: steps of another commit count as missing, and those of a series that is resumed come
+    from this one alone. Raises OutOfTime between steps."""
     steps = records.steps(series)
+    if fresh or not finished(steps, to_final, ts):
+        steps = records.steps(series, commit)
     if finished(steps, to_final, ts):
         return
-    work = SeriesRun(series.method, mesh, boundaries, ts, series.stepping, threads)
+    deadline.check()
+    work = SeriesRun(series.method, mesh, boundaries, ts, series.stepping, threads, commit)
     try:
         while not finished(steps, to_final, ts):
+            deadline.check()
             steps.append(work.step(len(steps)))
             records.add(series, steps[-1])
     except RuntimeError as error:

@@ -27,9 +27,9 @@ SLOW = 60
 FIELDS = ("model", "kind", "stepping", "method", "prepare", "evaluate", "runs", "threads")
 
 
-def run(path, models, kinds, methods, steps, small, repeats, threads):
+def run(path, models, kinds, methods, steps, small, repeats, threads, deadline):
     """Writes a row for each model, kind, stepping and method to the CSV file `path`, and resumes
-    where an earlier call has stopped."""
+    where an earlier call has stopped. Raises OutOfTime between rows."""
     file = RowFile(path, FIELDS)
     done = {tuple(row.values())[:4] for row in file.rows()}
     for name in models:
@@ -43,6 +43,7 @@ def run(path, models, kinds, methods, steps, small, repeats, threads):
                 boundary = producer(mesh.boundary_to_vtk(t))
                 for method in methods:
                     if (name, kind, stepping, method) not in done:
+                        deadline.check()
                         file.add((name, kind, stepping, method,
                                   *_medians(method, rest, boundary, repeats, threads), threads))
                 simple.Delete(boundary)
@@ -58,20 +59,22 @@ def _medians(method, rest, boundary, repeats, threads):
     return prepare, evaluate, len(found)
 
 
-def run_klu(folder, program, models, kinds, small):
-    """Writes klu-MODEL-KIND.csv to the folder, by benchmark-mesh, which gives KLU 10 minutes a
-    system."""
+def run_klu(folder, program, models, kinds, small, limit, deadline):
+    """Writes klu-MODEL-KIND.csv to the folder, by benchmark-mesh, which gives KLU `limit` seconds a
+    system. Raises OutOfTime between meshes."""
     for name in models:
         for kind in kinds:
             file = folder / f"klu-{name}-{kind}.csv"
             if file.is_file():
                 continue
+            deadline.check()
             mesh = study_mesh(name, kind, small)
             grid = folder / f"{name}_{kind}.vtu"
             write_grid(mesh.to_vtk(), grid)
             partial = file.with_name("partial-" + file.name)
             # 3: something could not be measured, a solver that did not end for one.
-            code = subprocess.run([program, "--csv", partial, grid], check=False).returncode
+            code = subprocess.run([program, "--klu-limit", str(limit), "--csv", partial, grid],
+                                  check=False).returncode
             grid.unlink()
             if code not in (0, 3):
                 raise RuntimeError(f"{program} ended with {code} on {name}, {kind}")

@@ -23,6 +23,7 @@ void vtkSmoothingMorph::SetEvaluateOptions(morph::Morpher& morpher)
   morph::SmoothingOptions options;
   options.target = this->TargetShape == TARGET_SHAPE_INITIAL ? morph::SmoothingTarget::Initial
                                                              : morph::SmoothingTarget::Ideal;
+  options.objective = static_cast<morph::SmoothingObjective>(this->Objective);
   options.iterationLimit = this->IterationLimit;
   options.stopMove = this->StopMove;
   static_cast<morph::Smoothing&>(morpher).setOptions(options);
@@ -32,6 +33,7 @@ void vtkSmoothingMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetShape: " << this->TargetShape << "\n";
+  os << indent << "Objective: " << this->Objective << "\n";
   os << indent << "IterationLimit: " << this->IterationLimit << "\n";
   os << indent << "StopMove: " << this->StopMove << "\n";
 }

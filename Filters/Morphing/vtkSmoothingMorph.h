@@ -6,7 +6,8 @@
  * The boundary moves, and the interior nodes follow by each body's affine map nearest to its
  * boundary's motion. Then the mesh is smoothed with its boundary fixed. Cells that are inverted are
  * untangled (Knupp's untangling, by L-BFGS). Newton's method on the inverse mean ratio of the cells
- * then improves the mesh, first around few bad cells, then everywhere. This is the smoothing of
+ * then improves the mesh, first around few bad cells, then everywhere. Around cells that stay bad
+ * it lowers their condition number (Objective). This is the smoothing of
  * section 3.1 of Staten et al., which leaves the interior nodes where they were, with the stages of
  * Mesquite. Only the smoothing carries the rest of the motion inside. A motion that is not affine
  * over more than the cells next to the boundary tangles the mesh, and not every tangled mesh can be
@@ -30,7 +31,8 @@
  * morphing methods for 3D shape optimization", Proc. 20th Int. Meshing Roundtable (2011) 293-311;
  * P. M. Knupp, "Hexahedral and tetrahedral mesh untangling", Engineering with Computers 17 (2001)
  * 261-268; T. S. Munson, "Mesh shape-quality optimization using the inverse mean-ratio metric",
- * Math. Program. 110 (2007) 561-590.
+ * Math. Program. 110 (2007) 561-590; L. A. Freitag, P. M. Knupp, "Tetrahedral mesh improvement via
+ * optimization of the element condition number", Int. J. Numer. Meth. Engng 53 (2002) 1377-1391.
  *
  * @sa vtkMorphAlgorithm vtkInversionFreeMorph vtkExtractMorphBoundary
  */
@@ -67,6 +69,28 @@ public:
   void SetTargetShapeToIdeal() { this->SetTargetShape(TARGET_SHAPE_IDEAL); }
   ///@}
 
+  enum ObjectiveType
+  {
+    OBJECTIVE_MEAN_RATIO = 0,
+    OBJECTIVE_CONDITION_NUMBER = 1,
+    OBJECTIVE_ADAPTIVE = 2
+  };
+
+  ///@{
+  /**
+   * The measure of shape that the improvement lowers. Mean ratio: the mean inverse mean ratio of
+   * the whole mesh. Condition number: the mean condition number, which pays more for flat cells.
+   * Adaptive: the mean ratio, and then the condition number on three rings of cells around those
+   * with a scaled Jacobian below 0.2. Where the latter lowers the minimum, nodes move back.
+   * Inverted cells are untangled first in all cases. Default Adaptive.
+   */
+  vtkSetClampMacro(Objective, int, OBJECTIVE_MEAN_RATIO, OBJECTIVE_ADAPTIVE);
+  vtkGetMacro(Objective, int);
+  void SetObjectiveToMeanRatio() { this->SetObjective(OBJECTIVE_MEAN_RATIO); }
+  void SetObjectiveToConditionNumber() { this->SetObjective(OBJECTIVE_CONDITION_NUMBER); }
+  void SetObjectiveToAdaptive() { this->SetObjective(OBJECTIVE_ADAPTIVE); }
+  ///@}
+
   ///@{
   /**
    * The largest number of Newton steps, in each of which every node moves once. Untangling takes at
@@ -90,8 +114,8 @@ public:
   /**
    * As of the last execution: steps of L-BFGS and of Newton's method; rounds of the latter in which
    * only the nodes around bad cells moved; iterations of its linear solver; evaluations of the
-   * objectives; nodes that were moved back to keep the minimum; cells that the boundary itself
-   * inverts.
+   * objectives; nodes that were moved back to keep the minimum; of Newton's steps, those on the
+   * condition number; cells that the boundary itself inverts.
    */
   vtkIdType GetUntangleSteps() { return this->GetCount("UntangleSteps"); }
   vtkIdType GetNewtonSteps() { return this->GetCount("NewtonSteps"); }
@@ -99,6 +123,7 @@ public:
   vtkIdType GetLinearIterations() { return this->GetCount("LinearIterations"); }
   vtkIdType GetEnergyEvaluations() { return this->GetCount("EnergyEvaluations"); }
   vtkIdType GetNodesTakenBack() { return this->GetCount("NodesTakenBack"); }
+  vtkIdType GetConditionSteps() { return this->GetCount("ConditionSteps"); }
   vtkIdType GetBoundaryDeterminedCells() { return this->GetCount("BoundaryDeterminedCells"); }
   ///@}
 
@@ -114,6 +139,7 @@ private:
   void operator=(const vtkSmoothingMorph&) = delete;
 
   int TargetShape = TARGET_SHAPE_IDEAL;
+  int Objective = OBJECTIVE_ADAPTIVE;
   int IterationLimit = 50;
   double StopMove = 1e-3;
 };

@@ -119,6 +119,8 @@ const std::vector<Method>& methods()
       { { "TargetShape", { "Initial", "Ideal" }, 0, 1,
           setter<Smoothing>(
             [](Smoothing* f, double v) { f->SetTargetShape(static_cast<int>(v)); }) },
+        { "Objective", { "MeanRatio", "ConditionNumber", "Adaptive" }, 0, 2,
+          setter<Smoothing>([](Smoothing* f, double v) { f->SetObjective(static_cast<int>(v)); }) },
         { "IterationLimit", {}, 1, 100000,
           setter<Smoothing>(
             [](Smoothing* f, double v) { f->SetIterationLimit(static_cast<int>(v)); }) },

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Energies/ConditionDensity.h"
 #include "Energies/FoldoverDensity.h"
 #include "Meshes.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <gtest/gtest.h>
 
@@ -57,7 +59,8 @@ std::vector<Matrix> jacobians(bool inverted)
   return result;
 }
 
-Matrix finiteDifference(const morph::FoldoverDensity& density, const Matrix& J)
+template <typename Density>
+Matrix finiteDifference(const Density& density, const Matrix& J)
 {
   const double h = 1e-6;
   Matrix result;
@@ -72,7 +75,8 @@ Matrix finiteDifference(const morph::FoldoverDensity& density, const Matrix& J)
 }
 
 /// The second derivatives by differences of the first, their negative eigenvalues left out.
-Matrix9 projectedDifference(const morph::FoldoverDensity& density, const Matrix& J)
+template <typename Density>
+Matrix9 projectedDifference(const Density& density, const Matrix& J)
 {
   const double h = 1e-6;
   Matrix9 H;
@@ -92,7 +96,8 @@ Matrix9 projectedDifference(const morph::FoldoverDensity& density, const Matrix&
 }
 
 /// With the unit matrix for shape functions block[a][b] is d2/(dJ_a dJ_b) by columns.
-Matrix9 assembled(const morph::FoldoverDensity& density, const Matrix& J)
+template <typename Density>
+Matrix9 assembled(const Density& density, const Matrix& J)
 {
   Matrix block[3][3];
   density.hessian(J, Matrix::Identity(), block);
@@ -183,5 +188,46 @@ TEST(FoldoverDensity, IsInfiniteWhereItCannotBeComputed)
     Matrix derivative;
     EXPECT_EQ(density.value(J), std::numeric_limits<double>::infinity()) << size;
     EXPECT_EQ(density.gradient(J, derivative), std::numeric_limits<double>::infinity()) << size;
+  }
+}
+
+TEST(ConditionDensity, IsTheConditionNumberAndABarrier)
+{
+  const morph::ConditionDensity density;
+  const Matrix R =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  EXPECT_NEAR(density.value(R), 1, 1e-14);
+  for (const Matrix& J : jacobians(false))
+  {
+    EXPECT_NEAR(density.value(J) / (J.norm() * J.inverse().norm() / 3), 1, 1e-11) << J;
+    EXPECT_NEAR(density.value(1e5 * R * J) / density.value(J), 1, 1e-11);
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  Matrix derivative;
+  for (const Eigen::Vector3d& stretch :
+    { Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, 2, -1e-9), Eigen::Vector3d(0, 0, 0),
+      Eigen::Vector3d(1, 1, std::numeric_limits<double>::quiet_NaN()) })
+  {
+    const Matrix J = stretch.asDiagonal();
+    EXPECT_EQ(density.value(J), infinity) << stretch;
+    EXPECT_EQ(density.gradient(J, derivative), infinity) << stretch;
+  }
+  // It grows with 1 / det, the mean ratio with det^(-2/3).
+  const auto flat = [](double h) -> Matrix { return Eigen::Vector3d(1, 1, h).asDiagonal(); };
+  EXPECT_NEAR(density.value(flat(1e-7)) / density.value(flat(1e-4)), 1e3, 1);
+}
+
+TEST(ConditionDensity, DerivativesAreThoseOfFiniteDifferences)
+{
+  const morph::ConditionDensity density;
+  for (const Matrix& J : jacobians(false))
+  {
+    Matrix derivative;
+    EXPECT_NEAR(density.gradient(J, derivative) / density.value(J), 1, 1e-12);
+    EXPECT_LT(
+      (derivative - finiteDifference(density, J)).norm(), 1e-5 * std::max(1., derivative.norm()))
+      << J;
+    const Matrix9 expected = projectedDifference(density, J), H = assembled(density, J);
+    EXPECT_LT((H - expected).norm(), 2e-5 * std::max(1., expected.norm())) << J;
   }
 }

@@ -57,6 +57,37 @@ std::vector<std::pair<std::string, Mesh>> small()
   }
   return result;
 }
+
+/// Compares first and second derivatives at `x` with differences.
+void expectDifferences(Setting& setting, const Points& x)
+{
+  Points gradient, plus, minus;
+  setting.energy.gradient(x, gradient, setting.monitor);
+  morph::BlockCsr3f matrix;
+  setting.energy.hessian(x, matrix, setting.monitor);
+  const double h = 1e-6;
+  for (Index i = 0; i < gradient.rows(); ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      Points a = x, b = x;
+      a(setting.partition.free[i], j) += h;
+      b(setting.partition.free[i], j) -= h;
+      const double difference = (setting.energy.evaluate(a, setting.monitor).energy -
+                                  setting.energy.evaluate(b, setting.monitor).energy) /
+                                (2 * h);
+      EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
+
+      // The projection only adds curvature.
+      setting.energy.gradient(a, plus, setting.monitor);
+      setting.energy.gradient(b, minus, setting.monitor);
+      Points unit = Points::Zero(gradient.rows(), 3), product;
+      unit(i, j) = 1;
+      matrix.multiply(unit, product, setting.monitor);
+      EXPECT_GE(product(i, j), (plus(i, j) - minus(i, j)) / (2 * h) - 1e-4 * product.norm());
+    }
+  }
+}
 }
 
 TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
@@ -67,34 +98,45 @@ TEST(MeshEnergy, GradientAndHessianAreThoseOfFiniteDifferences)
     {
       SCOPED_TRACE(name + ", moved by " + std::to_string(amount));
       Setting setting(mesh, morph::TargetConstruction::Initial, amount < 0.5 ? 1e-10 : 0.5);
-      const Points x = displaced(mesh, amount);
-      Points gradient, plus, minus;
-      setting.energy.gradient(x, gradient, setting.monitor);
-      morph::BlockCsr3f matrix;
-      setting.energy.hessian(x, matrix, setting.monitor);
-      const double h = 1e-6;
-      for (Index i = 0; i < gradient.rows(); ++i)
-      {
-        for (int j = 0; j < 3; ++j)
-        {
-          Points a = x, b = x;
-          a(setting.partition.free[i], j) += h;
-          b(setting.partition.free[i], j) -= h;
-          const double difference = (setting.energy.evaluate(a, setting.monitor).energy -
-                                      setting.energy.evaluate(b, setting.monitor).energy) /
-                                    (2 * h);
-          EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
-
-          // The projection only adds curvature.
-          setting.energy.gradient(a, plus, setting.monitor);
-          setting.energy.gradient(b, minus, setting.monitor);
-          Points unit = Points::Zero(gradient.rows(), 3), product;
-          unit(i, j) = 1;
-          matrix.multiply(unit, product, setting.monitor);
-          EXPECT_GE(product(i, j), (plus(i, j) - minus(i, j)) / (2 * h) - 1e-4 * product.norm());
-        }
-      }
+      expectDifferences(setting, displaced(mesh, amount));
     }
+  }
+}
+
+TEST(MeshEnergy, TheConditionNumbersDerivativesAreThoseOfFiniteDifferences)
+{
+  for (const auto& [name, mesh] : small())
+  {
+    SCOPED_TRACE(name);
+    Setting setting(mesh, morph::TargetConstruction::Initial, 0.5);
+    setting.energy.setDensity(morph::ConditionDensity());
+    const Points x = displaced(mesh, 0.05);
+    ASSERT_TRUE(setting.energy.value(x, setting.monitor).allowed);
+    expectDifferences(setting, x);
+  }
+}
+
+TEST(MeshEnergy, TheConditionNumberIsAMeanAndABarrier)
+{
+  for (const auto& [name, mesh] : small())
+  {
+    SCOPED_TRACE(name);
+    Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
+    setting.energy.setDensity(morph::ConditionDensity());
+    const Points x = motions::mapped(mesh.points, motions::affine);
+    const double norm = setting.energy.evaluate(x, setting.monitor).energy;
+    Eigen::Matrix3d A;
+    for (int j = 0; j < 3; ++j)
+    {
+      A.col(j) =
+        (motions::affine(Eigen::RowVector3d::Unit(j)) - motions::affine(Eigen::RowVector3d::Zero()))
+          .transpose();
+    }
+    // All tetrahedra have the map's own number. Their weights sum to less than 1: some are fixed.
+    const double weights = setting.energy.evaluate(mesh.points, setting.monitor).energy;
+    EXPECT_NEAR(norm / weights, morph::ConditionDensity().value(A), 1e-11);
+    EXPECT_FALSE(setting.energy.value(displaced(mesh, 3), setting.monitor).allowed);
+    EXPECT_TRUE(std::isinf(setting.energy.evaluate(displaced(mesh, 3), setting.monitor).energy));
   }
 }
 
@@ -163,10 +205,17 @@ TEST(MeshEnergy, AffineImagesOfTheTargetAreStationary)
     Setting setting(mesh, morph::TargetConstruction::Initial, 1e-10);
     const Points x = motions::mapped(mesh.points, motions::affine);
     Points gradient;
-    setting.energy.gradient(x, gradient, setting.monitor);
-    // Against the forces of single tetrahedra, which cancel.
-    const double scale = setting.energy.evaluate(x, setting.monitor).energy;
-    EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-13 * scale);
+    for (const bool isCondition : { false, true })
+    {
+      if (isCondition)
+      {
+        setting.energy.setDensity(morph::ConditionDensity());
+      }
+      setting.energy.gradient(x, gradient, setting.monitor);
+      // Against the forces of single tetrahedra, which cancel.
+      const double scale = setting.energy.evaluate(x, setting.monitor).energy;
+      EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-13 * scale);
+    }
   }
 }
 

@@ -63,6 +63,26 @@ SmoothingOptions toTarget(SmoothingTarget target)
   return options;
 }
 
+constexpr SmoothingObjective Objectives[] = { SmoothingObjective::MeanRatio,
+  SmoothingObjective::ConditionNumber, SmoothingObjective::Adaptive };
+
+SmoothingOptions with(SmoothingObjective objective, SmoothingTarget target = SmoothingTarget::Ideal)
+{
+  SmoothingOptions options = toTarget(target);
+  options.objective = objective;
+  return options;
+}
+
+/// The mean condition number.
+double conditionOf(const Mesh& mesh, const Points& points, SmoothingTarget target)
+{
+  Monitor monitor;
+  MeshEnergy energy(mesh, outerPartition(mesh).free);
+  energy.setTargets(smoothingTargets(mesh, orientationOf(mesh), target, monitor));
+  energy.setDensity(ConditionDensity());
+  return energy.evaluate(points, monitor).energy;
+}
+
 /// The free nodes moved by up to `amount`.
 Points scrambled(const Mesh& mesh, double amount)
 {
@@ -195,6 +215,83 @@ TEST(SmoothMesh, WorksFirstRoundFewBadCells)
   EXPECT_LT(difference(points, mesh.points), 1e-3);
 }
 
+TEST(SmoothMesh, EachObjectiveLowersItsOwnMeasure)
+{
+  for (const auto& [name, mesh] : jittered())
+  {
+    for (const SmoothingTarget target : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
+    {
+      const Points start = scrambled(mesh, .05);
+      ASSERT_GT(qualityOf(mesh, start).minimum, 0) << name;
+      Points ofRatio = start, ofCondition = start;
+      const SmoothingReport ratio =
+        smooth(mesh, ofRatio, with(SmoothingObjective::MeanRatio, target));
+      const SmoothingReport condition =
+        smooth(mesh, ofCondition, with(SmoothingObjective::ConditionNumber, target));
+      EXPECT_EQ(ratio.conditionSteps, 0) << name;
+      EXPECT_EQ(condition.conditionSteps, condition.newtonSteps) << name;
+      EXPECT_GT(condition.newtonSteps, 0) << name;
+      EXPECT_EQ(qualityOf(mesh, ofCondition).inverted, 0) << name;
+      // Each is the better one by its own measure, up to the tolerance of the iteration.
+      EXPECT_LE(
+        conditionOf(mesh, ofCondition, target), conditionOf(mesh, ofRatio, target) * (1 + 1e-5))
+        << name;
+      EXPECT_LE(measure(mesh, ofRatio, target), measure(mesh, ofCondition, target) * (1 + 1e-5))
+        << name;
+    }
+  }
+}
+
+TEST(SmoothMesh, TheConditionNumberEndsWhereItsSlopeIsZero)
+{
+  const Mesh mesh = hexesAndPyramids(4, 4, 4);
+  const NodePartition partition = outerPartition(mesh);
+  Points points = scrambled(mesh, .2);
+  SmoothingOptions options = with(SmoothingObjective::ConditionNumber);
+  options.stopMove = 1e-12;
+  options.iterationLimit = 200;
+  MeshEnergy energy(mesh, partition.free);
+  Monitor monitor;
+  energy.setTargets(smoothingTargets(mesh, orientationOf(mesh), options.target, monitor));
+  energy.setDensity(ConditionDensity());
+  Points before, after;
+  ASSERT_TRUE(smooth(mesh, points, options).isValid);
+  energy.gradient(points, after, monitor);
+  energy.gradient(scrambled(mesh, .05), before, monitor);
+  EXPECT_LT(after.norm(), 1e-2 * before.norm());
+}
+
+TEST(SmoothMesh, AdaptiveIsNeverBelowTheMeanRatio)
+{
+  // Boxes squeezed so that cells near a corner are bad whatever the interior does.
+  Index steps = 0, better = 0;
+  for (const auto& [name, mesh] : jittered())
+  {
+    Mesh squeezed = mesh;
+    transform(
+      squeezed, [](const Row& x) { return Row(x[0] + .35 * x[1] * x[2], x[1] + .8 * x[2], x[2]); });
+    if (!(qualityOf(squeezed, squeezed.points).minimum > 0))
+    {
+      continue;
+    }
+    for (const SmoothingTarget target : { SmoothingTarget::Ideal, SmoothingTarget::Initial })
+    {
+      Points ofRatio = squeezed.points, adaptive = squeezed.points;
+      smooth(squeezed, ofRatio, with(SmoothingObjective::MeanRatio, target));
+      const SmoothingReport report =
+        smooth(squeezed, adaptive, with(SmoothingObjective::Adaptive, target));
+      const double least = qualityOf(squeezed, ofRatio).minimum;
+      EXPECT_GE(qualityOf(squeezed, adaptive).minimum, least) << name;
+      EXPECT_EQ(report.conditionSteps > 0, least < .2) << name;
+      EXPECT_EQ(qualityOf(squeezed, adaptive).inverted, 0) << name;
+      steps += report.conditionSteps;
+      better += qualityOf(squeezed, adaptive).minimum > least * (1 + 1e-6) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(steps, 0);
+  EXPECT_GT(better, 0);
+}
+
 TEST(SmoothMesh, NeverWorseGoesBack)
 {
   // A boundary layer: cubes are not what its cells should become, and the mean may improve at the
@@ -274,12 +371,15 @@ TEST(Smoothing, NoMotionIsTheIdentityForTheInitialShapesOnly)
 
 TEST(Smoothing, AffineMotionsComeOutForTheInitialShapes)
 {
-  SmoothingOptions options = toTarget(SmoothingTarget::Initial);
   for (const auto& [name, mesh] : jittered())
   {
     const auto map = [](const Row& x) -> Row { return x + .4 * (affine(x) - x); };
-    const Points result = morphed(mesh, targets(mesh, outerPartition(mesh), map), options);
-    EXPECT_LT(difference(result, mapped(mesh.points, map)), 1e-3 * size(mesh.points)) << name;
+    for (const SmoothingObjective objective : Objectives)
+    {
+      const Points result = morphed(
+        mesh, targets(mesh, outerPartition(mesh), map), with(objective, SmoothingTarget::Initial));
+      EXPECT_LT(difference(result, mapped(mesh.points, map)), 1e-3 * size(mesh.points)) << name;
+    }
   }
 }
 
@@ -404,9 +504,13 @@ TEST(Smoothing, PositionRotationAndScaleDoNotShow)
     const Points target = targets(mesh, outerPartition(mesh), gentle);
     Mesh other = mesh;
     other.points = mapped(mesh.points, move);
-    const Points expected = mapped(morphed(mesh, target), move);
-    // The edges have length 1, and the iteration ends at moves of 1e-3.
-    EXPECT_LT(difference(morphed(other, mapped(target, move)), expected) / scale, 1e-3) << name;
+    for (const SmoothingObjective objective : Objectives)
+    {
+      const Points expected = mapped(morphed(mesh, target, with(objective)), move);
+      // The edges have length 1, and the iteration ends at moves of 1e-3.
+      const Points found = morphed(other, mapped(target, move), with(objective));
+      EXPECT_LT(difference(found, expected) / scale, 1e-3) << name;
+    }
     scale *= 100;
   }
 }
@@ -434,13 +538,17 @@ TEST(Smoothing, ThreadsAndEarlierCallsDoNotShow)
   const NodePartition partition = outerPartition(mesh);
   const Points target = targets(mesh, partition, [](const Row& x) { return twist(x, 4, 4, .6); });
   ThreadedMonitor one(1), three(3);
-  Smoothing method;
-  method.prepare(mesh, partition, three);
-  Points a, b, c;
-  method.evaluate(target, a, one);
-  method.evaluate(rows(mesh.points, partition.prescribed), b, one);
-  method.evaluate(target, c, three);
-  EXPECT_TRUE(identical(a, c));
+  for (const SmoothingObjective objective : Objectives)
+  {
+    Smoothing method;
+    method.setOptions(with(objective));
+    method.prepare(mesh, partition, three);
+    Points a, b, c;
+    method.evaluate(target, a, one);
+    method.evaluate(rows(mesh.points, partition.prescribed), b, one);
+    method.evaluate(target, c, three);
+    EXPECT_TRUE(identical(a, c));
+  }
 }
 
 TEST(Smoothing, ABoundaryThatInvertsCellsIsNamed)

@@ -126,10 +126,34 @@ TEST(SmoothingMorph, OptionsAndCountsAreReported)
   EXPECT_EQ(field(filter, "BoundaryDeterminedCells"), filter->GetBoundaryDeterminedCells());
   std::ostringstream text;
   filter->Print(text);
-  for (const char* name : { "TargetShape: 1", "IterationLimit: 50", "StopMove: 1e-06" })
+  for (const char* name :
+    { "TargetShape: 1", "Objective: 2", "IterationLimit: 50", "StopMove: 1e-06" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }
+}
+
+TEST(SmoothingMorph, TheObjectiveChoosesTheMeasure)
+{
+  auto grid = jittered(5);
+  auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
+  EXPECT_EQ(filter->GetObjective(), vtkSmoothingMorph::OBJECTIVE_ADAPTIVE);
+  filter->Update();
+  const morph::Points adaptive = grids::points(filter->GetOutput());
+  ASSERT_GT(filter->GetMinScaledJacobian(), .2); // so no cell is bad
+  EXPECT_EQ(filter->GetConditionSteps(), 0);
+  filter->SetObjectiveToMeanRatio();
+  filter->Update();
+  EXPECT_TRUE(grids::points(filter->GetOutput()) == adaptive);
+  filter->SetObjectiveToConditionNumber();
+  filter->Update();
+  EXPECT_EQ(filter->GetPrepareCount(), 1);
+  EXPECT_GT(filter->GetConditionSteps(), 0);
+  EXPECT_EQ(filter->GetConditionSteps(), filter->GetNewtonSteps());
+  EXPECT_EQ(field(filter, "ConditionSteps"), filter->GetConditionSteps());
+  EXPECT_GT(farthest(grids::points(filter->GetOutput()), adaptive), 1e-4);
+  filter->SetObjective(7);
+  EXPECT_EQ(filter->GetObjective(), vtkSmoothingMorph::OBJECTIVE_ADAPTIVE);
 }
 
 TEST(SmoothingMorph, ThreadsDoNotShow)

@@ -97,6 +97,7 @@ Table ofSmoothing()
 {
   using F = vtkSmoothingMorph;
   return { whole<F>("TargetShape", &F::SetTargetShape, F::IDEAL, 0, 1),
+    whole<F>("Objective", &F::SetObjective, F::OBJECTIVE_ADAPTIVE, 0, 2),
     whole<F>("IterationLimit", &F::SetIterationLimit, 50, 1, 100),
     real<F>("StopMove", &F::SetStopMove, 1e-3, 1e-12, 1) };
 }

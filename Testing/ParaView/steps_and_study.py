@@ -94,6 +94,7 @@ class Study(unittest.TestCase):
                    "--quick", "--output", folder, *options]
         process = subprocess.run(command, capture_output=True, text=True, timeout=200)
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        return process.stdout
 
     def test_quick(self):
         methods = ["FEMWARP", "Weighted residual", "Inversion-free"]
@@ -144,6 +145,28 @@ class Study(unittest.TestCase):
                         for row in all_rows if None not in row.values()}
             self.assertEqual(table(again), table(rows))
 
+            # Every row has its commit, and those of the inversion-free morph KeptLinear.
+            self.assertEqual(len({row["commit"] for row in again}), 1)
+            self.assertNotEqual(again[0]["commit"], "")
+            self.assertLessEqual({row["kept"] for row in again}, {"0", "1"})
+            self.assertIn(f"each: {again[0]['commit']} (24).", report)
+            self.assertRegex(report, r"\| \d of 4 \|")
+
+            # A piece without time does nothing; with --fresh a series of another commit is missing.
+            other = results.read_text(encoding="utf-8").replace(again[0]["commit"], "0000000")
+            results.write_text(other, encoding="utf-8")
+            self.run_study(folder, "--methods", *methods, "--fresh", "--minutes", "0")
+            self.assertEqual(results.read_text(encoding="utf-8"), other)
+            self.run_study(folder, "--methods", "FEMWARP", "--kinds", "hex", "--surfaces", "exact",
+                           "--steppings", "absolute", "--fresh", "--no-timing", "--no-scaling")
+            added = results.read_text(encoding="utf-8")[len(other):].splitlines()
+            self.assertTrue(all(line.startswith("bore,hex,exact,absolute,FEMWARP,")
+                                and line.endswith(again[0]["commit"]) for line in added))
+            self.assertGreaterEqual(len(added), 5)
+            missing = self.run_study(folder, "--methods", *methods, "--fresh", "--list")
+            self.assertEqual(missing.count("0 of 5 steps"), 23)
+            self.assertNotIn("hex, exact surfaces, absolute, FEMWARP", missing)
+
 
 class StudyBoundary(unittest.TestCase):
     """Which inverted cells the study puts down to the boundary."""
@@ -190,6 +213,26 @@ class StudyBoundary(unittest.TestCase):
             self.assertEqual([step.boundary for step in steps], counts, (name, SEED))
             self.assertEqual((counts[0], steps[1].folded), (0, 0), (name, SEED))
             self.assertGreater(counts[1], 0, (name, SEED))
+
+    def test_reads_results_of_earlier_versions(self):
+        series = StudySeries("bore", "hex", "exact", "absolute", "FEMWARP")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "results.csv"
+            for number in range(3):
+                Records(file).add(series, Step(number, 0.0, 0.5, 0.9, 0, 0, 0, 0.0, 0.0, 2, "7 9"))
+            text = file.read_text(encoding="utf-8")
+            self.assertTrue(text.splitlines()[1].endswith(",7 9,-1,"))
+            file.write_text(text.replace(",kept,commit", "").replace(",7 9,-1,", ",7 9"),
+                            encoding="utf-8")
+            records = Records(file)
+            self.assertEqual([(step.cells, step.kept, step.commit)
+                              for step in records.steps(series)], 3 * [("7 9", -1, "")])
+            # A commit's rows take the place of another's, the longer series' end included.
+            records.add(series, Step(0, 0.0, 0.6, 0.9, 0, 0, 0, 0.0, 0.0, 2, "", 0, "abc"))
+            for read in (records, Records(file)):
+                self.assertEqual([step.minimum for step in read.steps(series)], [0.6])
+                self.assertEqual(read.steps(series, "def"), [])
+                self.assertEqual(read.commits(), {"abc": 1})
 
     def test_refuses_results_without_the_column(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Energies/CellBatches.h"
+#include "Energies/ConditionDensity.h"
+#include "Energies/ConditionKernel.h"
 #include "Energies/FoldoverDensity.h"
 #include "Energies/FoldoverKernel.h"
 
@@ -94,6 +96,86 @@ MORPH_SIMD_INLINE void parametersOf(const FoldoverDensity& density,
 {
   parameters.theta = load(tetrahedra.theta);
   parameters.epsilon = density.epsilon;
+}
+
+/// The same functions for each density: value, first derivatives times weight, and second ones.
+MORPH_SIMD_INLINE void valueAt(const FoldoverDensity& density,
+  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, SimdDouble4& determinant,
+  SimdDouble4& value)
+{
+  SimdVector normal;
+  cross(J[1], J[2], normal);
+  dot(J[0], normal, determinant);
+  SimdDouble4 square;
+  squaredNorm(J, square);
+  Parameters<SimdDouble4> parameters;
+  parametersOf(density, tetrahedra, parameters);
+  foldover::density(parameters, square, determinant, value);
+}
+
+MORPH_SIMD_INLINE void valueAt(const ConditionDensity&, const CellBatches::Tetrahedra&,
+  const SimdMatrix& J, SimdDouble4& determinant, SimdDouble4& value)
+{
+  SimdMatrix normal;
+  cofactor(J, normal);
+  dot(J[0], normal[0], determinant);
+  SimdDouble4 square, cofactors;
+  squaredNorm(J, square);
+  squaredNorm(normal, cofactors);
+  condition::density(square, cofactors, determinant, value);
+}
+
+MORPH_SIMD_INLINE void slopeAt(const FoldoverDensity& density,
+  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, SimdMatrix& slope)
+{
+  SimdMatrix normal;
+  cofactor(J, normal);
+  SimdDouble4 determinant, square;
+  dot(J[0], normal[0], determinant);
+  squaredNorm(J, square);
+  Parameters<SimdDouble4> parameters;
+  parametersOf(density, tetrahedra, parameters);
+  Derivatives<SimdDouble4> d;
+  derivatives(parameters, square, determinant, d);
+  const SimdDouble4 weight = load(tetrahedra.weight);
+  const SimdDouble4 byNorm = 2. * weight * d.I, byVolume = weight * d.D;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      slope[j][i] = byNorm * J[j][i] + byVolume * normal[j][i];
+    }
+  }
+}
+
+MORPH_SIMD_INLINE void slopeAt(const ConditionDensity&, const CellBatches::Tetrahedra& tetrahedra,
+  const SimdMatrix& J, SimdMatrix& slope)
+{
+  SimdDouble4 value;
+  condition::gradient(J, value, slope);
+  const SimdDouble4 weight = load(tetrahedra.weight);
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      slope[j][i] *= weight;
+    }
+  }
+}
+
+MORPH_SIMD_INLINE void curvatureAt(const FoldoverDensity& density,
+  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, const SimdMatrix& g,
+  SimdMatrix (&block)[3][3])
+{
+  Parameters<SimdDouble4> parameters;
+  parametersOf(density, tetrahedra, parameters);
+  hessian(parameters, J, g, block);
+}
+
+MORPH_SIMD_INLINE void curvatureAt(const ConditionDensity&, const CellBatches::Tetrahedra&,
+  const SimdMatrix& J, const SimdMatrix& g, SimdMatrix (&block)[3][3])
+{
+  condition::hessian(J, g, block);
 }
 }
 }

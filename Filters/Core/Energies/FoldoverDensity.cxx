@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/FoldoverDensity.h"
 
-#include "Energies/FoldoverKernel.h"
+#include "Energies/EigenMatrix3.h"
 
 #include <Eigen/LU>
 
@@ -10,19 +10,8 @@ namespace morph
 namespace
 {
 using Matrix = foldover::Matrix3<double>;
-
-Matrix fromEigen(const Eigen::Matrix3d& A)
-{
-  Matrix result;
-  Eigen::Map<Eigen::Matrix3d> view(&result[0][0]);
-  view = A;
-  return result;
-}
-
-Eigen::Map<const Eigen::Matrix3d> toEigen(const Matrix& A)
-{
-  return Eigen::Map<const Eigen::Matrix3d>(&A[0][0]);
-}
+using foldover::fromEigen;
+using foldover::toEigen;
 
 foldover::Parameters<double> parametersOf(const FoldoverDensity& density)
 {

@@ -325,39 +325,23 @@ MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
   }
 }
 
-/// FoldoverDensity::hessian(); `g` and the blocks by columns.
+/// Computes the second derivative, without its negative eigenvalues, of a density that depends on
+/// the singular values alone. J = U diag(s) V^T. `A`: the second derivatives by s, changed;
+/// `twist`, `shear`: the eigenvalues of rotations and shears between the two other axes; `g`: see
+/// FoldoverDensity::hessian(), by columns as the blocks.
 template <typename T>
-MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
-  const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
+MORPH_SIMD_INLINE void projectedHessian(const Matrix3<T>& U, const Matrix3<T>& V, Matrix3<T>& A,
+  const Vector3<T>& twist, const Vector3<T>& shear, const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
 {
-  Matrix3<T> U, V;
-  Vector3<T> s;
-  signedSingularValues(J, U, s, V);
-  const Vector3<T> c = { { s[1] * s[2], s[0] * s[2], s[0] * s[1] } }; // d(det)/ds
-  Derivatives<T> d;
-  derivatives(parameters, T(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), T(s[0] * c[0]), d);
-
-  // Stretches along the axes, which are coupled.
-  Matrix3<T> A;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j <= i; ++j)
-    {
-      const T own = i == j ? 2. * d.I : d.D * s[3 - i - j];
-      A[j][i] = A[i][j] = 2. * d.ID * (s[i] * c[j] + s[j] * c[i]) + d.DD * c[i] * c[j] + own;
-    }
-  }
   makeSemiDefinite(A);
-  // Rotations and shears between two axes: half the sum and half the difference of their
-  // eigenvalues.
+  // Half the sum and half the difference of the two eigenvalues.
   Vector3<T> sum, difference;
   const T zero = T{};
   for (int k = 0; k < 3; ++k)
   {
-    const T positive = 2. * d.I + d.D * s[k], negative = 2. * d.I - d.D * s[k];
-    const T twist = positive > 0. ? positive : zero, shear = negative > 0. ? negative : zero;
-    sum[k] = (shear + twist) / 2.;
-    difference[k] = (shear - twist) / 2.;
+    const T t = twist[k] > 0. ? twist[k] : zero, s = shear[k] > 0. ? shear[k] : zero;
+    sum[k] = (s + t) / 2.;
+    difference[k] = (s - t) / 2.;
   }
 
   Matrix3<T> h; // V^T g
@@ -391,6 +375,37 @@ MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>
       }
     }
   }
+}
+
+/// FoldoverDensity::hessian(); `g` and the blocks by columns.
+template <typename T>
+MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
+  const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
+{
+  Matrix3<T> U, V;
+  Vector3<T> s;
+  signedSingularValues(J, U, s, V);
+  const Vector3<T> c = { { s[1] * s[2], s[0] * s[2], s[0] * s[1] } }; // d(det)/ds
+  Derivatives<T> d;
+  derivatives(parameters, T(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), T(s[0] * c[0]), d);
+
+  // Stretches along the axes, which are coupled.
+  Matrix3<T> A;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j <= i; ++j)
+    {
+      const T own = i == j ? 2. * d.I : d.D * s[3 - i - j];
+      A[j][i] = A[i][j] = 2. * d.ID * (s[i] * c[j] + s[j] * c[i]) + d.DD * c[i] * c[j] + own;
+    }
+  }
+  Vector3<T> twist, shear;
+  for (int k = 0; k < 3; ++k)
+  {
+    twist[k] = 2. * d.I + d.D * s[k];
+    shear[k] = 2. * d.I - d.D * s[k];
+  }
+  projectedHessian(U, V, A, twist, shear, g, block);
 }
 }
 }

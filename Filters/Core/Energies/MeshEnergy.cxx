@@ -33,8 +33,9 @@ struct Sum
 
 struct BatchEnergy
 {
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
-    const FoldoverDensity& density, const Points& points, Sum& sum)
+  template <typename Density>
+  static MORPH_SIMD_INLINE void run(
+    Index batch, const CellBatches& batches, const Density& density, const Points& points, Sum& sum)
   {
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
@@ -48,14 +49,8 @@ struct BatchEnergy
       SimdMatrix inverse, J;
       inverseOf(*tetrahedra, inverse);
       jacobian(x, parts.tets[t].corner, *tetrahedra, inverse, J);
-      SimdVector normal;
-      cross(J[1], J[2], normal);
-      SimdDouble4 determinant, square, value;
-      dot(J[0], normal, determinant);
-      squaredNorm(J, square);
-      Parameters<SimdDouble4> parameters;
-      parametersOf(density, *tetrahedra, parameters);
-      foldover::density(parameters, square, determinant, value);
+      SimdDouble4 determinant, value;
+      valueAt(density, *tetrahedra, J, determinant, value);
       const SimdDouble4 weight = load(tetrahedra->weight);
       energy += weight * value;
       least = ((weight > 0.) & (determinant < least)) ? determinant : least;
@@ -71,8 +66,9 @@ struct BatchEnergy
 /// Computes each batch's gradient at its corners, at their places in `parts`.
 struct BatchGradient
 {
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
-    const FoldoverDensity& density, const Points& points, Points& parts)
+  template <typename Density>
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Density& density,
+    const Points& points, Points& parts)
   {
     SimdVector x[8], sum[8] = {};
     cornersOf(batches, batch, points, x);
@@ -81,30 +77,17 @@ struct BatchGradient
     for (int t = 0; t < decomposition.count; ++t, ++tetrahedra)
     {
       const int* corner = decomposition.tets[t].corner;
-      SimdMatrix inverse, J, normal;
+      SimdMatrix inverse, J, slope;
       inverseOf(*tetrahedra, inverse);
       jacobian(x, corner, *tetrahedra, inverse, J);
-      cofactor(J, normal);
-      SimdDouble4 determinant, square;
-      dot(J[0], normal[0], determinant);
-      squaredNorm(J, square);
-      Parameters<SimdDouble4> parameters;
-      parametersOf(density, *tetrahedra, parameters);
-      Derivatives<SimdDouble4> d;
-      derivatives(parameters, square, determinant, d);
-      const SimdDouble4 weight = load(tetrahedra->weight);
-      const SimdDouble4 byNorm = 2. * weight * d.I, byVolume = weight * d.D;
+      slopeAt(density, *tetrahedra, J, slope);
       for (int i = 0; i < 3; ++i)
       {
-        SimdDouble4 row[3], all = {};
-        for (int j = 0; j < 3; ++j)
-        {
-          row[j] = byNorm * J[j][i] + byVolume * normal[j][i];
-        }
+        SimdDouble4 all = {};
         for (int k = 0; k < 3; ++k)
         {
           const SimdDouble4 force =
-            row[0] * inverse[0][k] + row[1] * inverse[1][k] + row[2] * inverse[2][k];
+            slope[0][i] * inverse[0][k] + slope[1][i] * inverse[1][k] + slope[2][i] * inverse[2][k];
           sum[corner[k + 1]][i] += force;
           all += force;
         }
@@ -124,19 +107,28 @@ MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const auto sum =
-    sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
+  const Sum sum =
+    this->isCondition_
+      ? sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, ConditionDensity(), points)
+      : sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
   return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 {
   const State state = this->evaluate(points, monitor);
-  return { state.energy, this->density_.epsilon > Barrier || state.minimumDeterminant > 0 };
+  const bool isFinite = !this->isCondition_ && this->density_.epsilon > Barrier;
+  return { state.energy, isFinite || state.minimumDeterminant > 0 };
 }
 
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
+  if (this->isCondition_)
+  {
+    gatherFromBatches<BatchGradient>(
+      this->batches_, this->parts_, result, monitor, ConditionDensity(), points);
+    return;
+  }
   gatherFromBatches<BatchGradient>(
     this->batches_, this->parts_, result, monitor, this->density_, points);
 }

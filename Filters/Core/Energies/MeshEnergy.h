@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Energies/CellBatches.h"
+#include "Energies/ConditionDensity.h"
 #include "Energies/FoldoverDensity.h"
 #include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
@@ -10,8 +11,9 @@
 
 namespace morph
 {
-/// The foldover-free energy of a mesh: the weighted mean of the density over the tetrahedra of all
-/// cells. Tetrahedra without a free node are left out, as they are constant. Not thread-safe.
+/// The energy of a mesh: the weighted mean of a density over the tetrahedra of all cells. The
+/// density is the foldover-free one, or the condition number. Tetrahedra without a free node are
+/// left out, as they are constant. Not thread-safe.
 class MeshEnergy : public SecondOrderObjective
 {
 public:
@@ -24,7 +26,15 @@ public:
   void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
   /// Sets the regularisation; theta is that of the targets. With a regularisation below 1e-9 no
   /// step may end with an inverted tetrahedron.
-  void setDensity(const FoldoverDensity& density) { this->density_ = density; }
+  void setDensity(const FoldoverDensity& density)
+  {
+    this->density_ = density;
+    this->isCondition_ = false;
+  }
+  /// Takes the condition number, in which theta has no part. No step may end with an inverted
+  /// tetrahedron.
+  void setDensity(const ConditionDensity&) { this->isCondition_ = true; }
+  /// The foldover-free density that was last set.
   const FoldoverDensity& density() const { return this->density_; }
 
   struct State
@@ -49,5 +59,6 @@ private:
   CellBatches batches_;
   mutable Points parts_; ///< of the gradient, kept between calls
   FoldoverDensity density_;
+  bool isCondition_ = false; ///< the density is the condition number
 };
 }

@@ -78,9 +78,9 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
 /// Single precision, in the order cell, block, column, row. `begin`: the batch of start[0].
 struct BatchHessian
 {
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
-    const FoldoverDensity& density, const Points& points, Index begin,
-    const std::vector<Index>& start, std::vector<float>& out)
+  template <typename Density>
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Density& density,
+    const Points& points, Index begin, const std::vector<Index>& start, std::vector<float>& out)
   {
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
@@ -111,9 +111,9 @@ struct BatchHessian
   }
 
 private:
+  template <typename Density>
   static MORPH_SIMD_INLINE void addTetrahedra(const SimdVector (&x)[8], const int* corner,
-    const CellBatches::Tetrahedra& tetrahedra, const FoldoverDensity& density, int n,
-    SimdMatrix* sum)
+    const CellBatches::Tetrahedra& tetrahedra, const Density& density, int n, SimdMatrix* sum)
   {
     SimdMatrix inverse, J, g, block[3][3];
     inverseOf(tetrahedra, inverse);
@@ -125,9 +125,7 @@ private:
         g[j][i] = inverse[i][j];
       }
     }
-    Parameters<SimdDouble4> parameters;
-    parametersOf(density, tetrahedra, parameters);
-    hessian(parameters, J, g, block);
+    curvatureAt(density, tetrahedra, J, g, block);
     SimdDouble4 most = {};
     for (int a = 0; a < 3; ++a)
     {
@@ -335,6 +333,13 @@ void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
     monitor.parallelFor(end - begin, Grain,
       [&](Index first, Index last)
       {
+        if (this->isCondition_)
+        {
+          const ConditionDensity density;
+          dispatchedFor<BatchHessian>(
+            begin + first, begin + last, this->batches_, density, points, begin, start, blocks);
+          return;
+        }
         dispatchedFor<BatchHessian>(begin + first, begin + last, this->batches_, this->density_,
           points, begin, start, blocks);
       });

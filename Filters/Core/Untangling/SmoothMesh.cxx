@@ -10,6 +10,7 @@
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/ReproducibleSum.h"
+#include "Untangling/KeepMinimum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,7 @@ constexpr int Rings = 3;            // around bad cells
 constexpr double MostOfMesh = 0.25; // maximum share of free nodes in a patch
 constexpr int PatchSteps = 5;       // Newton steps in a round
 constexpr int MostPatchRounds = 4;
+constexpr int FinishShare = 5;         // of the limit of steps, for a round of the last stage
 constexpr double LeastDecrease = 1e-6; // of the shape measure in a step, relative
 constexpr double Barrier = 1e-10;      // regularisation: only for rounding
 
@@ -95,7 +97,8 @@ public:
   SmoothingReport run(Points& points)
   {
     MeshEnergy energy(this->mesh_, this->free_);
-    this->prepare(energy);
+    const bool isCondition = this->options_.objective == SmoothingObjective::ConditionNumber;
+    this->prepare(energy, isCondition);
     if (!this->isValid(energy, points))
     {
       this->untangle(energy, points);
@@ -104,9 +107,17 @@ public:
     if (this->isValid(energy, points))
     {
       this->edgeLength_ = edgeLengths(this->mesh_, points);
-      this->improvePatches(points);
+      this->improvePatches(isCondition, points);
       this->monitor_.progress(0.5);
       this->improve(energy, this->options_.iterationLimit, points);
+      this->report_.conditionSteps = isCondition ? this->newton_.steps : 0;
+      if (this->options_.objective == SmoothingObjective::Adaptive)
+      {
+        this->monitor_.progress(0.8);
+        const Index before = this->newton_.steps;
+        this->finish(points);
+        this->report_.conditionSteps = this->newton_.steps - before;
+      }
       this->report_.isValid = true;
     }
     this->report_.newtonSteps = this->newton_.steps;
@@ -116,9 +127,14 @@ public:
   }
 
 private:
-  void prepare(MeshEnergy& energy) const
+  void prepare(MeshEnergy& energy, bool isCondition) const
   {
     energy.setTargets(this->targets_);
+    if (isCondition)
+    {
+      energy.setDensity(ConditionDensity());
+      return;
+    }
     FoldoverDensity density;
     density.epsilon = Barrier;
     energy.setDensity(density);
@@ -195,9 +211,18 @@ private:
     return most;
   }
 
-  void improvePatches(Points& points)
+  /// Returns the free nodes in rings of cells around these.
+  std::vector<Index> patchAround(const std::vector<Index>& cells)
   {
-    Adjacency around;
+    if (this->around_.offsets.empty())
+    {
+      this->around_ = nodeToCells(this->mesh_);
+    }
+    return kRingOfCells(this->mesh_, this->around_, this->free_, cells, Rings).nodes;
+  }
+
+  void improvePatches(bool isCondition, Points& points)
+  {
     for (int round = 0; round < MostPatchRounds; ++round)
     {
       const std::vector<Index> bad = this->badCells(points);
@@ -205,19 +230,14 @@ private:
       {
         return;
       }
-      if (around.offsets.empty())
-      {
-        around = nodeToCells(this->mesh_);
-      }
-      const std::vector<Index> patch =
-        kRingOfCells(this->mesh_, around, this->free_, bad, Rings).nodes;
+      const std::vector<Index> patch = this->patchAround(bad);
       if (patch.empty() ||
           static_cast<double>(patch.size()) > MostOfMesh * static_cast<double>(this->free_.size()))
       {
         return;
       }
       MeshEnergy energy(this->mesh_, patch);
-      this->prepare(energy);
+      this->prepare(energy, isCondition);
       ++this->report_.patches;
       if (!this->improve(energy, PatchSteps, points))
       {
@@ -226,10 +246,41 @@ private:
     }
   }
 
+  /// Lowers the condition number around bad cells. Nodes where the minimum would fall go back.
+  void finish(Points& points)
+  {
+    const int steps = this->options_.iterationLimit / FinishShare;
+    for (int round = 0; steps > 0 && round < MostPatchRounds; ++round)
+    {
+      const std::vector<Index> bad = this->badCells(points);
+      const std::vector<Index> patch = this->patchAround(bad);
+      if (bad.empty() || patch.empty())
+      {
+        return;
+      }
+      MeshEnergy energy(this->mesh_, patch);
+      this->prepare(energy, true);
+      ++this->report_.patches;
+      Points trial = points;
+      const bool isLower = this->improve(energy, steps, trial);
+      const Index back = keepMinimum(this->mesh_, patch, points, trial,
+        [this](const Points& measured) { return this->measure(measured); });
+      points.swap(trial);
+      if (!isLower || back > 0)
+      {
+        return; // the next round would move the same nodes
+      }
+    }
+  }
+
+  Quality measure(const Points& points) const
+  {
+    return measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
+  }
+
   std::vector<Index> badCells(const Points& points) const
   {
-    const Quality quality =
-      measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
+    const Quality quality = this->measure(points);
     std::vector<Index> bad;
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
@@ -248,6 +299,7 @@ private:
   Monitor& monitor_;
   const TargetMatrices targets_;
   std::vector<double> edgeLength_;
+  Adjacency around_; ///< cells of each node, empty until needed
   MinimizerEffort newton_;
   SmoothingReport report_;
 };

@@ -11,9 +11,18 @@
 
 namespace morph
 {
+/// The measure of a valid cell's shape that smoothing lowers.
+enum class SmoothingObjective : std::uint8_t
+{
+  MeanRatio,       ///< the inverse mean ratio, everywhere
+  ConditionNumber, ///< the condition number (ConditionDensity.h), everywhere
+  Adaptive         ///< the condition number round bad cells, the inverse mean ratio elsewhere
+};
+
 struct SmoothingOptions
 {
   SmoothingTarget target = SmoothingTarget::Ideal;
+  SmoothingObjective objective = SmoothingObjective::Adaptive;
   /// Maximum number of Newton steps, each of which moves every node once; at least 1. Untangling
   /// takes at most twenty L-BFGS steps for each.
   int iterationLimit = 50;
@@ -28,7 +37,8 @@ struct SmoothingReport
 {
   Index untangleSteps = 0;
   Index newtonSteps = 0;
-  Index patches = 0; ///< rounds in which only the nodes around bad cells moved
+  Index patches = 0;        ///< rounds in which only the nodes around bad cells moved
+  Index conditionSteps = 0; ///< of the Newton steps, those on the condition number
   Index linearIterations = 0;
   Index evaluations = 0;
   bool isValid = false; ///< every tetrahedron that a free node can change is positive
@@ -43,11 +53,17 @@ struct SmoothingReport
 ///    stay inverted, this is the result: not every mesh can be untangled in this way.
 /// 2. If few cells have a scaled Jacobian below 0.2: the shape measure below on the nodes of three
 ///    rings of cells around them. Single bad cells would shorten the steps of the whole mesh.
+///    (Also with Adaptive, the measure is that of stage 3.)
 /// 3. The mean inverse mean ratio |T|^2 / (3 det(T)^(2/3)) of all cells by Newton's method, where T
 ///    is the Jacobian relative to the target. It ends when no node moves far in a step, or a step
 ///    lowers the mean by less than 1e-6, relative. Valid cells stay valid (a barrier). The average
 ///    may improve at the cost of the worst cell. Source: T. S. Munson, "Mesh shape-quality
-///    optimization using the inverse mean-ratio metric", Math. Program. 110 (2007) 561-590.
+///    optimization using the inverse mean-ratio metric", Math. Program. 110 (2007) 561-590. With
+///    the objective ConditionNumber it is the mean condition number instead, also a barrier.
+/// 4. With the objective Adaptive: the condition number on the nodes of three rings around the
+///    cells that are still below 0.2, however many. It takes up to four rounds, each of a fifth of
+///    the limit of steps. Nodes around cells that fell below the minimum scaled Jacobian return
+///    (KeepMinimum.h), so the result is never below that of the objective MeanRatio.
 ///
 /// With the target Ideal the measure is averaged over the corners of each cell, as Mesquite does. A
 /// graded mesh loses its grading, and a mesh whose boundary does not move changes. With the target

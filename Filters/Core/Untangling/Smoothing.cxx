@@ -107,7 +107,8 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   report.statistics = { { "UntangleSteps", smoothing.untangleSteps },
     { "NewtonSteps", smoothing.newtonSteps }, { "LinearIterations", smoothing.linearIterations },
     { "EnergyEvaluations", smoothing.evaluations }, { "SmoothingPatches", smoothing.patches },
-    { "NodesTakenBack", takenBack }, { "BoundaryDeterminedCells", determined } };
+    { "NodesTakenBack", takenBack }, { "ConditionSteps", smoothing.conditionSteps },
+    { "BoundaryDeterminedCells", determined } };
   return report;
 }
 }

@@ -24,8 +24,9 @@ namespace morph
 /// count `NodesTakenBack`).
 ///
 /// Counts: `UntangleSteps`, `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`,
-/// `SmoothingPatches`, `NodesTakenBack`, `BoundaryDeterminedCells` (inverted by the boundary
-/// alone). The result is not linear in the boundary, so there is no adjoint.
+/// `SmoothingPatches`, `NodesTakenBack`, `ConditionSteps` (of the Newton steps, those on the
+/// condition number), `BoundaryDeterminedCells` (inverted by the boundary alone). The result is not
+/// linear in the boundary, so there is no adjoint.
 class Smoothing : public Morpher
 {
 public:
