@@ -14,8 +14,8 @@
  * inverts tetrahedra, which FoldedTetrahedra counts, cells in them are inverted.
  *
  * On structured meshes many sets of boundary nodes lie on one sphere, and the tessellation is not
- * unique. Coordinates alone decide: renumbering the nodes changes nothing, rotating the mesh may
- * give other tetrahedra.
+ * unique. The convex cell of such a set is then divided from the mean of its corners. So neither
+ * renumbering the nodes nor rotating the mesh changes the result beyond rounding.
  *
  * It is an error if all prescribed nodes lie in one plane. Memory: 56 bytes an interior node, and
  * some 300 a prescribed node.

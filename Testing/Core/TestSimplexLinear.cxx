@@ -60,6 +60,21 @@ std::unique_ptr<Outcome> morphed(
   return result;
 }
 
+/// Appends the means of sites' values, by Eigen's own mean.
+Points withMeans(const SimplexLinear& method, const Points& values)
+{
+  const Adjacency& means = method.means();
+  const Index count = static_cast<Index>(means.offsets.size()) - 1;
+  Points all(values.rows() + count, 3);
+  all.topRows(values.rows()) = values;
+  for (Index m = 0; m < count; ++m)
+  {
+    const std::vector<Index> sites(means.begin(m), means.end(m));
+    all.row(values.rows() + m) = values(sites, allColumns).colwise().mean();
+  }
+  return all;
+}
+
 /// x = sum b_k corner_k, solved by itself.
 Eigen::Vector4d barycentric(const Delaunay& delaunay, std::size_t t, const Row& x)
 {
@@ -110,7 +125,8 @@ TEST(SimplexLinear, AgreesWithASearchOfAllTetrahedra)
     const auto result = morphed(mesh, partition, twistOf(4, 1.2));
     const Delaunay& delaunay = result->method.tessellation();
     const Points rest = meshes::rows(mesh.points, partition.free);
-    const Points sites = delaunay.sites(), moved = motions::mapped(sites, twistOf(4, 1.2));
+    const Points moved = withMeans(
+      result->method, motions::mapped(result->method.sites().coordinates(), twistOf(4, 1.2)));
     for (Index i = 0; i < rest.rows(); ++i)
     {
       double best = -1;
@@ -141,7 +157,7 @@ TEST(SimplexLinear, WeightsAreBarycentricCoordinates)
     const NodePartition partition = outerPartition(mesh);
     const auto result = morphed(mesh, partition, affine);
     const WeightMatrix& weights = result->method.weights();
-    const Points& sites = result->method.sites().coordinates();
+    const Points sites = withMeans(result->method, result->method.sites().coordinates());
     ASSERT_EQ(weights.rows(), static_cast<Index>(partition.free.size()));
     for (Index row = 0; row < weights.rows(); ++row)
     {
@@ -211,13 +227,15 @@ TEST(SimplexLinear, PrescribedNodesInOnePlaceMoveTheOthersByTheirMean)
   method.evaluate(target, moved, monitor);
   EXPECT_TRUE(motions::identical(meshes::rows(moved, partition.prescribed), target));
   const WeightMatrix& weights = method.weights();
+  Points step = method.sites().coordinates();
+  step.col(0) = step.col(0).unaryExpr([](double x) { return x < 2 ? 0 : x > 2 ? 1 : .5; });
+  step = withMeans(method, step);
   for (Index row = 0; row < weights.rows(); ++row)
   {
     double expected = 0;
     for (int k = 0; k < 4; ++k)
     {
-      const double x = method.sites().coordinates()(weights.column(row)[k], 0);
-      expected += weights.weight(row)[k] * (x < 2 ? 0 : x > 2 ? 1 : .5);
+      expected += weights.weight(row)[k] * step(weights.column(row)[k], 0);
     }
     const Index node = partition.free[row];
     EXPECT_NEAR(moved(node, 0) - mesh.points(node, 0), expected, 1e-14);
@@ -349,8 +367,9 @@ TEST(SimplexLinear, FoldedTetrahedraAreThoseWithNodesInThemAndNoVolume)
     for (const auto& [motion, map] : motionsOfAll)
     {
       const auto result = morphed(mesh, partition, map);
-      const Points& rest = result->method.sites().coordinates();
-      const Points moved = motions::mapped(rest, map);
+      const Points& sites = result->method.sites().coordinates();
+      const Points rest = withMeans(result->method, sites);
+      const Points moved = withMeans(result->method, motions::mapped(sites, map));
       Index folded = 0;
       for (const std::set<int>& t : usedTetrahedra(result->method.weights()))
       {
@@ -401,6 +420,7 @@ TEST(SimplexLinear, MemoryCountsWhatIsKept)
   const std::size_t free = partition.free.size();
   const std::size_t tetrahedra = result->method.tessellation().tetrahedra().size();
   EXPECT_GT(result->method.memory(), 56 * free + 32 * tetrahedra);
-  EXPECT_LT(
-    result->method.memory(), 56 * free + 40 * tetrahedra + 100 * partition.prescribed.size());
+  const std::size_t means = result->method.means().values.size();
+  EXPECT_LT(result->method.memory(),
+    56 * free + 40 * tetrahedra + 100 * partition.prescribed.size() + 16 * means);
 }

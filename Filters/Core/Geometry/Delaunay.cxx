@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -173,12 +174,30 @@ void Delaunay::build(const Points& absolute, Monitor& monitor)
   this->sites_.swap(sites);
   this->tetrahedra_.swap(tetrahedra);
   this->atSite_.swap(atSite);
+  this->isDelaunay_ = true;
+}
+
+void Delaunay::replace(Points sites, std::vector<Tetrahedron> tetrahedra)
+{
+  std::vector<int> atSite(sites.rows(), Outside);
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
+  {
+    for (const int site : tetrahedra[t].sites)
+    {
+      atSite[site] = static_cast<int>(t);
+    }
+  }
+  this->sites_.swap(sites);
+  this->tetrahedra_.swap(tetrahedra);
+  this->atSite_.swap(atSite);
+  this->isDelaunay_ = false;
 }
 
 int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
 {
   int before = Outside; // the previous tetrahedron: x is not on its side
   int here = start;
+  std::uint32_t random = 0;
   while (true)
   {
     const Tetrahedron& tetrahedron = this->tetrahedra_[here];
@@ -188,8 +207,11 @@ int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
       d[k] = this->sites_.row(tetrahedron.sites[k]) - x;
     }
     int next = here;
-    for (int k = 0; k < 4 && next == here; ++k)
+    const std::uint32_t turn = this->isDelaunay_ ? 0 : random >> 30;
+    random = 1664525 * random + 1013904223; // Numerical Recipes' generator
+    for (std::uint32_t i = 0; i < 4 && next == here; ++i)
     {
+      const std::uint32_t k = (i + turn) % 4;
       const int neighbor = tetrahedron.neighbors[k];
       if (neighbor != Outside && neighbor != before &&
           isBeyond(d[Faces[k][0]], d[Faces[k][1]], d[Faces[k][2]]))

@@ -15,7 +15,7 @@ namespace morph
 /// The tessellation is not unique where more than four sites lie on one empty sphere, as on every
 /// structured boundary. CGAL then decides by a symbolic perturbation in lexicographic order of the
 /// coordinates. So the same set of sites gives the same tetrahedra in any order; rotated sites may
-/// give others.
+/// give others (CosphericalCells.h).
 ///
 /// All coordinates here are relative to origin(), which lies near sites that are far from 0. This
 /// shift is exact, so the tessellation does not change, and rounding is relative to the sites'
@@ -36,6 +36,10 @@ public:
   /// microseconds a site.
   void build(const Points& absolute, Monitor& monitor);
 
+  /// Replaces the tetrahedra by others that fill the same hull, and the sites by those and further
+  /// ones. `sites`: relative to origin().
+  void replace(Points sites, std::vector<Tetrahedron> tetrahedra);
+
   /// #sites x 3, relative to origin().
   const Points& sites() const { return this->sites_; }
   /// The shift. A coordinate's shift is its value of smallest magnitude if the largest is at most
@@ -45,9 +49,10 @@ public:
 
   /// Finds a tetrahedron that contains `x`, up to rounding. A visibility walk from the tetrahedron
   /// `start` crosses only faces that x is certainly beyond, so it ends. For x outside the hull it
-  /// returns a tetrahedron at whose outer face the walk ends. The result depends on x and start
-  /// only. `x` is relative to origin(). Cost: the tetrahedra on the way. Source: Devillers, Pion,
-  /// Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.
+  /// returns a tetrahedron at whose outer face the walk ends. After replace() faces are tried in a
+  /// pseudorandom order, since a fixed order might walk in circles. The result depends on x and
+  /// start only. `x` is relative to origin(). Cost: the tetrahedra on the way. Source: Devillers,
+  /// Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.
   int locate(const Eigen::RowVector3d& x, int start) const;
   /// Returns a start for a first `x`, relative to origin(): a tetrahedron at the nearest of some
   /// sample sites (jump and walk).
@@ -66,5 +71,6 @@ private:
   Points sites_;
   std::vector<Tetrahedron> tetrahedra_;
   std::vector<int> atSite_; ///< #sites, one tetrahedron at each
+  bool isDelaunay_ = true;
 };
 }

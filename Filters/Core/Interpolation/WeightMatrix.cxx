@@ -18,7 +18,7 @@ constexpr Index Grain = 1024;
 constexpr Index MostBlocks = 32;
 constexpr Index MostEntries = Index(1) << 36; // 800 GB: not even requested
 
-using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+using PaddedPoints = WeightMatrix::PaddedPoints;
 
 /// Four numbers a site fill vector registers; three do not.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
@@ -97,12 +97,22 @@ void WeightMatrix::open(Index rows, Index columns, Index entries)
 
 void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor) const
 {
-  PaddedPoints padded = PaddedPoints::Zero(this->columns(), 4);
-  padded.leftCols<3>() = sites;
+  this->multiplyPadded(padded(sites), free, monitor);
+}
+
+PaddedPoints WeightMatrix::padded(const Points& sites)
+{
+  PaddedPoints result = PaddedPoints::Zero(sites.rows(), 4);
+  result.leftCols<3>() = sites;
+  return result;
+}
+
+void WeightMatrix::multiplyPadded(
+  const PaddedPoints& sites, Points& free, Monitor& monitor) const
+{
   free.resize(this->rows(), 3);
   monitor.parallelFor(this->rows(), Grain,
-    [&](Index first, Index last)
-    { dispatchedFor<MultiplyRow>(first, last, *this, std::as_const(padded), free); });
+    [&](Index first, Index last) { dispatchedFor<MultiplyRow>(first, last, *this, sites, free); });
 }
 
 void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const

@@ -37,6 +37,11 @@ public:
   /// Sets `free` to W sites; `sites`: #columns x 3, `free`: #rows x 3. The result does not depend
   /// on threads. Cost: one pass over the entries.
   void multiply(const Points& sites, Points& free, Monitor& monitor) const;
+  /// Sites with a fourth number, 0, which fill vector registers.
+  using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  static PaddedPoints padded(const Points& sites);
+  /// As multiply(), for many products with the same sites.
+  void multiplyPadded(const PaddedPoints& sites, Points& free, Monitor& monitor) const;
   /// Sets `sites` to W^T free. Rows are cut into at most 32 fixed blocks whose sums are added in
   /// order, so the result does not depend on threads. Cost: one pass over the entries, and
   /// temporarily 24 bytes a column and block.

@@ -173,6 +173,10 @@ bool fillsHull(const Mesh& mesh, const Delaunay& delaunay, Monitor& monitor)
 bool leavesMesh(
   const InterpolationSites& sites, const Sectors& sectors, Index site, const Vector& d)
 {
+  if (site >= sites.size()) // the mean of a cell's or a face's corners has no faces
+  {
+    return false;
+  }
   // Where bodies touch, an edge that leaves one may enter the other. An inner node has no faces.
   const Index* end = sites.prescribed().end(site);
   return std::all_of(sites.prescribed().begin(site), end,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexLinear.h"
 
+#include "Geometry/CosphericalCells.h"
 #include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
 #include "LinearMethods/BridgingTetrahedra.h"
@@ -96,11 +97,31 @@ void fillWeights(const Delaunay& delaunay, const PointLocation& enclosing,
 }
 }
 
+Points SimplexLinear::withMeans(const Points& sites) const
+{
+  const Index means = static_cast<Index>(this->means_.offsets.size()) - 1;
+  Points all(sites.rows() + means, 3);
+  all.topRows(sites.rows()) = sites;
+  for (Index m = 0; m < means; ++m)
+  {
+    // Relative to the first: equal values have that value as their mean, bit for bit.
+    const Eigen::RowVector3d first = sites.row(*this->means_.begin(m));
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    std::for_each(this->means_.begin(m), this->means_.end(m),
+      [&](Index site) { sum += sites.row(site) - first; });
+    all.row(sites.rows() + m) =
+      first + sum / static_cast<double>(this->means_.end(m) - this->means_.begin(m));
+  }
+  return all;
+}
+
 void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   monitor.progress(0.1);
   this->delaunay_.build(this->sites_.coordinates(), monitor);
+  monitor.progress(0.5);
+  this->means_ = starCosphericalCells(this->delaunay_, monitor);
   monitor.progress(0.6);
   const PointLocation enclosing =
     locatePoints(this->delaunay_, rest.points, this->partition().free, monitor);
@@ -115,7 +136,8 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
   }
   fillWeights(this->delaunay_, enclosing, far,
     far.empty() ? std::vector<AffineRow>()
-                : affineWeights(this->delaunay_.sites(), places, MostWeight, monitor),
+                : affineWeights(this->delaunay_.sites().topRows(this->sites_.size()), places,
+                    MostWeight, monitor),
     this->weights_, monitor);
   std::vector<int> inside = enclosing.tetrahedron;
   for (const Index row : far)
@@ -134,7 +156,7 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport SimplexLinear::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points displacement = this->sites_.average(prescribed);
+  const Points displacement = this->withMeans(this->sites_.average(prescribed));
   this->weights_.multiply(displacement, free, monitor);
   monitor.check();
 
@@ -158,6 +180,15 @@ EvaluateReport SimplexLinear::displaceTranspose(
 {
   Points sites;
   this->weights_.multiplyTranspose(free, sites, monitor);
+  const Index means = static_cast<Index>(this->means_.offsets.size()) - 1;
+  for (Index m = 0; m < means; ++m)
+  {
+    const Eigen::RowVector3d share =
+      sites.row(this->sites_.size() + m) /
+      static_cast<double>(this->means_.end(m) - this->means_.begin(m));
+    std::for_each(
+      this->means_.begin(m), this->means_.end(m), [&](Index site) { sites.row(site) += share; });
+  }
   this->sites_.scatterTranspose(sites, prescribed);
   return {};
 }
@@ -165,6 +196,7 @@ EvaluateReport SimplexLinear::displaceTranspose(
 std::size_t SimplexLinear::memory() const
 {
   return this->sites_.memory() + this->weights_.memory() +
+         sizeof(Index) * (this->means_.offsets.size() + this->means_.values.size()) +
          sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
          sizeof(int) * this->used_.size();
 }

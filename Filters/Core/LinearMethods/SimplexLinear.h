@@ -16,9 +16,9 @@ namespace morph
 /// convex, tetrahedra bridge the voids and couple opposite walls.
 ///
 /// Coincident prescribed nodes (1e-12 of the size) count as one that moves by their mean.
-/// Cospherical nodes (on every structured boundary) leave the tessellation undetermined; Delaunay
-/// then decides by the coordinates. So renumbering has no effect. Rotating the mesh may, within the
-/// quality of either choice.
+/// Cospherical nodes (on every structured boundary) leave the tessellation undetermined. Their
+/// convex cells are divided from the means of their corners (CosphericalCells.h). So neither
+/// renumbering nor turning the mesh has an effect beyond rounding.
 ///
 /// Counts: `FoldedTetrahedra`, with free nodes and without positive volume after the motion, which
 /// invert cells. `BridgingTetrahedra`, with free nodes and an edge that leaves the mesh.
@@ -33,9 +33,11 @@ class SimplexLinear : public LinearMorpher
 {
 public:
   const Delaunay& tessellation() const { return this->delaunay_; }
-  /// Returns the sites that the tessellation's numbers denote.
+  /// Returns the sites that the tessellation's first numbers denote.
   const InterpolationSites& sites() const { return this->sites_; }
-  /// #free x #sites, four entries a row.
+  /// Returns the sites whose means the further numbers denote.
+  const Adjacency& means() const { return this->means_; }
+  /// #free x #sites and means, four entries a row.
   const WeightMatrix& weights() const { return this->weights_; }
   /// Returns the bytes that prepare() keeps.
   std::size_t memory() const;
@@ -47,7 +49,11 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
+  /// Appends the means to `sites`, #sites x 3.
+  Points withMeans(const Points& sites) const;
+
   InterpolationSites sites_;
+  Adjacency means_;
   Delaunay delaunay_;
   WeightMatrix weights_;
   std::vector<int> used_; ///< tetrahedra with free nodes, ascending

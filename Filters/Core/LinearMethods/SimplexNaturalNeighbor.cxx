@@ -177,7 +177,8 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport SimplexNaturalNeighbor::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points displacement = this->sites_.average(prescribed);
+  const WeightMatrix::PaddedPoints displacement =
+    WeightMatrix::padded(this->sites_.average(prescribed));
   std::atomic<Index> barycentric{ this->barycentric_ };
   inStretches(this->blocks(), monitor,
     [&](Index first, Index last)
@@ -187,7 +188,7 @@ EvaluateReport SimplexNaturalNeighbor::displace(
       barycentric += this->forEachBlock(first, last,
         [&](Index block, const WeightMatrix& weights)
         {
-          weights.multiply(displacement, moved, serial);
+          weights.multiplyPadded(displacement, moved, serial);
           for (Index i = 0; i < moved.rows(); ++i)
           {
             free.row(this->order_[block * BlockLength + i]) = moved.row(i);

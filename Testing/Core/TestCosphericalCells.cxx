@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Geometry/CosphericalCells.h"
+
+#include "LinearMethods/SimplexLinear.h"
+#include "Meshes.h"
+#include "Motions.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+using namespace morph;
+using Row = Eigen::RowVector3d;
+
+namespace
+{
+struct Star
+{
+  explicit Star(const Points& sites)
+  {
+    Monitor monitor;
+    this->delaunay.build(sites, monitor);
+    this->before = this->delaunay.tetrahedra();
+    this->means = starCosphericalCells(this->delaunay, monitor);
+  }
+
+  Index numberOfMeans() const { return static_cast<Index>(this->means.offsets.size()) - 1; }
+
+  Delaunay delaunay;
+  std::vector<Delaunay::Tetrahedron> before;
+  Adjacency means;
+};
+
+Points random(Index n, std::mt19937& generator)
+{
+  std::uniform_real_distribution<double> value(-1, 1);
+  return Points(n, 3).unaryExpr([&](double) { return value(generator); });
+}
+
+Eigen::Matrix3d rotation(std::mt19937& generator)
+{
+  std::normal_distribution<double> value;
+  return Eigen::Quaterniond(value(generator), value(generator), value(generator), value(generator))
+    .normalized()
+    .toRotationMatrix();
+}
+
+/// A cylinder of radius 1 with rings of equal angles.
+Mesh cylinder(int n, int height)
+{
+  Mesh mesh = meshes::hexes(n, n, height);
+  meshes::transform(mesh,
+    [=](const Row& x)
+    {
+      const double u = 2 * x[0] / n - 1, v = 2 * x[1] / n - 1;
+      const double r = std::max(std::abs(u), std::abs(v));
+      if (r < 1e-12)
+      {
+        return Row(0, 0, 2 * x[2] / n);
+      }
+      const double quarter = std::atan(1.);
+      const double angle = std::abs(u) >= std::abs(v)
+                             ? quarter * v / u + (u < 0 ? 4 * quarter : 0)
+                             : quarter * (2 - u / v) + (v < 0 ? 4 * quarter : 0);
+      return Row(r * std::cos(angle), r * std::sin(angle), 2 * x[2] / n);
+    });
+  return mesh;
+}
+
+Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target)
+{
+  Monitor monitor;
+  SimplexLinear method;
+  method.prepare(mesh, partition, monitor);
+  Points moved;
+  method.evaluate(target, moved, monitor);
+  return moved;
+}
+
+/// Neighbors see each other, and the volumes add up to the hull's.
+void expectTessellation(const Star& star)
+{
+  const auto& now = star.delaunay.tetrahedra();
+  double volume = 0, hull = 0;
+  for (const auto& t : star.before)
+  {
+    hull += Delaunay::sixVolumes(t, star.delaunay.sites());
+  }
+  for (std::size_t t = 0; t < now.size(); ++t)
+  {
+    const double own = Delaunay::sixVolumes(now[t], star.delaunay.sites());
+    EXPECT_GT(own, -1e-12 * hull);
+    volume += own;
+    for (int k = 0; k < 4; ++k)
+    {
+      const int next = now[t].neighbors[k];
+      if (next != Delaunay::Outside)
+      {
+        const auto& back = now[next].neighbors;
+        EXPECT_EQ(std::count(back.begin(), back.end(), static_cast<int>(t)), 1);
+        std::set<int> face(now[t].sites.begin(), now[t].sites.end());
+        face.erase(now[t].sites[k]);
+        std::set<int> other(now[next].sites.begin(), now[next].sites.end());
+        EXPECT_TRUE(std::includes(other.begin(), other.end(), face.begin(), face.end()));
+      }
+    }
+  }
+  EXPECT_NEAR(volume, hull, 1e-10 * hull);
+}
+}
+
+TEST(CosphericalCells, ABoxIsDividedFromItsMeanAndThoseOfItsFaces)
+{
+  const Star star(meshes::hexes(1, 1, 1).points);
+  EXPECT_EQ(star.delaunay.tetrahedra().size(), 24u);
+  ASSERT_EQ(star.numberOfMeans(), 7);
+  EXPECT_EQ(star.means.values.size(), 6u * 4 + 8);
+  for (Index m = 0; m < 7; ++m)
+  {
+    const bool isCell = star.means.end(m) - star.means.begin(m) == 8;
+    const Row place = star.delaunay.sites().row(8 + m);
+    EXPECT_NEAR((place.array() - .5).matrix().norm(), isCell ? 0 : .5, 1e-15);
+  }
+  expectTessellation(star);
+}
+
+TEST(CosphericalCells, AnOctahedronKeepsItsFaces)
+{
+  Points corners(6, 3);
+  corners << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
+  const Star star(corners);
+  EXPECT_EQ(star.delaunay.tetrahedra().size(), 8u);
+  EXPECT_EQ(star.numberOfMeans(), 1);
+  expectTessellation(star);
+}
+
+TEST(CosphericalCells, SitesWithoutTiesKeepTheirTetrahedra)
+{
+  std::mt19937 generator(meshes::seed());
+  const Star star(random(200, generator));
+  EXPECT_EQ(star.numberOfMeans(), 0);
+  ASSERT_EQ(star.delaunay.tetrahedra().size(), star.before.size());
+  for (std::size_t t = 0; t < star.before.size(); ++t)
+  {
+    EXPECT_EQ(star.delaunay.tetrahedra()[t].sites, star.before[t].sites);
+  }
+}
+
+TEST(CosphericalCells, ManySitesOnOneSphereAreOneCell)
+{
+  // Along a spiral they lie evenly, and no four in one plane.
+  Points sites(3000, 3);
+  for (Index i = 0; i < sites.rows(); ++i)
+  {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(sites.rows());
+    const double angle = 2.399963229728653 * static_cast<double>(i);
+    const double r = std::sqrt(1 - z * z);
+    sites.row(i) << r * std::cos(angle), r * std::sin(angle), z;
+  }
+  const Star star(sites);
+  EXPECT_EQ(star.numberOfMeans(), 1);
+  EXPECT_EQ(star.delaunay.tetrahedra().size(), 2u * 3000 - 4); // Euler's formula
+  expectTessellation(star);
+}
+
+TEST(CosphericalCells, FillTheHullOfTurnedLatticesAndCylinders)
+{
+  std::mt19937 generator(meshes::seed());
+  for (const Mesh& mesh : { meshes::hexes(6, 6, 6), meshes::hexes(5, 3, 9), cylinder(6, 8) })
+  {
+    const std::vector<Index> outer = motions::outerPartition(mesh).prescribed;
+    for (int trial = 0; trial < 5; ++trial)
+    {
+      const Points sites = meshes::rows(mesh.points, outer) * rotation(generator);
+      const Star star(sites);
+      EXPECT_GT(star.numberOfMeans(), 10);
+      expectTessellation(star);
+      // A place that a walk finds is in the tetrahedron where it ends.
+      const Points places = random(200, generator) * 0.1;
+      const Row middle =
+        (star.delaunay.sites().colwise().minCoeff() + star.delaunay.sites().colwise().maxCoeff()) /
+        2;
+      for (Index i = 0; i < places.rows(); ++i)
+      {
+        const Row x = middle + places.row(i);
+        const auto& found =
+          star.delaunay.tetrahedra()[star.delaunay.locate(x, star.delaunay.startNear(x))];
+        Points corners = star.delaunay.sites();
+        const double whole = Delaunay::sixVolumes(found, corners);
+        for (int k = 0; k < 4; ++k)
+        {
+          corners = star.delaunay.sites();
+          corners.row(found.sites[k]) = x;
+          EXPECT_GE(Delaunay::sixVolumes(found, corners), -1e-9 * whole);
+        }
+      }
+    }
+  }
+}
+
+TEST(CosphericalCells, SimplexLinearFollowsAnyRotation)
+{
+  std::mt19937 generator(meshes::seed());
+  for (const auto& [name, mesh] :
+    { std::make_pair("cube", meshes::hexes(12, 12, 12)),
+      std::make_pair("box", meshes::hexes(5, 7, 4)), std::make_pair("cylinder", cylinder(8, 10)) })
+  {
+    const NodePartition partition = motions::outerPartition(mesh);
+    const double size = meshes::size(mesh.points);
+    const double width = mesh.points.col(0).maxCoeff(), height = mesh.points.col(2).maxCoeff();
+    const Points target = motions::targets(
+      mesh, partition, [=](const Row& x) { return motions::twist(x, width, height, 1.2); });
+    const Points reference = morphed(mesh, partition, target);
+    double most = 0;
+    for (int trial = 0; trial < 10; ++trial)
+    {
+      const Eigen::Matrix3d R = rotation(generator);
+      const motions::Map rigid = [&](const Row& x) { return Row(x * R + Row(4, -3, 8)); };
+      Mesh turned = mesh;
+      meshes::transform(turned, rigid);
+      const Points result = morphed(turned, partition, motions::mapped(target, rigid));
+      most = std::max(most, motions::difference(result, motions::mapped(reference, rigid)) / size);
+    }
+    EXPECT_LT(most, 1e-8) << name;
+  }
+}
