@@ -116,17 +116,20 @@ struct BatchGradient
 };
 }
 
-MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
+MeshEnergy::MeshEnergy(
+  const Mesh& mesh, const std::vector<Index>& free, const Communicator& communicator)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_)
 {
+  this->share(communicator, this->free_);
 }
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
   const auto sum =
     sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
-  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
+  const Communicator& all = this->communicator();
+  return { all.sum(sum.energy), all.minimum(sum.least), all.sum(static_cast<Index>(sum.inverted)) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
@@ -139,5 +142,6 @@ void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor
 {
   gatherFromBatches<BatchGradient>(
     this->batches_, this->parts_, result, monitor, this->density_, points);
+  this->rows().add(result);
 }
 }
