@@ -2,56 +2,80 @@
 #include "Distributed/InversionFree.h"
 
 #include "LinearMethods/SimplexLinear.h"
+#include "Quality/BoundaryDetermined.h"
 #include "Quality/MovableQuality.h"
+#include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
-#include "Untangling/MinQualityAscent.h"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 namespace morph::distributed
 {
-namespace
-{
-constexpr int RaisingRounds = 8;
-constexpr double NoMinimum = std::numeric_limits<double>::infinity();
-}
+using Start = morph::InversionFree::Start;
 
-InversionFree::InversionFree(const morph::InversionFree& serial)
-  : raising_(serial.raises())
+InversionFree::InversionFree(const morph::InversionFree& serial, std::unique_ptr<Method> guess)
+  : guess_(std::move(guess))
 {
-  if (serial.start() != morph::InversionFree::Start::FemWarp ||
-      serial.target() != TargetConstruction::Stretched)
-  {
-    throw Error("On several MPI ranks the inversion-free method starts from FEMWARP and aims for "
-                "stretched cells. Set InitialGuess to FEMWARP and TargetShape to Stretched, or run "
-                "on one rank.");
-  }
+  this->takeEvaluateOptions(serial);
 }
 
 void InversionFree::takeEvaluateOptions(const Morpher& serial)
 {
-  this->femWarp_.setTolerance(static_cast<const morph::InversionFree&>(serial).tolerance());
+  const auto& own = static_cast<const morph::InversionFree&>(serial);
+  this->femWarp_.setTolerance(own.tolerance());
+  this->start_ = own.start();
+  this->options_.target = own.target();
+  this->options_.minimizer = own.minimizer();
+  this->options_.raising = own.raises();
+  this->options_.startsFromBest = own.start() == Start::FemWarp;
+}
+
+MeshImprovement InversionFree::improvement() const
+{
+  return { this->own_->mesh(), this->own_->orientation(), this->own_->partition(), this->boundary_,
+    this->geometry_, this->options_, this->own_->communicator() };
 }
 
 void InversionFree::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
-  const Points& reference = this->reference_.rows() > 0 ? this->reference_ : mesh.mesh().points;
-  if (this->measure(reference, monitor).inverted > 0)
-  {
-    throw Error("The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
-                "inversion-free method needs a valid one: repair it on one rank first.");
-  }
-  ProgressRange first(monitor, 0, 0.6), second(monitor, 0.6, 1);
-  this->femWarp_.prepare(mesh, this->partition(), first);
+  const Points& rest = mesh.mesh().points;
+  const Points& reference = this->reference_.rows() > 0 ? this->reference_ : rest;
+  mesh.ranks().together([&] { this->own_ = std::make_unique<OwnCells>(mesh, this->partition()); });
+  OwnCells& own = *this->own_;
+  ProgressRange first(monitor, 0, 0.2), second(monitor, 0.2, 0.6), third(monitor, 0.6, 0.8),
+    last(monitor, 0.8, 1);
+  own.communicator().run(
+    [&]
+    {
+      own.mesh().points = own.take(reference);
+      this->scale_ = unitEdgeScale(own.mesh(), own.communicator());
+      own.mesh().points *= this->scale_;
+      const auto minimumAt = [&](const Points& points)
+      {
+        const morph::Quality quality = measureCorners(
+          own.mesh(), own.take(points) * this->scale_, own.orientation(), {}, monitor);
+        return own.communicator().minimum(
+          quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
+      };
+      this->options_.minimumAtRest = minimumAt(rest);
+      if (!(minimumAt(reference) > 0))
+      {
+        throw Error(
+          "The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
+          "inversion-free method needs a valid one: repair it on one rank first.");
+      }
+      this->boundary_ = own.outerFaces();
+      this->geometry_ = classify(own.mesh(), this->boundary_, {}, first);
+    });
+  this->femWarp_.prepare(mesh, this->partition(), second);
   this->simplexLinear_ = std::make_unique<SiteMethod>(std::make_unique<SimplexLinear>());
   try
   {
-    this->simplexLinear_->prepare(mesh, this->partition(), second);
+    this->simplexLinear_->prepare(mesh, this->partition(), third);
   }
   catch (const Error& error)
   {
@@ -62,73 +86,38 @@ void InversionFree::doPrepare(Monitor& monitor)
     }
     this->simplexLinear_.reset();
   }
-}
-
-InversionFree::Quality InversionFree::measure(const Points& points, Monitor& monitor) const
-{
-  const DistributedMesh& mesh = this->mesh();
-  const Ranks& ranks = mesh.ranks();
-  MovableQuality::Result found;
-  ranks.together(
-    [&]
-    {
-      found = MovableQuality(mesh.mesh(), mesh.orientation(), this->partition().free)
-                .measure(points, monitor);
-    });
-  Quality quality;
-  quality.minimum = NoMinimum;
-  const auto forOwn = [&](const auto& visit)
+  if (this->guess_)
   {
-    for (std::size_t c = 0; c < found.scaledJacobian.size(); ++c)
-    {
-      if (mesh.isGhost()[c] == 0 && found.scaledJacobian[c] == found.scaledJacobian[c]) // no NaN
-      {
-        visit(static_cast<Index>(c), found.scaledJacobian[c]);
-      }
-    }
-  };
-  forOwn(
-    [&](Index, double value)
-    {
-      quality.minimum = std::min(quality.minimum, value);
-      quality.inverted += !(value > 0);
-    });
-  quality.minimum = ranks.minimum(quality.minimum);
-  quality.inverted = ranks.sum(quality.inverted);
-  // As MinQualityAscent.h: above the minimum m by at most these shares of m and of 1 - m.
-  const double least = quality.minimum;
-  const double limit = least + std::min(0.5 * least, 0.1 * (1 - least));
-  forOwn(
-    [&](Index cell, double value)
-    {
-      if (value <= limit)
-      {
-        quality.worst.push_back(cell);
-      }
-    });
-  return quality;
-}
-
-void InversionFree::raise(const Points& reference, Points& points, Monitor& monitor) const
-{
-  Quality best = this->measure(points, monitor);
-  for (int round = 0; round < RaisingRounds; ++round)
-  {
-    Points trial = points;
-    const PatchReport report =
-      repairPatches(this->mesh(), reference, this->partition(), best.worst, {}, trial, monitor);
-    if (report.isTooLarge || report.patches == 0)
-    {
-      return;
-    }
-    Quality next = this->measure(trial, monitor);
-    if (next.inverted > 0 || !(next.minimum > best.minimum + significantGain(best.minimum)))
-    {
-      return;
-    }
-    points.swap(trial);
-    best = std::move(next);
+    this->guess_->prepare(mesh, this->partition(), last);
   }
+}
+
+Points InversionFree::betterGuess(
+  const Points& target, EvaluateReport& report, Monitor& monitor) const
+{
+  Points warped;
+  report.iterations += this->femWarp_.evaluate(target, warped, monitor).iterations;
+  // A user who asks for a certain target wants its minimum.
+  if (this->simplexLinear_ && this->options_.target == TargetConstruction::Stretched)
+  {
+    Points simplex;
+    this->simplexLinear_->evaluate(target, simplex, monitor);
+    bool isBetter = false;
+    this->own_->communicator().run(
+      [&]
+      {
+        const MovableQuality quality = this->improvement().quality();
+        const auto at = [&](const Points& points)
+        { return quality.measure(this->own_->take(points) * this->scale_, monitor); };
+        const MovableQuality::Result ofWarped = at(warped);
+        isBetter = ofWarped < at(simplex);
+      });
+    if (isBetter)
+    {
+      return simplex;
+    }
+  }
+  return warped;
 }
 
 EvaluateReport InversionFree::displace(
@@ -137,43 +126,50 @@ EvaluateReport InversionFree::displace(
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   const Points& rest = mesh.mesh().points;
-  EvaluateReport report;
-  report.statistics = { { "Untangled", 1 } };
-  if (ranks.sum(Index((prescribed.array() != 0).any())) == 0)
+  const OwnCells& own = *this->own_;
+  Monitor quiet;
+  Monitor& speaking = ranks.rank() == 0 ? monitor : quiet;
+  // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
+  if (this->options_.target != TargetConstruction::IdealSkew &&
+      ranks.sum(Index((prescribed.array() != 0).any())) == 0)
   {
     free.setZero();
-    return report;
+    MeshImprovement::Outcome nothing;
+    nothing.untangled = true;
+    return reportImprovement(nothing, {}, speaking);
   }
   const Points target = rest(this->partition().prescribed, allColumns) + prescribed;
-  Points points;
-  ProgressRange first(monitor, 0, 0.3), second(monitor, 0.3, 0.7), third(monitor, 0.7, 1);
-  report.iterations = this->femWarp_.evaluate(target, points, first).iterations;
-  if (this->simplexLinear_)
+  ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 1);
+  EvaluateReport guesses;
+  const Points best = this->betterGuess(target, guesses, first);
+  Points points = best;
+  if (this->start_ == Start::Method && this->guess_)
   {
-    Points simplex;
-    this->simplexLinear_->evaluate(target, simplex, first);
-    if (this->measure(points, first) < this->measure(simplex, first))
+    guesses.iterations += this->guess_->evaluate(target, points, first).iterations;
+  }
+  else if (this->start_ == Start::Rest)
+  {
+    points = rest;
+    points(this->partition().prescribed, allColumns) = target;
+    mesh.halo().update(ranks, points);
+  }
+  MeshImprovement::Outcome outcome;
+  std::vector<Index> determined;
+  own.communicator().run(
+    [&]
     {
-      points.swap(simplex);
-    }
-  }
-  const Points& reference = this->reference_.rows() > 0 ? this->reference_ : rest;
-  const RepairReport repaired = repairInverted(mesh, reference, this->partition(), points, second);
-  if (repaired.tooLarge > 0 && ranks.rank() == 0)
-  {
-    monitor.warn("On MPI ranks bad cells are repaired in patches, each on one rank. The patches "
-                 "would have " +
-                 std::to_string(repaired.tooLarge) + " cells of " +
-                 std::to_string(mesh.volumeCells()) +
-                 "; at most a quarter may be gathered. Run on one rank, or move the boundary in "
-                 "steps.");
-  }
-  report.statistics[0].value = this->measure(points, second).inverted == 0;
-  if (report.statistics[0].value == 1 && this->raising_)
-  {
-    this->raise(reference, points, third);
-  }
+      const Points alternative = own.take(best) * this->scale_;
+      Points improved = own.take(points) * this->scale_;
+      determined =
+        boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), improved);
+      outcome = this->improvement().run(
+        improved, { alternative, this->options_.target }, alternative, EnoughOfMinimum, second);
+      points(own.nodes(), allColumns) = improved / this->scale_;
+    });
   free = points(this->ownFree(), allColumns) - rest(this->ownFree(), allColumns);
+  outcome.onFolds = own.gatherIds(outcome.onFolds);
+  EvaluateReport report = reportImprovement(outcome, own.gatherIds(determined), speaking);
+  report.iterations += guesses.iterations;
   return report;
 }
 

@@ -2,29 +2,31 @@
 #pragma once
 
 #include "Distributed/Method.h"
-#include "Distributed/Patches.h"
+#include "Distributed/OwnCells.h"
 #include "Distributed/SiteMethod.h"
 #include "Distributed/SystemMethod.h"
 
 #include "Untangling/InversionFree.h"
+#include "Untangling/MeshImprovement.h"
 
 #include <memory>
 
 namespace morph::distributed
 {
-/// The inversion-free morph on ranks: the better of FEMWARP's and the simplex-linear mesh, whose
-/// inverted and worst cells morph::InversionFree::repair() mends in patches, each on one rank. It
-/// does not minimise the energy of the whole mesh, and needs a valid undeformed mesh. A motion that
-/// inverts cells in a large part of the mesh is left to one rank, with a warning; see PatchLimits.
+/// The inversion-free morph on ranks. It starts from the better of FEMWARP's and the simplex-linear
+/// mesh, or from another first guess. Then it takes the stages of the serial method
+/// (MeshImprovement.h) on the cells that each rank owns. So energies, the line search and the
+/// minimum are those of the whole mesh. It needs a valid undeformed mesh. A folded boundary is
+/// recognised by the outer faces of each rank alone.
 ///
-/// Count: `Untangled` (1 or 0).
+/// Counts: those of morph::InversionFree.
 class InversionFree : public Method
 {
 public:
-  /// Takes the options of the serial method. Throws Error for another start than FEMWARP, or other
-  /// targets than Stretched.
-  explicit InversionFree(const morph::InversionFree& serial);
+  /// Takes the options of the serial method. `guess`: the method of its first guess, or null.
+  InversionFree(const morph::InversionFree& serial, std::unique_ptr<Method> guess);
 
+  int layers() const override { return this->guess_ ? this->guess_->layers() : 1; }
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
@@ -35,25 +37,19 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  struct Quality
-  {
-    double minimum = 0; ///< over what free nodes can change; infinite without such a sample
-    Index inverted = 0;
-    std::vector<Index> worst; ///< this rank's cells near the minimum
+  MeshImprovement improvement() const;
+  /// The better of FEMWARP's mesh and the simplex-linear one, of all local nodes.
+  Points betterGuess(const Points& target, EvaluateReport& report, Monitor& monitor) const;
 
-    bool operator<(const Quality& other) const
-    {
-      return this->inverted > other.inverted ||
-             (this->inverted == other.inverted && this->minimum < other.minimum);
-    }
-  };
-  Quality measure(const Points& points, Monitor& monitor) const;
-  /// Raises the minimum of a valid mesh as far as patches of the worst cells do.
-  void raise(const Points& reference, Points& points, Monitor& monitor) const;
-
-  bool raising_ = true;
+  ImprovementOptions options_;
+  morph::InversionFree::Start start_ = morph::InversionFree::Start::FemWarp;
   Points reference_;
   FemWarp femWarp_;
   std::unique_ptr<SiteMethod> simplexLinear_; ///< null where it cannot be prepared
+  std::unique_ptr<Method> guess_;
+  std::unique_ptr<OwnCells> own_;
+  double scale_ = 1;       ///< a power of two that makes edges about 1 long
+  BoundaryFaces boundary_; ///< of own_: the outer faces of the whole mesh
+  Classification geometry_;
 };
 }

@@ -41,11 +41,11 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
   {
     return std::make_unique<SiteMethod>(std::move(serial));
   }
-  if (const auto* inversionFree = dynamic_cast<const morph::InversionFree*>(serial.get()))
+  if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(serial.get()))
   {
-    auto method = std::make_unique<InversionFree>(*inversionFree);
-    method->takeEvaluateOptions(*serial);
-    return method;
+    std::unique_ptr<Morpher> guess = inversionFree->releaseMethod();
+    return std::make_unique<InversionFree>(
+      *inversionFree, guess ? makeMethod(std::move(guess)) : nullptr);
   }
   return nullptr;
 }

@@ -99,10 +99,12 @@ struct BatchGradient
 };
 }
 
-MeshEnergy::MeshEnergy(const Mesh& mesh, const std::vector<Index>& free)
+MeshEnergy::MeshEnergy(
+  const Mesh& mesh, const std::vector<Index>& free, const Communicator& communicator)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_)
 {
+  this->share(communicator, this->free_);
 }
 
 MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
@@ -111,7 +113,8 @@ MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) c
     this->isCondition_
       ? sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, ConditionDensity(), points)
       : sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
-  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
+  const Communicator& all = this->communicator();
+  return { all.sum(sum.energy), all.minimum(sum.least), all.sum(static_cast<Index>(sum.inverted)) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
@@ -127,9 +130,12 @@ void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor
   {
     gatherFromBatches<BatchGradient>(
       this->batches_, this->parts_, result, monitor, ConditionDensity(), points);
-    return;
   }
-  gatherFromBatches<BatchGradient>(
-    this->batches_, this->parts_, result, monitor, this->density_, points);
+  else
+  {
+    gatherFromBatches<BatchGradient>(
+      this->batches_, this->parts_, result, monitor, this->density_, points);
+  }
+  this->rows().add(result);
 }
 }

@@ -18,8 +18,10 @@ class MeshEnergy : public SecondOrderObjective
 {
 public:
   /// `free`: ids of the nodes that move, ascending; free() has them in the order of
-  /// unknownOrdering(). Cost: passes over the cells; 100 bytes a cell.
-  MeshEnergy(const Mesh& mesh, const std::vector<Index>& free);
+  /// unknownOrdering(). Cost: passes over the cells; 100 bytes a cell. On several processes `mesh`
+  /// has the cells of this one.
+  MeshEnergy(const Mesh& mesh, const std::vector<Index>& free,
+    const Communicator& communicator = Communicator::alone());
 
   /// Sets the tetrahedra's target matrices, weights and theta; required before the functions below.
   /// Tetrahedra of weight 0 are left out. Memory: 88 bytes a tetrahedron.

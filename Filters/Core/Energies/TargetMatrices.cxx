@@ -235,7 +235,8 @@ CellCorners idealShape(Shape shape, const Eigen::Vector3d& length)
 }
 
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor)
+  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor,
+  const Communicator& communicator)
 {
   const Index cells = rest.numberOfCells();
   TargetMatrices result;
@@ -246,12 +247,12 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
       result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
   }
   result.tetrahedra.resize(result.start.back());
-  const bool tetrahedraAlone = std::all_of(rest.types.begin(), rest.types.end(),
+  const bool tetrahedraAlone = communicator.all(std::all_of(rest.types.begin(), rest.types.end(),
     [](std::uint8_t type)
     {
       const Shape shape = cellShape(type)->shape;
       return shape == Shape::Tet || numberOfCorners(shape) == 0;
-    });
+    }));
   const double theta = tetrahedraAlone ? 0.5 : 0.1;
   const std::vector<char> valid = validCells(rest, orientation, monitor);
   const bool allValid = [&]
@@ -311,9 +312,10 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
       }
     });
 
-  const double total = reproducibleSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
-    [&](Index t) { return result.tetrahedra[t].weight; });
-  const auto count = static_cast<double>(result.tetrahedra.size());
+  const double total =
+    communicator.sum(reproducibleSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
+      [&](Index t) { return result.tetrahedra[t].weight; }));
+  const auto count = communicator.sum(static_cast<double>(result.tetrahedra.size()));
   monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain,
     [&](Index first, Index last)
     {

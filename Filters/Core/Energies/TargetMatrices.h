@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <vector>
@@ -59,10 +60,11 @@ struct TargetMatrices
 /// the sums of parallel edges, within [1/20, 20]; tetrahedra are as for Initial. Initial and
 /// Stretched cannot use an undeformed cell with a scaled Jacobian of 1e-3 or less. It takes
 /// IdealSkew with the edge lengths of its valid undeformed neighbors. Inner tetrahedra of a valid
-/// cell that are not positive have weight 0. Cost: one pass, 96 bytes a tetrahedron (ten a
-/// hexahedron).
+/// cell that are not positive have weight 0. On several processes `rest` has the cells of this one,
+/// and neighbors are those of this one. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor);
+  const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor,
+  const Communicator& communicator = Communicator::alone());
 
 /// Sets weight 0 for tetrahedra with three corners on one of the boundary `faces` numbered in
 /// `folded`. On a folded face, either these tetrahedra or their neighbors are inverted.

@@ -168,23 +168,25 @@ Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>
       }
     }
   }
-  result.count = std::max<Index>(1, result.count);
   return result;
 }
 }
 
 WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings)
+  const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
+  const Communicator& communicator)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_, cells)
   , corners_(scaledCorners(this->batches_, orientation, least, squarings))
 {
+  this->share(communicator, this->free_);
+  this->corners_.count = std::max<Index>(1, communicator.sum(this->corners_.count));
 }
 
 Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) const
 {
-  const auto sum =
-    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->corners_, points);
+  const double sum = this->communicator().sum(
+    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->corners_, points));
   return { sum / static_cast<double>(this->corners_.count), std::isfinite(sum) };
 }
 
@@ -192,5 +194,6 @@ void WorstCornerNorm::gradient(const Points& points, Points& result, Monitor& mo
 {
   gatherFromBatches<BatchGradient>(
     this->batches_, this->parts_, result, monitor, this->corners_, points);
+  this->rows().add(result);
 }
 }

@@ -21,7 +21,8 @@ public:
   /// move, ascending; `least`: reference value for s, above 0; `squarings`: the power p is 2 to
   /// this, in [0, 9]. Cost: 50 bytes a corner.
   WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings);
+    const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
+    const Communicator& communicator = Communicator::alone());
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
@@ -37,7 +38,7 @@ public:
   {
     std::vector<Scales> scales; ///< in the order of the batches' places, SimdWidth a corner
     int squarings = 0;
-    Index count = 0; ///< number of corners that are not left out
+    Index count = 0; ///< number of corners that are not left out, of all processes
   };
 
 private:

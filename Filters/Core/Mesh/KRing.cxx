@@ -8,8 +8,13 @@
 
 namespace morph
 {
+namespace
+{
+constexpr char Marked = 1, Visited = 2;
+}
+
 KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
-  const std::vector<Index>& seeds, int rings)
+  const std::vector<Index>& seeds, int rings, const Communicator& communicator)
 {
   KRing patch;
   patch.cells = seeds;
@@ -19,26 +24,37 @@ KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<
     isCell[c] = 1;
   }
   std::size_t from = 0;
+  std::vector<Index> nodes;
   for (int ring = 0; ring <= rings; ++ring)
   {
+    nodes.clear();
     for (const std::size_t until = patch.cells.size(); from < until; ++from)
     {
       const Index c = patch.cells[from];
       for (int a = 0; a < cellShape(mesh.types[c])->numberOfCorners; ++a)
       {
         const Index node = mesh.cell(c)[a];
-        if (isNode[node])
+        if (isNode[node] == 0)
         {
-          continue;
+          isNode[node] = Marked;
+          nodes.push_back(node);
         }
-        isNode[node] = 1;
-        for (const Index* next = around.begin(node); next != around.end(node); ++next)
+      }
+    }
+    communicator.spread(nodes);
+    for (const Index node : nodes)
+    {
+      if (isNode[node] == Visited)
+      {
+        continue;
+      }
+      isNode[node] = Visited;
+      for (const Index* next = around.begin(node); next != around.end(node); ++next)
+      {
+        if (!isCell[*next])
         {
-          if (!isCell[*next])
-          {
-            isCell[*next] = 1;
-            patch.cells.push_back(*next);
-          }
+          isCell[*next] = 1;
+          patch.cells.push_back(*next);
         }
       }
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/BlockCsr3f.h"
 
-#include "Support/ReproducibleSum.h"
 #include "Support/Simd.h"
 #include "Support/SimdDispatch.h"
 #include "Support/SimdMath.h"
@@ -70,11 +69,11 @@ void BlockCsr3f::multiply(const Points& x, Points& y, Monitor& monitor) const
     [&](Index first, Index last) { dispatchedFor<RowProduct>(first, last, *this, x, y); });
 }
 
-int BlockCsr3f::solve(
-  const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const
+int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor,
+  const CopiedRows& copies) const
 {
   const Index n = this->rows();
-  std::vector<Eigen::Matrix3d> inverse(n);
+  Points columns[3] = { Points(n, 3), Points(n, 3), Points(n, 3) }; // of the diagonal blocks
   monitor.parallelFor(n, Grain,
     [&](Index first, Index last)
     {
@@ -82,8 +81,26 @@ int BlockCsr3f::solve(
       {
         const std::int32_t *begin = this->columns(row), *end = this->columns(row + 1);
         const Index k = std::lower_bound(begin, end, static_cast<std::int32_t>(row)) - begin;
-        Eigen::Matrix3d D =
-          Eigen::Map<const Eigen::Matrix3f>(this->blocks(row) + 9 * k).cast<double>();
+        const Eigen::Map<const Eigen::Matrix3f> D(this->blocks(row) + 9 * k);
+        for (int j = 0; j < 3; ++j)
+        {
+          columns[j].row(row) = D.col(j).transpose().cast<double>();
+        }
+      }
+    });
+  for (Points& column : columns)
+  {
+    copies.add(column);
+  }
+  std::vector<Eigen::Matrix3d> inverse(n);
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index row = first; row < last; ++row)
+      {
+        Eigen::Matrix3d D;
+        D << columns[0].row(row).transpose(), columns[1].row(row).transpose(),
+          columns[2].row(row).transpose();
         D.diagonal().array() += Shift * D.trace();
         inverse[row] = D.trace() > 0 ? Eigen::Matrix3d(D.ldlt().solve(Eigen::Matrix3d::Identity()))
                                      : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
@@ -105,14 +122,15 @@ int BlockCsr3f::solve(
   Points r = b, z(n, 3), p(n, 3), Ap(n, 3);
   precondition(r, z);
   p = z;
-  double rz = dot(r, z, monitor);
-  const double goal = tolerance * tolerance * dot(b, b, monitor);
+  double rz = copies.dot(r, z, monitor);
+  const double goal = tolerance * tolerance * copies.dot(b, b, monitor);
   int iteration = 0;
   while (iteration < most && rz > 0)
   {
     monitor.check();
     this->multiply(p, Ap, monitor);
-    const double curvature = dot(p, Ap, monitor);
+    copies.add(Ap);
+    const double curvature = copies.dot(p, Ap, monitor);
     if (!(curvature > 0))
     {
       break;
@@ -126,12 +144,12 @@ int BlockCsr3f::solve(
         x.middleRows(first, rows) += alpha * p.middleRows(first, rows);
         r.middleRows(first, rows) -= alpha * Ap.middleRows(first, rows);
       });
-    if (dot(r, r, monitor) <= goal)
+    if (copies.dot(r, r, monitor) <= goal)
     {
       break;
     }
     precondition(r, z);
-    const double next = dot(r, z, monitor);
+    const double next = copies.dot(r, z, monitor);
     const double beta = next / rz;
     rz = next;
     monitor.parallelFor(n, Grain,

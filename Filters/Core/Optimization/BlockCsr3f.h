@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -76,8 +77,10 @@ public:
   /// Solves A x = b from x = 0 by conjugate gradients, preconditioned by the inverse diagonal
   /// blocks. It stops when the residual's norm is `tolerance` times that of b, after `most`
   /// iterations, or at a direction without positive curvature. Returns the number of iterations.
-  /// Cost: one pass over the blocks an iteration.
-  int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor) const;
+  /// On several processes A is the sum of their matrices, and b and x have the same values at all
+  /// copies of a row. Cost: one pass over the blocks an iteration, and a sum over copies.
+  int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor,
+    const CopiedRows& copies = CopiedRows::alone()) const;
 
 private:
   std::uint64_t id_ = 0; ///< 0: no pattern

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/Minimizers.h"
 
-#include "Support/ReproducibleSum.h"
-
 #include <cmath>
 #include <deque>
+#include <limits>
 
 namespace morph
 {
@@ -90,8 +89,10 @@ class InverseHessian
 public:
   /// `first`: how far the first step moves the node with the largest gradient, as nothing else
   /// scales it.
-  explicit InverseHessian(double first)
-    : first_(first)
+  InverseHessian(const Objective& objective, double first)
+    : objective_(objective)
+    , rows_(objective.rows())
+    , first_(first)
   {
   }
 
@@ -100,29 +101,30 @@ public:
     direction = -gradient;
     if (this->pairs_.empty())
     {
-      direction *= this->first_ / gradient.rowwise().norm().maxCoeff();
+      const double most = gradient.rows() > 0 ? gradient.rowwise().norm().maxCoeff() : 0;
+      direction *= this->first_ / this->objective_.communicator().maximum(most);
       return;
     }
     std::vector<double> alpha(this->pairs_.size());
     for (std::size_t i = this->pairs_.size(); i-- > 0;)
     {
       const Pair& pair = this->pairs_[i];
-      alpha[i] = dot(pair.step, direction, monitor) / pair.curvature;
+      alpha[i] = this->rows_.dot(pair.step, direction, monitor) / pair.curvature;
       add(-alpha[i], pair.difference, direction, monitor);
     }
     const Pair& last = this->pairs_.back();
-    direction *= last.curvature / dot(last.difference, last.difference, monitor);
+    direction *= last.curvature / this->rows_.dot(last.difference, last.difference, monitor);
     for (std::size_t i = 0; i < this->pairs_.size(); ++i)
     {
       const Pair& pair = this->pairs_[i];
-      const double beta = dot(pair.difference, direction, monitor) / pair.curvature;
+      const double beta = this->rows_.dot(pair.difference, direction, monitor) / pair.curvature;
       add(alpha[i] - beta, pair.step, direction, monitor);
     }
   }
 
   void remember(Points step, Points difference, Monitor& monitor)
   {
-    const double curvature = dot(step, difference, monitor);
+    const double curvature = this->rows_.dot(step, difference, monitor);
     if (!(curvature > 0))
     {
       return;
@@ -143,13 +145,25 @@ private:
     Points step, difference;
     double curvature;
   };
+  const Objective& objective_;
+  const CopiedRows& rows_;
   double first_;
   std::deque<Pair> pairs_;
 };
 
-double diagonal(const Points& points)
+/// The diagonal of the box of all processes' points.
+double diagonal(const Points& points, const Communicator& communicator)
 {
-  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  double squares = 0;
+  for (int j = 0; j < 3; ++j)
+  {
+    constexpr double None = std::numeric_limits<double>::infinity();
+    const bool any = points.rows() > 0;
+    const double low = communicator.minimum(any ? points.col(j).minCoeff() : None),
+                 high = communicator.maximum(any ? points.col(j).maxCoeff() : -None);
+    squares += (high - low) * (high - low);
+  }
+  return std::sqrt(squares);
 }
 }
 
@@ -166,15 +180,15 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   {
     monitor.check();
     objective.gradient(points, gradient, monitor);
-    const double norm = std::sqrt(dot(gradient, gradient, monitor));
+    const double norm = std::sqrt(objective.rows().dot(gradient, gradient, monitor));
     if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
     objective.hessian(points, matrix, monitor);
-    effort.linearIterations +=
-      matrix.solve(-gradient, direction, LinearTolerance, MostLinearIterations, monitor);
-    const double slope = dot(gradient, direction, monitor);
+    effort.linearIterations += matrix.solve(
+      -gradient, direction, LinearTolerance, MostLinearIterations, monitor, objective.rows());
+    const double slope = objective.rows().dot(gradient, direction, monitor);
     const double before = value.energy;
     if (!lineSearch(objective, direction, slope, points, value, effort, monitor))
     {
@@ -195,19 +209,19 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
   ++effort.evaluations;
   Objective::Value value = objective.value(points, monitor);
   Progress progress(limits);
-  InverseHessian inverse(FirstStep * diagonal(points));
+  InverseHessian inverse(objective, FirstStep * diagonal(points, objective.communicator()));
   Points gradient, direction;
   objective.gradient(points, gradient, monitor);
   for (int step = 0; step < limits.steps; ++step)
   {
     monitor.check();
-    const double norm = std::sqrt(dot(gradient, gradient, monitor));
+    const double norm = std::sqrt(objective.rows().dot(gradient, gradient, monitor));
     if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
     inverse.apply(gradient, direction, monitor);
-    double slope = dot(gradient, direction, monitor);
+    double slope = objective.rows().dot(gradient, direction, monitor);
     const Points start = points(objective.free(), allColumns);
     const double before = value.energy;
     bool found = lineSearch(objective, direction, slope, points, value, effort, monitor);
@@ -215,7 +229,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     {
       inverse.forget();
       inverse.apply(gradient, direction, monitor);
-      slope = dot(gradient, direction, monitor);
+      slope = objective.rows().dot(gradient, direction, monitor);
       found = lineSearch(objective, direction, slope, points, value, effort, monitor);
     }
     if (!found)

@@ -2,15 +2,17 @@
 #pragma once
 
 #include "Optimization/BlockCsr3f.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <memory>
 #include <vector>
 
 namespace morph
 {
 /// An objective function of the free nodes' positions, to be minimised. Its values do not depend on
-/// threads, bit for bit.
+/// threads, bit for bit. On several processes value and gradient are those of the whole mesh.
 class Objective
 {
 public:
@@ -28,6 +30,22 @@ public:
   virtual Value value(const Points& points, Monitor& monitor) const = 0;
   /// `result`: becomes #free x 3, d(energy)/d(position).
   virtual void gradient(const Points& points, Points& result, Monitor& monitor) const = 0;
+
+  /// The processes that have parts of the mesh, and the copies of the gradient's rows.
+  const Communicator& communicator() const { return *this->communicator_; }
+  const CopiedRows& rows() const { return *this->rows_; }
+
+protected:
+  /// Call it once free() is known. `communicator` has to outlive this object.
+  void share(const Communicator& communicator, const std::vector<Index>& free)
+  {
+    this->communicator_ = &communicator;
+    this->rows_ = communicator.rows(free);
+  }
+
+private:
+  const Communicator* communicator_ = &Communicator::alone();
+  std::shared_ptr<const CopiedRows> rows_ = std::make_shared<CopiedRows>();
 };
 
 /// An objective with second derivatives, for Newton's method.
@@ -35,7 +53,8 @@ class SecondOrderObjective : public Objective
 {
 public:
   /// Computes a positive semi-definite approximation of the second derivatives, #free x #free
-  /// blocks. It first opens a matrix that this objective has not filled before.
+  /// blocks, of the cells of this process. It first opens a matrix that this objective has not
+  /// filled before.
   virtual void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const = 0;
 };
 }

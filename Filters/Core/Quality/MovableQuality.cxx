@@ -16,11 +16,12 @@ bool MovableQuality::Result::operator<(const Result& other) const
          std::make_tuple(-other.inverted, other.minimum);
 }
 
-MovableQuality::MovableQuality(
-  const Mesh& mesh, const std::vector<std::int8_t>& orientation, const std::vector<Index>& free)
+MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  const std::vector<Index>& free, const Communicator& communicator)
   : mesh_(mesh)
   , orientation_(orientation)
   , free_(free)
+  , communicator_(communicator)
   , skip_(mesh.numberOfCells(), 0)
 {
   std::vector<char> isFree(mesh.numberOfNodes(), 0);
@@ -83,6 +84,8 @@ MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& mo
     result.minimum = std::min(result.minimum, value); // NaN is passed over
     result.inverted += value <= 0 ? 1 : 0;
   }
+  result.minimum = this->communicator_.minimum(result.minimum);
+  result.inverted = this->communicator_.sum(result.inverted);
   return result;
 }
 
@@ -96,6 +99,7 @@ MovableQuality::Bounds MovableQuality::bounds(const Points& points) const
     const std::uint8_t type = this->mesh_.types[cell.id];
     result.movable = std::min(result.movable, scaledJacobianBound(type, x, cell.prescribed));
   }
+  result.movable = this->communicator_.minimum(result.movable);
   result.fixed = this->fixedMinimum(points);
   return result;
 }
@@ -112,6 +116,6 @@ double MovableQuality::fixedMinimum(const Points& points) const
       result = std::min(result, morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.fixed));
     }
   }
-  return result;
+  return this->communicator_.minimum(result);
 }
 }

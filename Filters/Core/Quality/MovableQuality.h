@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -19,13 +20,15 @@ class MovableQuality
 {
 public:
   /// `orientation`: #cells, see cellSigns() in Topology.h; `free`: ids of the nodes that move,
-  /// ascending. Holds all three by reference. Cost: one pass over the cells.
-  MovableQuality(
-    const Mesh& mesh, const std::vector<std::int8_t>& orientation, const std::vector<Index>& free);
+  /// ascending. Holds all by reference. Cost: one pass over the cells. On several processes `mesh`
+  /// has the cells of this one, and all numbers but those of cells are those of the whole mesh.
+  MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+    const std::vector<Index>& free, const Communicator& communicator = Communicator::alone());
 
   const Mesh& mesh() const { return this->mesh_; }
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
   const std::vector<Index>& free() const { return this->free_; }
+  const Communicator& communicator() const { return this->communicator_; }
 
   struct Result
   {
@@ -65,6 +68,7 @@ private:
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;
   const std::vector<Index>& free_;
+  const Communicator& communicator_;
   std::vector<Cell> held_;         ///< cells with three or more prescribed corner nodes, ascending
   std::vector<std::uint8_t> skip_; ///< #cells, nonzero for cells without a movable sample
 };

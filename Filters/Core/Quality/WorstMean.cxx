@@ -9,6 +9,12 @@
 
 namespace morph
 {
+Index worstCount(Index measured, double share)
+{
+  const double all = static_cast<double>(measured);
+  return std::clamp<Index>(static_cast<Index>(std::ceil(share * all)), 1, measured);
+}
+
 double worstMean(const Quality& quality, double share)
 {
   std::vector<double> values;
@@ -19,9 +25,7 @@ double worstMean(const Quality& quality, double share)
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  const auto all = static_cast<double>(values.size());
-  const auto count = std::clamp<std::ptrdiff_t>(
-    static_cast<std::ptrdiff_t>(std::ceil(share * all)), 1, static_cast<std::ptrdiff_t>(all));
+  const Index count = worstCount(static_cast<Index>(values.size()), share);
   const auto last = values.begin() + count;
   std::nth_element(values.begin(), last - 1, values.end());
   std::sort(values.begin(), last);

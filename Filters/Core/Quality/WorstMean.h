@@ -9,4 +9,7 @@ namespace morph
 /// `share`: in (0, 1]. NaN if no cell was measured. It does not depend on the cells' numbering.
 /// Cost: a pass over the cells.
 double worstMean(const Quality& quality, double share = 0.01);
+
+/// Returns how many cells that is, of `measured` ones, at least 1.
+Index worstCount(Index measured, double share);
 }

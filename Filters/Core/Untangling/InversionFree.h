@@ -7,10 +7,10 @@
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Morpher/Morpher.h"
-#include "Quality/MovableQuality.h"
-#include "Untangling/NearUntangling.h"
+#include "Untangling/MeshImprovement.h"
 
 #include <memory>
+#include <utility>
 
 namespace morph
 {
@@ -58,6 +58,8 @@ public:
   /// Sets the method of the first guess, not prepared, and the start to Method. Call it before
   /// prepare().
   void setMethod(std::unique_ptr<Morpher> method);
+  /// Returns that method, or null, for one who takes this object's options alone.
+  std::unique_ptr<Morpher> releaseMethod() { return std::move(this->method_); }
   /// Sets the target shape of cells other than tetrahedra, before evaluate(). Default Stretched.
   /// Initial reproduces affine motions of the boundary exactly, since FEMWARP's mesh is then
   /// stationary.
@@ -71,6 +73,7 @@ public:
   /// Whether to raise the minimum scaled Jacobian (MinQualityAscent.h), at the expense of the mean;
   /// never for Initial. Default on.
   void setRaising(bool on) { this->raising_ = on; }
+  FoldoverContinuation::Minimizer minimizer() const { return this->minimizer_; }
   bool raises() const { return this->raising_; }
   /// Sets how often the stretched targets are recomputed from the current mesh. Default 2.
   void setRefreshes(int refreshes) { this->refreshes_ = refreshes; }
@@ -94,49 +97,18 @@ protected:
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
-  struct Outcome
-  {
-    bool untangled = false;
-    bool kept = false;          ///< the result is the alternative
-    std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
-    MinimizerEffort effort;
-  };
   void prepareFemWarp(const Mesh& rest, Monitor& monitor);
   /// Replaces the start `points` by the graph-Laplace mesh if that has fewer inverted cells. Then
   /// the undeformed shapes are worth nothing, and `target` becomes IdealSkew instead of Stretched.
   void startFromGraph(
     Points& points, Points& alternative, TargetConstruction& target, Monitor& monitor) const;
-  /// Improves `points` in coordinates times scale_. `alternative`: a mesh that the result must not
-  /// be worse than; `enough`: the part of the undeformed mesh's minimum with which a valid mesh is
-  /// the result, without the energy of the whole mesh.
-  Outcome improve(Points& points, const Aim& aim, const Points& alternative, double enough,
-    Monitor& monitor) const;
   /// Returns FEMWARP's mesh `warped`, or simplex-linear's if that is better.
   Points betterGuess(const Points& warped, const Points& boundary, Monitor& monitor) const;
-  MovableQuality movableQuality() const;
-  /// The targets of all cells. `isTangled`: of the mesh that is minimised. All cells then count
-  /// alike, so that those of a boundary layer are untangled, too; never for Initial.
-  TargetMatrices targets(const Aim& aim, bool isTangled, Monitor& monitor) const;
-  /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
-  /// holds that of the whole mesh there; infinite where it does not.
-  double goal(const MovableQuality& quality, const Points& points) const;
-  bool raisesMinimum() const
-  {
-    return this->raising_ && this->target_ != TargetConstruction::Initial;
-  }
-  /// Raises the minimum over the cells near `repaired` ones; nodes elsewhere stay. `goal`: as of
-  /// raiseMinimumQuality(). Cost: a pass over the mesh, then that of the cells within ten rings.
-  void raiseNear(
-    const std::vector<Index>& repaired, double goal, Points& points, Monitor& monitor) const;
-  /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
-  /// minimum of the best mesh so far, 0 without a valid one.
-  bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Aim& aim,
-    Points& points, Outcome& outcome, Monitor& monitor) const;
+  /// Of coordinates times scale_.
+  MeshImprovement improvement() const;
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
-  EvaluateReport report(
-    const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor) const;
 
   Start start_ = Start::FemWarp;
   TargetConstruction target_ = TargetConstruction::Stretched;

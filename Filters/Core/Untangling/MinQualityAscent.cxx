@@ -49,11 +49,13 @@ int firstSquarings(double minimum, double goal)
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 
-int ringsFor(const Mesh& mesh)
+int ringsFor(const Mesh& mesh, const Communicator& communicator)
 {
-  const auto tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
+  const Index tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
     [](std::uint8_t type) { return cellShape(type)->shape == Shape::Tet; });
-  return 2 * static_cast<Index>(tetrahedra) > mesh.numberOfCells() ? RingsOfTetrahedra : Rings;
+  return 2 * communicator.sum(tetrahedra) > communicator.sum(mesh.numberOfCells())
+           ? RingsOfTetrahedra
+           : Rings;
 }
 
 std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& quality)
@@ -120,13 +122,15 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
 {
   const double goal = std::min(bound, 1.);
   const Mesh& mesh = measured.mesh();
+  const Communicator& communicator = measured.communicator();
   MovableQuality::Result quality = measured.measure(points, monitor);
-  if (!(quality.minimum > 0) || hasReached(quality.minimum, goal) || measured.free().empty())
+  if (!(quality.minimum > 0) || hasReached(quality.minimum, goal) ||
+      communicator.all(measured.free().empty()))
   {
     return;
   }
   const Adjacency around = nodeToCells(mesh);
-  const int rings = ringsFor(mesh);
+  const int rings = ringsFor(mesh, communicator);
   Points trial = points;
   int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal));
   // Once a power's second round has gained little, those of higher powers do.
@@ -139,15 +143,15 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
     const KRing patch =
-      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings);
-    const auto cells = static_cast<double>(patch.cells.size());
+      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings, communicator);
+    const auto cells = communicator.sum(static_cast<double>(patch.cells.size()));
     const double left = (limits.cellEvaluations - effort.cellEvaluations) / cells;
     if (left < LeastSteps)
     {
       break;
     }
-    const WorstCornerNorm norm(
-      mesh, measured.orientation(), patch.cells, patch.nodes, quality.minimum, squarings);
+    const WorstCornerNorm norm(mesh, measured.orientation(), patch.cells, patch.nodes,
+      quality.minimum, squarings, communicator);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
     MinimizerEffort steps;
@@ -193,7 +197,8 @@ AscentEffort raiseNextWorst(
   const MovableQuality& measured, const AscentEffort& before, Points& points, Monitor& monitor)
 {
   const Mesh& mesh = measured.mesh();
-  const auto cells = static_cast<double>(mesh.numberOfCells());
+  const Communicator& communicator = measured.communicator();
+  const auto cells = communicator.sum(static_cast<double>(mesh.numberOfCells()));
   // Its mesh is the best for the powers that are done.
   const Limits limits{ std::max(FirstSquarings, before.squarings),
     std::max(OfSpent * before.cellEvaluations, FewPasses * cells) };
@@ -201,28 +206,30 @@ AscentEffort raiseNextWorst(
   raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
-  for (int level = 0; level < MostLevels && !free.empty(); ++level)
+  for (int level = 0; level < MostLevels && !communicator.all(free.empty()); ++level)
   {
-    const MovableQuality rest(mesh, measured.orientation(), free);
+    const MovableQuality rest(mesh, measured.orientation(), free, communicator);
     const MovableQuality::Result quality = rest.measure(points, monitor);
     if (!(quality.minimum > 0) || quality.minimum >= 1 - NearBound)
     {
       break;
     }
     const std::vector<Index> worst = atMinimum(quality);
-    if (static_cast<double>(worst.size()) > FewCells * cells)
+    if (communicator.sum(static_cast<double>(worst.size())) > FewCells * cells)
     {
       break;
     }
+    std::vector<Index> corners;
     for (const Index c : worst)
     {
-      const Index* corners = mesh.cell(c);
       const int count = cellShape(mesh.types[c])->numberOfCorners;
-      std::for_each(corners, corners + count, [&](Index node) { stays[node] = 1; });
+      corners.insert(corners.end(), mesh.cell(c), mesh.cell(c) + count);
     }
+    communicator.spread(corners);
+    std::for_each(corners.begin(), corners.end(), [&](Index node) { stays[node] = 1; });
     free.erase(std::remove_if(free.begin(), free.end(), [&](Index node) { return stays[node]; }),
       free.end());
-    const MovableQuality others(mesh, measured.orientation(), free);
+    const MovableQuality others(mesh, measured.orientation(), free, communicator);
     raise(others, others.bounds(points).movable, limits, points, effort, monitor);
   }
   return effort;

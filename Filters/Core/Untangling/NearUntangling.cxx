@@ -5,6 +5,7 @@
 #include "Mesh/KRing.h"
 #include "Mesh/SubMesh.h"
 
+#include <memory>
 #include <utility>
 
 namespace morph
@@ -19,10 +20,11 @@ constexpr double MostTangled = 0.1; // of all cells: the rings around them then 
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
   const Aim& aim, FoldoverContinuation::Minimizer minimizer, Points& points,
-  MinimizerEffort& effort, Monitor& monitor)
+  MinimizerEffort& effort, Monitor& monitor, const Communicator& communicator)
 {
-  if (inverted.empty() || static_cast<double>(inverted.size()) >
-                            MostTangled * static_cast<double>(mesh.numberOfCells()))
+  const auto count = communicator.sum(static_cast<double>(inverted.size()));
+  if (count == 0 ||
+      count > MostTangled * communicator.sum(static_cast<double>(mesh.numberOfCells())))
   {
     return false;
   }
@@ -35,8 +37,9 @@ bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     {
       continue;
     }
-    const KRing ring = kRingOfCells(mesh, around, free, seeds, rings);
+    const KRing ring = kRingOfCells(mesh, around, free, seeds, rings, communicator);
     const SubMesh part(mesh, ring.cells);
+    const std::unique_ptr<Communicator> processes = communicator.part(part.nodes);
     std::vector<std::int8_t> signs;
     for (const Index c : part.cells)
     {
@@ -45,9 +48,9 @@ bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     // All cells count alike, so that those of a boundary layer are untangled, too.
     const CellWeights weights =
       aim.target == TargetConstruction::Initial ? CellWeights::Volume : CellWeights::Equal;
-    const TargetMatrices targets = targetMatrices(
-      part.mesh, signs, aim.guide(part.nodes, allColumns), aim.target, weights, monitor);
-    MeshEnergy energy(part.mesh, part.numbersOf(ring.nodes));
+    const TargetMatrices targets = targetMatrices(part.mesh, signs,
+      aim.guide(part.nodes, allColumns), aim.target, weights, monitor, *processes);
+    MeshEnergy energy(part.mesh, part.numbersOf(ring.nodes), *processes);
     energy.setTargets(targets);
     FoldoverContinuation stages(energy, minimizer);
     Points local = trial(part.nodes, allColumns);
@@ -62,7 +65,8 @@ bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     }
     // The part grows where it has stayed tangled, from the mesh that it has become.
     const std::vector<Index> left = tangledCells(part.mesh, local, targets);
-    if (!left.empty() && left.size() <= inverted.size())
+    const auto still = communicator.sum(static_cast<double>(left.size()));
+    if (still > 0 && still <= count)
     {
       trial(part.nodes, allColumns) = local;
       seeds.clear();

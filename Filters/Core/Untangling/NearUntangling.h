@@ -26,5 +26,6 @@ struct Aim
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
   const Aim& aim, FoldoverContinuation::Minimizer minimizer, Points& points,
-  MinimizerEffort& effort, Monitor& monitor);
+  MinimizerEffort& effort, Monitor& monitor,
+  const Communicator& communicator = Communicator::alone());
 }

@@ -22,11 +22,13 @@ constexpr int StagesAfter = 1; // of a mesh that is untangled but for its folds
 }
 
 Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry)
+  const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry,
+  const Communicator& communicator)
   : mesh_(mesh)
   , orientation_(orientation)
   , faces_(faces)
   , geometry_(geometry)
+  , communicator_(communicator)
   , free_(partition.free)
   , isFixed_(mesh.numberOfNodes(), 0)
 {
@@ -38,8 +40,7 @@ Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orienta
 
 bool Untangling::InvertedCounts::operator<(const InvertedCounts& other) const
 {
-  return std::make_tuple(this->others, this->onFolds.size()) <
-         std::make_tuple(other.others, other.onFolds.size());
+  return std::tie(this->others, this->folds) < std::tie(other.others, other.folds);
 }
 
 std::vector<Index> Untangling::cellsBehind(const std::vector<Index>& folded) const
@@ -69,6 +70,8 @@ Untangling::InvertedCounts Untangling::countInverted(
       ++result.others;
     }
   }
+  result.others = this->communicator_.sum(result.others);
+  result.folds = this->communicator_.sum(static_cast<Index>(result.onFolds.size()));
   return result;
 }
 
@@ -77,7 +80,10 @@ bool Untangling::untanglePatch(const std::vector<Index>& cells, int rings,
   Monitor& monitor) const
 {
   MeshEnergy energy(this->mesh_,
-    kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->free_, cells, rings).nodes);
+    kRingOfCells(
+      this->mesh_, nodeToCells(this->mesh_), this->free_, cells, rings, this->communicator_)
+      .nodes,
+    this->communicator_);
   energy.setTargets(targets);
   FoldoverContinuation near(energy, stages.minimizer());
   const bool done = near.untangle(points, monitor, most);
@@ -94,9 +100,14 @@ bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& ener
     ProgressRange own(monitor, part * round, part * (round + 0.5));
     ProgressRange whole(monitor, part * (round + 0.5), part * (round + 1));
     const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
-    if (round > 0 && excludeInvertedAtFixedNodes(this->mesh_, this->isFixed_, points, targets) == 0)
+    if (round > 0)
     {
-      return false;
+      const Index excluded =
+        excludeInvertedAtFixedNodes(this->mesh_, this->isFixed_, points, targets);
+      if (this->communicator_.all(excluded == 0))
+      {
+        return false;
+      }
     }
     if (this->untanglePatch(tangled, Rings, targets, stages, StagesNear, points, own))
     {
@@ -116,7 +127,7 @@ Untangling::Result Untangling::run(const std::function<TargetMatrices()>& target
   Points besides;
   ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
     last(monitor, 0.9, 1);
-  if (folded.empty())
+  if (this->communicator_.all(folded.empty()))
   {
     energy.setTargets(targets());
     if (stages.untangle(points, first))

@@ -26,7 +26,8 @@ public:
   /// `geometry`: of the mesh's boundary, see boundaryFaces() and classify(). All but `partition`
   /// are held by reference.
   Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry);
+    const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry,
+    const Communicator& communicator = Communicator::alone());
 
   struct Result
   {
@@ -42,8 +43,8 @@ public:
 private:
   struct InvertedCounts
   {
-    Index others = 0;
-    std::vector<Index> onFolds;
+    Index others = 0, folds = 0; ///< of all processes
+    std::vector<Index> onFolds;  ///< of this one
     bool operator<(const InvertedCounts& other) const;
   };
   /// Counts the inverted cells. `cellsBehind`: cells behind folded faces.
@@ -63,6 +64,7 @@ private:
   const std::vector<std::int8_t>& orientation_;
   const BoundaryFaces& faces_;
   const Classification& geometry_;
+  const Communicator& communicator_;
   std::vector<Index> free_;
   std::vector<char> isFixed_; ///< #nodes
 };

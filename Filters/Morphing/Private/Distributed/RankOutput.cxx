@@ -27,6 +27,7 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
     step, whole.inverted + whole.degenerate, results, ranks.rank() == 0 ? &monitor : nullptr);
   Quality::Write(mine, task.Output);
   results.Set(whole);
+  results.SetNumber("WorstMeanScaledJacobian", morph::distributed::worstMean(ranks, mine));
   results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
   if (task.Measures.Certify)
   {

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Support/Communicator.h"
+
+#include "Support/ReproducibleSum.h"
+
+namespace morph
+{
+CopiedRows::~CopiedRows() = default;
+
+void CopiedRows::add(Points&) const
+{
+}
+
+double CopiedRows::dot(const Points& a, const Points& b, Monitor& monitor) const
+{
+  return morph::dot(a, b, monitor);
+}
+
+const CopiedRows& CopiedRows::alone()
+{
+  static const CopiedRows instance;
+  return instance;
+}
+
+Communicator::~Communicator() = default;
+
+double Communicator::sum(double value) const
+{
+  return value;
+}
+
+double Communicator::minimum(double value) const
+{
+  return value;
+}
+
+void Communicator::spread(std::vector<Index>&) const
+{
+}
+
+std::unique_ptr<CopiedRows> Communicator::rows(const std::vector<Index>&) const
+{
+  return std::make_unique<CopiedRows>();
+}
+
+std::unique_ptr<Communicator> Communicator::part(const std::vector<Index>&) const
+{
+  return std::make_unique<Communicator>();
+}
+
+const Communicator& Communicator::alone()
+{
+  static const Communicator instance;
+  return instance;
+}
+}
