@@ -37,15 +37,13 @@ void Method::prepare(const DistributedMesh& mesh, const NodePartition& partition
   monitor.progress(1);
 }
 
-EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const
+EvaluateReport Method::mode(const Points& prescribed, Points& field, Monitor& monitor) const
 {
   const DistributedMesh& mesh = *this->mesh_;
   const Ranks& ranks = mesh.ranks();
-  const Points& rest = mesh.mesh().points;
-  const Points displacement = prescribed - rest(this->partition_.prescribed, allColumns);
   Points free(static_cast<Index>(this->ownFree_.size()), 3);
   ProgressRange whole(monitor, 0, 1);
-  EvaluateReport report = this->displace(displacement, free, whole);
+  EvaluateReport report = this->displace(prescribed, free, whole);
   std::vector<Index> notFinite;
   for (Index i = 0; i < free.rows(); ++i)
   {
@@ -64,8 +62,8 @@ EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor
                     ". The motion, or the mesh, is too large to compute with: scale it down.");
       }
     });
-  Points all = Points::Zero(rest.rows(), 3);
-  all(this->partition_.prescribed, allColumns) = displacement;
+  Points all = Points::Zero(mesh.mesh().points.rows(), 3);
+  all(this->partition_.prescribed, allColumns) = prescribed;
   all(this->ownFree_, allColumns) = free;
   mesh.halo().update(ranks, all);
   if (ranks.sum(Index(!this->higherOrderNodes_.empty())) > 0)
@@ -74,6 +72,16 @@ EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor
     mesh.halo().update(ranks, all);
   }
   mesh.copyToDoubles(all);
+  field.swap(all);
+  return report;
+}
+
+EvaluateReport Method::evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const
+{
+  const Points& rest = this->mesh_->mesh().points;
+  Points all;
+  const EvaluateReport report =
+    this->mode(prescribed - rest(this->partition_.prescribed, allColumns), all, monitor);
   moved = rest;
   for (Index n = 0; n < rest.rows(); ++n)
   {

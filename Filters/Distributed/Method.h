@@ -38,6 +38,11 @@ public:
   /// ranks. The counts in the report are those of the whole mesh.
   EvaluateReport evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
 
+  /// The displacement of each node, as LinearMorpher::basis() has it. `prescribed`: #prescribed x 3
+  /// displacements. `field`: becomes #local nodes x 3, ghosts as their owners have them. Throws
+  /// Error on all ranks.
+  EvaluateReport mode(const Points& prescribed, Points& field, Monitor& monitor) const;
+
   /// morph::LinearMorpher::applyTranspose(). `gradient`: #local nodes x 3, read at the nodes that
   /// this rank owns. `prescribed`: becomes #prescribed x 3, the derivatives at the nodes that this
   /// rank owns, and zero at the others. Throws Error on all ranks.

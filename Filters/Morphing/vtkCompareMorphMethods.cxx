@@ -7,6 +7,7 @@
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Distributed/OnRanks.h"
 #include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
@@ -91,8 +92,20 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
-vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+filters::RankGroup::Of groupOf(bool onRanks)
 {
+  return onRanks ? filters::RankGroup::Of::All : filters::RankGroup::Of::One;
+}
+
+vtkIdType badCells(
+  vtkUnstructuredGrid* grid, const filters::RankGroup& processes, morph::Monitor& monitor)
+{
+  if (processes.IsOf() == filters::RankGroup::Of::All)
+  {
+    vtkNew<vtkUnstructuredGrid> measured;
+    const morph::Quality whole = filters::OnRanks::Measure(grid, false, measured, monitor).Whole;
+    return static_cast<vtkIdType>(whole.inverted + whole.degenerate);
+  }
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   return static_cast<vtkIdType>(morph::invertedCells(
     mesh, mesh.points, morph::cellSigns(mesh, morph::connectedComponents(mesh)), monitor)
@@ -100,21 +113,22 @@ vtkIdType badCells(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 }
 
 /// Runs `filter` through its steps, until the first that fails. Each message becomes one warning,
-/// with the first step that raised it.
+/// with the first step that raised it. All `processes` call it.
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
-  filters::MethodRun& run, morph::Monitor& monitor)
+  const filters::RankGroup& processes, filters::MethodRun& run, morph::Monitor& monitor)
 {
+  const auto check = [&] { processes.Together([&] { monitor.check(); }); };
   const filters::PeakMemory memory;
   std::set<std::string> told;
   const double number = static_cast<double>(times.size());
   for (std::size_t i = 0; i < times.size(); ++i)
   {
-    monitor.check();
+    check();
     const double done = static_cast<double>(i);
     morph::ProgressRange part(monitor, done / number, (done + 1) / number);
     filters::Follower follower(filter, part);
     filter->UpdateTimeStep(times[i]);
-    monitor.check();
+    check();
     const bool failed = std::string(filter->GetMorphStatus()) == "Failed";
     std::vector<std::string> messages = follower.Errors();
     messages.insert(messages.end(), follower.Warnings().begin(), follower.Warnings().end());
@@ -127,12 +141,13 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
     }
     if (failed)
     {
-      run.Failure = messages.front();
+      run.Failure = follower.Errors().empty() ? "" : follower.Errors().front();
+      processes.Share(run.Failure); // one process tells it
       break;
     }
-    run.Steps.push_back(filters::Comparison::Measure(filter, times[i], percentile));
+    run.Steps.push_back(filters::Comparison::Measure(filter, times[i], percentile, processes));
   }
-  run.PeakMegabytes = memory.Megabytes();
+  run.PeakMegabytes = processes.Maximum(memory.Megabytes());
 }
 }
 
@@ -203,31 +218,41 @@ int vtkCompareMorphMethods::RequestData(
     kept.BestMethod.clear();
     kept.BestStepping.clear();
   };
-  if (filters::Ranks::Count(true) > 1)
+  if (filters::Ranks::Processes() > 1 && !filters::Ranks::TakePieces())
   {
     reset();
     if (filters::Ranks::IsFirst())
     {
-      vtkErrorMacro("vtkCompareMorphMethods needs a single MPI rank. Run on one.");
+      vtkErrorMacro("This plugin was built without MPI or hypre: vtkCompareMorphMethods needs a "
+                    "single MPI rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
     }
     return 1;
   }
-  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
-    this->CoincidentPoints, reset,
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
+  const auto compare = [&](bool onRanks)
+  {
+    return
+      [&, onRanks](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
+      const filters::RankGroup processes(groupOf(onRanks));
       std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
       const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
       for (int step = 0; step < wanted; ++step)
       {
-        monitor.check();
-        vtkPointSet* points = filters::Input::RequireBoundary(
-          step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
-        boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
-        boundaries.back()->ShallowCopy(points);
+        processes.Together(
+          [&]
+          {
+            monitor.check();
+            vtkPointSet* points = filters::Input::RequireBoundary(
+              step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
+            boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
+            boundaries.back()->ShallowCopy(points);
+          });
       }
-      this->Compare(grid, boundaries, outputVector, monitor);
-    } };
+      this->Compare(grid, boundaries, onRanks, outputVector, monitor);
+    };
+  };
+  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
+    this->CoincidentPoints, reset, compare(false), {}, compare(true), true };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
@@ -250,9 +275,10 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
 }
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
-  const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, vtkInformationVector* outputVector,
-  morph::Monitor& monitor)
+  const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, bool onRanks,
+  vtkInformationVector* outputVector, morph::Monitor& monitor)
 {
+  const filters::RankGroup processes(groupOf(onRanks));
   const std::pair<bool, Method> methods[] = { { this->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },
     { this->WeightedResidual, { "Weighted residual", make<vtkWeightedResidualMorph> } },
@@ -285,8 +311,8 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   vtkNew<vtkUnstructuredGrid> rest;
   rest->ShallowCopy(grid);
 
-  const vtkIdType badAtRest = badCells(grid, monitor);
-  if (badAtRest > 0)
+  const vtkIdType badAtRest = badCells(grid, processes, monitor);
+  if (badAtRest > 0 && processes.IsFirst())
   {
     monitor.warn(
       "The undeformed mesh has " + std::to_string(badAtRest) +
@@ -313,7 +339,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       this->Configure(filter);
       filter->SetStepping(
         relative ? vtkMorphAlgorithm::STEPPING_RELATIVE : vtkMorphAlgorithm::STEPPING_ABSOLUTE);
-      follow(filter, times, this->Percentile, run, part);
+      follow(filter, times, this->Percentile, processes, run, part);
       runs.push_back(std::move(run));
     }
   }

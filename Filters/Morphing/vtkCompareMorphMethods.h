@@ -26,9 +26,11 @@
  * Jacobian at the last valid step, to 0.01, and then to the shorter time.
  *
  * Where a method fails, a warning gives the reason, and its run ends there. Errors of the filter
- * itself: a boundary or mesh that is missing or of a wrong type, no chosen method or stepping, and
- * several MPI processes. The outputs are then empty, and so they are after an abort. Data sets and
- * properties are checked as vtkMorphAlgorithm checks them.
+ * itself: a boundary or mesh that is missing or of a wrong type, and no chosen method or stepping.
+ * The outputs are then empty, and so they are after an abort. Data sets and properties are checked
+ * as vtkMorphAlgorithm checks them.
+ *
+ * On several MPI ranks all get the same tables: times and memory are the largest of the ranks.
  *
  * Cost: that of all methods and steps. All boundaries of a series are fetched first, from within
  * RequestData, for the reason that vtkMorphAlgorithm gives, and kept during the execution.
@@ -199,9 +201,10 @@ private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
-  /// `boundaries`: one for each time of a boundary that varies, or the one.
+  /// `boundaries`: one for each time of a boundary that varies, or the one. `onRanks`: all MPI
+  /// processes call it, each with its piece.
   void Compare(vtkUnstructuredGrid* grid,
-    const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
+    const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, bool onRanks,
     vtkInformationVector* outputVector, morph::Monitor& monitor);
   void Configure(vtkMorphAlgorithm* filter) const;
 

@@ -220,7 +220,7 @@ int vtkMorphAdjoint::RequestData(
                 : rest;
       if (shapes)
       {
-        this->ExecuteShapes(shapes, rest, holder, output, monitor);
+        this->ExecuteShapes(shapes, rest, holder, output, false, monitor);
       }
       else
       {
@@ -230,13 +230,15 @@ int vtkMorphAdjoint::RequestData(
     {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
     {
+      vtkDataObject* holder = carrier ? carrier : rest;
       if (shapes)
       {
-        throw morph::Error("vtkMorphAdjoint of vtkMorphShapes needs one MPI rank, and the mesh is "
-                           "distributed over several. Run on one, or take the derivatives with "
-                           "respect to the boundary.");
+        this->ExecuteShapes(shapes, rest, holder, output, true, monitor);
       }
-      this->Execute(morph, rest, boundary, carrier ? carrier : rest, output, true, monitor);
+      else
+      {
+        this->Execute(morph, rest, boundary, holder, output, true, monitor);
+      }
     } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
 }
@@ -257,14 +259,23 @@ vtkMorphShapes* vtkMorphAdjoint::FindShapes()
 }
 
 void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid* rest,
-  vtkDataObject* carrier, vtkPointSet* output, morph::Monitor& monitor)
+  vtkDataObject* carrier, vtkPointSet* output, bool onRanks, morph::Monitor& monitor)
 {
   // The mesh was checked before.
-  vtkPointSet* holder =
-    carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
+  vtkDataArray* gradient = nullptr;
+  const auto check = [&]
+  {
+    vtkPointSet* holder =
+      carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
+    if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
+    {
+      gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
+    }
+  };
+  filters::RankGroup(onRanks ? filters::RankGroup::Of::All : filters::RankGroup::Of::One)
+    .Together(check);
   vtkNew<vtkDoubleArray> derivatives;
-  shapes->Differentiate(
-    requireGradient(holder, filters::Input::ArrayName(this->GradientArray)), derivatives, monitor);
+  shapes->Differentiate(gradient, derivatives, monitor);
   derivatives->SetName("ShapeGradient");
   vtkNew<vtkStringArray> names;
   names->SetName("ShapeNames");

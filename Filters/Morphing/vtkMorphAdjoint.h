@@ -142,7 +142,7 @@ private:
   vtkMorphAlgorithm* FindMorph();
   vtkMorphShapes* FindShapes();
   void ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid* rest, vtkDataObject* carrier,
-    vtkPointSet* output, morph::Monitor& monitor);
+    vtkPointSet* output, bool onRanks, morph::Monitor& monitor);
   void Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* rest, vtkDataObject* boundary,
     vtkDataObject* carrier, vtkPointSet* output, bool onRanks, morph::Monitor& monitor);
 

@@ -47,6 +47,7 @@ public:
   filters::Session Session{ Results };
   /// null until the mesh is on several MPI processes
   std::unique_ptr<filters::OnRanks::Morphing> Distributed;
+  bool IsOnRanks = false; ///< the last execution was that of Distributed
   filters::Ports Ports;
   filters::Steps Steps;
   int Step = -1;                     ///< asked for, of Steps
@@ -243,6 +244,11 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
   }
   filters::MorphOutput::WriteUndeformed(
     input, status, this->BoundaryInverted, this->Results, output);
+  if (this->IsOnRanks)
+  {
+    this->Distributed->WriteUndeformedSurface(output, surface);
+    return;
+  }
   this->Session.GetKept().WriteUndeformedSurface(output, surface);
 }
 
@@ -277,6 +283,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
   vtkPolyData* surface, morph::Monitor& monitor)
 {
+  this->IsOnRanks = false;
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   this->Session.SetGrid(grid, monitor);
   this->Session.SetFeatureLines(this->Filter->FeatureLines);
@@ -300,6 +307,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
 
 filters::OnRanks::Morphing& vtkMorphAlgorithm::vtkInternals::OnRanks()
 {
+  this->IsOnRanks = true;
   if (!this->Distributed)
   {
     this->Distributed = std::make_unique<filters::OnRanks::Morphing>(this->Results);

@@ -211,7 +211,10 @@ int vtkMorphShapes::RequestInformation(
     source->GetProducer()->Update(source->GetIndex());
     auto* table =
       vtkTable::SafeDownCast(source->GetProducer()->GetOutputDataObject(source->GetIndex()));
-    kept.Rows = table ? table->GetNumberOfRows() : 0;
+    // Where one process alone has read the table, all have its times: all of them have to run.
+    const filters::RankGroup all(filters::RankGroup::Of::All);
+    kept.Rows = static_cast<vtkIdType>(
+      all.Maximum(table ? static_cast<double>(table->GetNumberOfRows()) : 0));
   }
   std::vector<double> times(kept.Rows);
   std::iota(times.begin(), times.end(), 0.);
@@ -234,10 +237,9 @@ int vtkMorphShapes::RequestInformation(
 int vtkMorphShapes::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const double time =
-    filters::Ports::AskedTime(filters::Ports::Asked(request, outputVector)).value_or(0);
-  const auto last = static_cast<double>(std::max<vtkIdType>(this->Internals->Rows - 1, 0));
-  this->Internals->Row = static_cast<vtkIdType>(std::clamp(std::floor(time), 0., last));
+  vtkInternals& kept = *this->Internals;
+  kept.Time = filters::Ports::AskedTime(filters::Ports::Asked(request, outputVector)).value_or(0);
+  kept.Row = kept.RowOf(kept.Rows);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
@@ -253,6 +255,14 @@ int vtkMorphShapes::RequestData(
 {
   vtkInternals& kept = *this->Internals;
   vtkUnstructuredGrid* output = kept.Ports.Output(outputVector);
+  const auto morph = [&](filters::RankGroup::Of processes)
+  {
+    return [&, processes](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
+    {
+      vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
+      kept.Morph(grid, processes, inputVector[1], table, outputVector, monitor);
+    };
+  };
   const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
     this->CoincidentPoints,
     [&]
@@ -261,11 +271,7 @@ int vtkMorphShapes::RequestData(
       kept.Ranges = {};
       kept.Weights.clear();
     },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
-    {
-      vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
-      kept.Morph(grid, inputVector[1], table, outputVector, monitor);
-    },
+    morph(filters::RankGroup::Of::One),
     [&](vtkDataObject* input, const char* status)
     {
       if (filters::Version::AbortRequested(this))
@@ -273,8 +279,9 @@ int vtkMorphShapes::RequestData(
         filters::Version::KeepAbortedOutput(this);
       }
       filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
-      kept.Modes.GetKept().WriteUndeformedSurface(output, vtkPolyData::GetData(outputVector, 2));
-    } };
+      kept.WriteUndeformedSurface(output, vtkPolyData::GetData(outputVector, 2));
+    },
+    morph(filters::RankGroup::Of::All) };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
@@ -340,8 +347,17 @@ void vtkMorphShapes::Differentiate(
   {
     throw morph::Error("Morph Shapes has no result: update it before its derivatives.");
   }
-  const morph::Points nodes =
-    filters::Gradient::Require(gradient, kept.Modes.GetKept().Mesh().numberOfNodes());
+  const morph::Index points = kept.Modes.GetSolver()->GridNodes();
+  const bool isPiece = kept.Modes.Group().IsOf() == filters::RankGroup::Of::All;
+  morph::Points nodes(0, 3);
+  kept.Modes.Group().Together(
+    [&]
+    {
+      if (points > 0 || !isPiece) // a process without points has no arrays
+      {
+        nodes = filters::Gradient::Require(gradient, points);
+      }
+    });
   derivatives->Initialize();
   for (const double value : kept.Modes.Derivatives(kept.Weights, nodes, monitor))
   {

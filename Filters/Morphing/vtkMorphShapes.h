@@ -35,6 +35,10 @@
  * shape's name, and a row for each design. The outputs then have the time steps 0, 1, ..., one a
  * row, and at each the weights are those of its row. A shape without a column has its own weight.
  *
+ * On several MPI ranks each blends the nodes of its piece. Numbers, ranges and derivatives are
+ * those of the whole mesh, the same on each rank. One rank alone may have the table. Polyhedra and
+ * FeatureLines need one rank.
+ *
  * A shape is taken at its input's own time. Errors are those of vtkMorphAlgorithm, with the shape's
  * name; output 0 is then the undeformed mesh, MorphStatus is "Failed", and InvertedCells and
  * MinScaledJacobian are -1. Memory: 24 bytes a node and displacement field, besides the method's.
@@ -307,9 +311,10 @@ public:
   /**
    * The derivatives of an objective with respect to the weights of the last execution. `gradient`:
    * its derivatives with respect to the position of each node, #nodes tuples of 3. `derivatives`:
-   * becomes a tuple of 1 for each shape. Cost: one pass over the displacement fields. Returns false
-   * after an error, which is reported: no execution before, or a gradient of the wrong size or not
-   * finite. See vtkMorphAdjoint.
+   * becomes a tuple of 1 for each shape. On several MPI ranks all of them call this, each with the
+   * gradient of its piece. Cost: one pass over the displacement fields. Returns false after an
+   * error, which is reported: no execution before, or a gradient of the wrong size or not finite.
+   * See vtkMorphAdjoint.
    */
   bool ComputeDerivatives(vtkDataArray* gradient, vtkDoubleArray* derivatives);
 

@@ -532,17 +532,19 @@ TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
   };
   const auto piece = rank_grids::piece(ranks, meshes::hexes(4, 3, 3));
   const auto moved = grids::boundary(piece, grids::affine);
-  expect(vtkNew<vtkCompareMorphMethods>(), piece, moved, "vtkCompareMorphMethods needs");
-  expect(vtkNew<vtkMorphShapes>(), piece, moved, "vtkMorphShapes needs it on one");
   expect(vtkNew<vtkBoundaryDisplacement>(), moved, nullptr, "takes the volume mesh there");
 
   const auto polyhedra = rank_grids::piece(ranks, meshes::honeycomb(3));
   expect(vtkNew<vtkFEMWarpMorph>(), polyhedra, grids::boundary(polyhedra, grids::affine),
     "vtkFEMWarpMorph of a mesh with polyhedra needs one MPI rank");
+  expect(vtkNew<vtkMorphShapes>(), polyhedra, grids::boundary(polyhedra, grids::affine),
+    "vtkMorphShapes of a mesh with polyhedra needs one MPI rank");
 
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, piece);
   const std::string composite = "Composite data on several MPI ranks: ";
+  expect(vtkNew<vtkCompareMorphMethods>(), blocks, moved, composite + "vtkCompareMorphMethods");
+  expect(vtkNew<vtkMorphShapes>(), blocks, moved, composite + "vtkMorphShapes");
   expect(vtkNew<vtkFEMWarpMorph>(), blocks, moved, composite + "vtkFEMWarpMorph");
   expect(vtkNew<vtkMorphBoundary>(), blocks, moved, composite + "vtkMorphBoundary");
   expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Compare/Comparison.h"
 
+#include "Private/Pipeline/Ranks.h"
 #include "vtkMorphAlgorithm.h"
 
 #include <vtkCellData.h>
@@ -16,6 +17,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <deque>
 #include <limits>
 #include <tuple>
@@ -26,26 +29,54 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The value below which `percent` of the cells lie; NaN where none was measured.
-double percentileOf(vtkDataArray* values, double percent)
+/// A number whose order is that of the values.
+std::uint64_t keyOf(double value)
 {
-  std::vector<double> known;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  constexpr std::uint64_t Sign = std::uint64_t(1) << 63;
+  return (bits & Sign) != 0 ? ~bits : bits | Sign;
+}
+
+double valueOf(std::uint64_t key)
+{
+  constexpr std::uint64_t Sign = std::uint64_t(1) << 63;
+  const std::uint64_t bits = (key & Sign) != 0 ? key & ~Sign : ~key;
+  double value = 0;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+/// The value below which `percent` of the cells of all processes lie; NaN where none was measured.
+/// It is found by counts, bit by bit: no process gets the others' values.
+double percentileOf(vtkDataArray* values, double percent, const RankGroup& processes)
+{
+  std::vector<std::uint64_t> known;
   for (vtkIdType i = 0; values && i < values->GetNumberOfTuples(); ++i)
   {
     const double value = values->GetComponent(i, 0);
     if (!std::isnan(value))
     {
-      known.push_back(value);
+      known.push_back(keyOf(value));
     }
   }
-  if (known.empty())
+  std::sort(known.begin(), known.end());
+  auto number = static_cast<morph::Index>(known.size());
+  processes.Sum(&number, 1);
+  if (number == 0)
   {
     return NaN;
   }
-  const auto place = known.begin() + static_cast<std::ptrdiff_t>(
-                                       percent / 100 * static_cast<double>(known.size() - 1));
-  std::nth_element(known.begin(), place, known.end());
-  return *place;
+  const auto place = static_cast<morph::Index>(percent / 100 * static_cast<double>(number - 1));
+  std::uint64_t key = 0; // the largest one with no more than `place` values below it
+  for (int bit = 63; bit >= 0; --bit)
+  {
+    const std::uint64_t next = key | std::uint64_t(1) << bit;
+    morph::Index below = std::lower_bound(known.begin(), known.end(), next) - known.begin();
+    processes.Sum(&below, 1);
+    key = below <= place ? next : key;
+  }
+  return valueOf(key);
 }
 
 /// A column of a table, to be filled.
@@ -111,19 +142,30 @@ double MethodRun::Seconds() const
 
 namespace Comparison
 {
-MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile)
+MethodRun::Step Measure(
+  vtkMorphAlgorithm* filter, double time, double percentile, const RankGroup& processes)
 {
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  std::vector<double> numbers;
+  if (output->GetNumberOfCells() > 0) // others may not know
+  {
+    numbers = { filter->GetMinScaledJacobian(), filter->GetMeanScaledJacobian(),
+      static_cast<double>(filter->GetInvertedCells()),
+      static_cast<double>(filter->GetDegenerateCells()),
+      static_cast<double>(filter->GetBoundaryInvertedCells()), filter->GetPrepareSeconds(),
+      filter->GetEvaluateSeconds() };
+  }
+  processes.Share(numbers);
   MethodRun::Step step;
   step.Time = time;
-  step.Minimum = filter->GetMinScaledJacobian();
-  step.Mean = filter->GetMeanScaledJacobian();
-  step.Low =
-    percentileOf(filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian"), percentile);
-  step.Inverted = filter->GetInvertedCells();
-  step.Degenerate = filter->GetDegenerateCells();
-  step.BoundaryInverted = filter->GetBoundaryInvertedCells();
-  step.PrepareSeconds = filter->GetPrepareSeconds();
-  step.EvaluateSeconds = filter->GetEvaluateSeconds();
+  step.Minimum = numbers.at(0);
+  step.Mean = numbers.at(1);
+  step.Low = percentileOf(output->GetCellData()->GetArray("ScaledJacobian"), percentile, processes);
+  step.Inverted = static_cast<vtkIdType>(numbers.at(2));
+  step.Degenerate = static_cast<vtkIdType>(numbers.at(3));
+  step.BoundaryInverted = static_cast<vtkIdType>(numbers.at(4));
+  step.PrepareSeconds = numbers.at(5);
+  step.EvaluateSeconds = numbers.at(6);
   return step;
 }
 

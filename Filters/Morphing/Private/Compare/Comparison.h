@@ -11,6 +11,8 @@ class vtkTable;
 
 namespace morph::filters
 {
+class RankGroup;
+
 /// The results of one method with one stepping in vtkCompareMorphMethods.
 struct MethodRun
 {
@@ -40,8 +42,10 @@ struct MethodRun
 
 namespace Comparison
 {
-/// The step that a filter has just computed. `percentile`: see vtkCompareMorphMethods.
-MethodRun::Step Measure(vtkMorphAlgorithm* filter, double time, double percentile);
+/// The step that a filter has just computed, the same on all `processes`, which have parts of the
+/// mesh or none. `percentile`: see vtkCompareMorphMethods.
+MethodRun::Step Measure(
+  vtkMorphAlgorithm* filter, double time, double percentile, const RankGroup& processes);
 
 /// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of
 /// them, to 0.01, then by seconds, then by order.

@@ -51,7 +51,10 @@ void writePoints(
 {
   const vtkIdType count = static_cast<vtkIdType>(nodes.size());
   vtkNew<vtkPoints> points;
-  points->SetDataType(grid->GetPoints()->GetDataType());
+  if (grid->GetPoints()) // an MPI rank without cells may have none
+  {
+    points->SetDataType(grid->GetPoints()->GetDataType());
+  }
   points->SetNumberOfPoints(count);
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName(Surface::IdName);

@@ -39,6 +39,15 @@ void Morphing::Transpose(vtkUnstructuredGrid*, vtkDataObject*, vtkDataArray*,
   refuse();
 }
 
+void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid*, vtkPolyData*) const
+{
+}
+
+std::unique_ptr<ModeSolver> MakeModeSolver()
+{
+  refuse();
+}
+
 void ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
 {
   refuse();

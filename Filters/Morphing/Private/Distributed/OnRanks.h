@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Private/Morph/ModeSolver.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Morph/Session.h"
 #include "Quality/Certificate.h"
@@ -57,6 +58,9 @@ public:
   /// Moves the mesh and writes the outputs. Names the options that need one rank. Returns an error
   /// that comes with a result, on one process, or nothing.
   std::string Run(const Task& task, const Session::Options& options, morph::Monitor& monitor);
+  /// The outer faces of this process's cells, if `grid` has the cells of the mesh, or else nothing.
+  /// Not collective.
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
   /// See Series::Check(). Not collective.
   void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
   /// Session::Transpose(). `gradient`: of the piece's points, those of copies as of the node.
@@ -68,6 +72,9 @@ private:
   class Internals;
   std::unique_ptr<Internals> Own;
 };
+
+/// The mesh and method of vtkMorphShapes.
+std::unique_ptr<ModeSolver> MakeModeSolver();
 
 /// Writes the outer faces of the whole mesh that belong to this process's cells, as
 /// Surface::Write() does, with global ids.

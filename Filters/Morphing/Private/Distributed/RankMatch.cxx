@@ -213,26 +213,28 @@ std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
 /// The owners' choice for all local nodes.
 void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
 {
+  constexpr std::int64_t Held = 1, Named = 2;
   const Index nodes = mesh.mesh().numberOfNodes();
   std::vector<std::int64_t> isPrescribed(nodes, 0);
   morph::Points targets = mesh.mesh().points;
   for (std::size_t i = 0; i < result.Ids.size(); ++i)
   {
-    isPrescribed[result.Ids[i]] = 1;
+    isPrescribed[result.Ids[i]] = result.Sources[i] < 0 ? Held : Named;
     targets.row(result.Ids[i]) = result.Targets.row(static_cast<Index>(i));
   }
   mesh.halo().update(mesh.ranks(), isPrescribed);
   mesh.halo().update(mesh.ranks(), targets);
   result.Ids.clear();
+  result.Sources.clear();
   for (Index n = 0; n < nodes; ++n)
   {
     if (isPrescribed[n] != 0)
     {
       result.Ids.push_back(n);
+      result.Sources.push_back(isPrescribed[n] == Named ? 0 : -1);
     }
   }
   result.Targets = targets(result.Ids, morph::allColumns);
-  result.Sources.clear();
 }
 
 /// What the ranks have of a boundary.

@@ -29,7 +29,8 @@ struct Follower
 /// none. The points go to the processes that have their nodes; ids are global. Of
 /// BoundaryMatch::Match()'s ways to find nodes it has BoundaryIdArray, MorphPointId, a moved copy
 /// of each process's piece, and positions. Returns the prescribed nodes of the local mesh, as their
-/// owners have them; Sources is empty. Collective.
+/// owners have them; Sources has 0 for a node that a point names, -1 for one that is held.
+/// Collective.
 ///
 /// `followers`: null, or becomes the points that the nodes of this process follow: for each process
 /// with such a point the first of them.

@@ -14,6 +14,7 @@
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -145,6 +146,16 @@ void RankMesh::RequireVolumeCells() const
                        "or pyramids are needed.");
   }
   DataCheck::RequireExtent(this->Distributed->size(), "The input's volume mesh");
+}
+
+void RankMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* output) const
+{
+  output->Initialize();
+  if (this->Distributed && grid->GetNumberOfCells() > 0 && GridMesh::SameCells(grid, this->Copy))
+  {
+    this->Polygons.Write(grid->GetPoints(), output);
+    this->WriteGlobalIds(output);
+  }
 }
 
 void RankMesh::WriteGlobalIds(vtkDataSet* output) const

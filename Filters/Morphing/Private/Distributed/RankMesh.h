@@ -12,6 +12,7 @@
 #include <vector>
 
 class vtkDataSet;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace morph::filters
@@ -48,6 +49,9 @@ public:
   /// The outer faces of this process's cells.
   const MovedSurface& Surface() const { return this->Polygons; }
 
+  /// Writes Surface() without quality, if `grid` has the cells of the piece, or else nothing. Not
+  /// collective.
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* output) const;
   /// Replaces the local numbers in the arrays MorphPointId and MorphCellId by global ids.
   void WriteGlobalIds(vtkDataSet* output) const;
 

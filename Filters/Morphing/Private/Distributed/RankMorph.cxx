@@ -115,6 +115,11 @@ void Morphing::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType bound
   this->Own->Steps.Check(options, varies, boundary);
 }
 
+void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const
+{
+  this->Own->Mesh.WriteUndeformedSurface(grid, surface);
+}
+
 void Morphing::Internals::Take(
   vtkUnstructuredGrid* grid, const Session::Options& options, morph::Monitor& monitor)
 {

@@ -52,13 +52,13 @@ morph::CertificateReport Certify(const RankMesh& mesh, vtkUnstructuredGrid* outp
   return report;
 }
 
-void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
-  Results& results, morph::Monitor& monitor)
+morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
+  const morph::Points& moved, int precision, bool all, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor)
 {
-  const auto& ranks = mesh.Ranks();
   const morph::Mesh& piece = mesh.Piece();
   std::vector<std::uint8_t> skip = mesh.Unmeasured();
-  if (!task.Measures.All)
+  if (!all)
   {
     std::vector<std::uint8_t> inner(skip.size(), 1);
     for (const morph::Index cell : mesh.Surface().OuterCells())
@@ -68,15 +68,42 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const Step
     skip = std::move(inner);
   }
   morph::Quality mine;
-  ranks.together(
+  mesh.Ranks().together(
     [&]
     {
-      Output::Write(task.Grid, piece.points, step.Moved.topRows(piece.numberOfNodes()),
-        task.Precision, task.Output);
-      Quality::Remove(task.Output);
-      mine = Quality::Measure(piece, task.Output, mesh.Orientation(), skip, monitor);
+      Output::Write(grid, piece.points, moved.topRows(piece.numberOfNodes()), precision, output);
+      Quality::Remove(output);
+      mine = Quality::Measure(piece, output, mesh.Orientation(), skip, monitor);
     });
-  if (task.Measures.All)
+  return mine;
+}
+
+morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool all,
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface)
+{
+  morph::Index inverted = 0;
+  mesh.Ranks().together(
+    [&]
+    {
+      badCells->Initialize();
+      if (all)
+      {
+        BadCells::Extract(mine, output, badCells);
+      }
+      inverted = mesh.Surface().Write(output->GetPoints(), mine, surface);
+    });
+  mesh.WriteGlobalIds(badCells);
+  mesh.WriteGlobalIds(surface);
+  return mesh.Ranks().sum(inverted);
+}
+
+void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
+  Results& results, morph::Monitor& monitor)
+{
+  const bool all = task.Measures.All;
+  const morph::Quality mine =
+    WritePoints(mesh, task.Grid, step.Moved, task.Precision, all, task.Output, monitor);
+  if (all)
   {
     writeMeasured(mesh, task, step, mine, results, monitor);
   }
@@ -84,20 +111,8 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const Step
   {
     results.SetText("MorphStatus", "Unmeasured");
   }
-  morph::Index surfaceInverted = 0;
-  ranks.together(
-    [&]
-    {
-      task.BadCells->Initialize();
-      if (task.Measures.All)
-      {
-        BadCells::Extract(mine, task.Output, task.BadCells);
-      }
-      surfaceInverted = mesh.Surface().Write(task.Output->GetPoints(), mine, task.Surface);
-    });
-  results.SetInteger("SurfaceInvertedCells", ranks.sum(surfaceInverted));
-  mesh.WriteGlobalIds(task.BadCells);
-  mesh.WriteGlobalIds(task.Surface);
+  results.SetInteger(
+    "SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Output, task.BadCells, task.Surface));
   MorphOutput::WriteCounts(step, results, task.Output);
 }
 }

@@ -12,6 +12,19 @@ namespace morph::filters::RankOutput
 void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
   Results& results, morph::Monitor& monitor);
 
+/// The parts of Write(). Collective.
+///@{
+/// Writes the points, and measures this process's own cells: all, or those behind the outer faces
+/// alone. `moved`: of the local nodes.
+morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
+  const morph::Points& moved, int precision, bool all, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor);
+/// Writes the surface and, where `all` cells are measured, the bad cells. Returns the number of
+/// inverted cells behind the outer faces of the whole mesh.
+morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool all,
+  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface);
+///@}
+
 /// Certifies this process's cells, and writes nothing. The counts are those of the whole mesh.
 /// Collective.
 morph::CertificateReport Certify(const RankMesh& mesh, vtkUnstructuredGrid* output,

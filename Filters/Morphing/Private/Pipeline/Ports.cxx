@@ -204,6 +204,7 @@ int Ports::RequestData(
       }
       mesh.IsDistributed = true;
     }
+    mesh.IsDistributed |= task.RunsFilters && Ranks::Processes() > 1;
     vtkUnstructuredGrid* grid = nullptr;
     const auto check = [&]
     {

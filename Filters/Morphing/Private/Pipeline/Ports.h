@@ -69,6 +69,9 @@ public:
     /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.
     std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)>
       WorkOnRanks = {};
+    /// Calls WorkOnRanks where there are several processes, wherever the mesh is. For a task that
+    /// runs other filters, which communicate.
+    bool RunsFilters = false;
   };
   /// The grid that the work of a task fills for output 0, which may be composite.
   vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)

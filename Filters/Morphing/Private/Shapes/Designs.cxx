@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Shapes/Designs.h"
 
+#include "Mesh/CellShape.h"
 #include "Morpher/Blend.h"
 #include "Private/Shapes/ShapeModes.h"
 #include "Quality/ScaledJacobian.h"
@@ -12,6 +13,8 @@
 #include <vtkVariant.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace morph::filters
@@ -42,17 +45,46 @@ double weight(vtkAbstractArray* column, vtkIdType row, const std::string& shape)
 }
 }
 
-Designs Designs::Read(
-  vtkDataObject* data, const std::vector<std::string>& shapes, const std::vector<double>& others)
+Designs Designs::Read(vtkDataObject* data, const std::vector<std::string>& shapes,
+  const std::vector<double>& others, const RankGroup& processes)
 {
-  auto* table = vtkTable::SafeDownCast(data);
-  if (!table || table->GetNumberOfRows() == 0)
-  {
-    throw morph::Error(table ? "The table of designs has no rows."
-                             : "The designs are no table. Read a file of comma-separated values.");
-  }
   Designs designs;
-  designs.Rows.assign(table->GetNumberOfRows(), others);
+  std::vector<double> values;
+  processes.Together(
+    [&]
+    {
+      auto* table = vtkTable::SafeDownCast(data);
+      if (!table)
+      {
+        throw morph::Error("The designs are no table. Read a file of comma-separated values.");
+      }
+      if (table->GetNumberOfRows() > 0)
+      {
+        designs.Take(table, shapes, others);
+      }
+      for (const std::vector<double>& row : designs.Rows)
+      {
+        values.insert(values.end(), row.begin(), row.end());
+      }
+    });
+  processes.Share(values);
+  if (values.empty())
+  {
+    throw morph::Error("The table of designs has no rows.");
+  }
+  designs.Rows.clear();
+  const auto width = static_cast<std::ptrdiff_t>(others.size());
+  for (auto row = values.begin(); row != values.end(); row += width)
+  {
+    designs.Rows.emplace_back(row, row + width);
+  }
+  return designs;
+}
+
+void Designs::Take(
+  vtkTable* table, const std::vector<std::string>& shapes, const std::vector<double>& others)
+{
+  this->Rows.assign(table->GetNumberOfRows(), others);
   bool isAnyFound = false;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
@@ -60,7 +92,7 @@ Designs Designs::Read(
     isAnyFound = isAnyFound || column;
     for (vtkIdType row = 0; column && row < table->GetNumberOfRows(); ++row)
     {
-      designs.Rows[row][i] = weight(column, row, shapes[i]);
+      this->Rows[row][i] = weight(column, row, shapes[i]);
     }
   }
   if (!isAnyFound)
@@ -69,26 +101,44 @@ Designs Designs::Read(
                        "are " +
                        columnNames(table) + ". Name the shapes as the columns, or the reverse.");
   }
-  return designs;
 }
 
 const std::vector<std::size_t>& Designs::Inverted(const ShapeModes& modes, morph::Monitor& monitor)
 {
-  if (!this->CheckedModes.empty() && this->CheckedModes == modes.Fields() &&
-      this->CheckedAngles == modes.Angles())
+  const RankGroup& processes = modes.Group();
+  const bool isKnown = !this->CheckedModes.empty() && this->CheckedModes == modes.Fields() &&
+                       this->CheckedAngles == modes.Angles();
+  if (!processes.Any(!isKnown))
   {
     return this->Bad;
   }
   this->CheckedModes.clear();
   this->Bad.clear();
-  morph::Points moved;
-  for (std::size_t row = 0; row < this->Rows.size(); ++row)
+  const morph::Mesh& mesh = modes.Mesh();
+  std::vector<std::uint8_t> skip(mesh.numberOfCells());
+  for (std::size_t c = 0; c < skip.size(); ++c)
   {
-    monitor.check();
-    monitor.progress(static_cast<double>(row) / static_cast<double>(this->Rows.size()));
-    morph::blend(modes.GetKept().Mesh().points, modes.Weighted(this->Rows[row]), moved, monitor);
-    if (!morph::invertedCells(modes.GetKept().Mesh(), moved, modes.GetKept().Orientation(), monitor)
-           .empty())
+    skip[c] = morph::cellShape(mesh.types[c])->dimension < 3; // a process may have faces alone
+  }
+  std::vector<morph::Index> bad(this->Rows.size());
+  processes.Together(
+    [&]
+    {
+      morph::Points moved;
+      for (std::size_t row = 0; row < bad.size(); ++row)
+      {
+        monitor.check();
+        monitor.progress(static_cast<double>(row) / static_cast<double>(bad.size()));
+        morph::blend(mesh.points, modes.Weighted(this->Rows[row]), moved, monitor);
+        const morph::Quality quality =
+          morph::measureQuality(mesh, moved, modes.Orientation(), skip, monitor);
+        bad[row] = quality.inverted + quality.degenerate;
+      }
+    });
+  processes.Sum(bad.data(), bad.size());
+  for (std::size_t row = 0; row < bad.size(); ++row)
+  {
+    if (bad[row] > 0)
     {
       this->Bad.push_back(row);
     }

@@ -7,10 +7,8 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
-#include "Private/Data/BadCells.h"
-#include "Private/Data/Output.h"
-#include "Private/Data/Quality.h"
 #include "Private/Pipeline/Input.h"
+#include "Private/Shapes/KeptModeSolver.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -26,6 +24,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -134,7 +133,8 @@ vtkMorphShapes::vtkInternals::Source vtkMorphShapes::vtkInternals::SourceOf(
 void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph::Monitor& monitor)
 {
   Source source = this->SourceOf(boundaries);
-  if (!source.first.empty() && source == this->SolvedFrom)
+  const filters::RankGroup& processes = this->Modes.Group();
+  if (!processes.Any(source.first.empty() || source != this->SolvedFrom))
   {
     for (const std::string& warning : this->Modes.GetWarnings())
     {
@@ -146,8 +146,9 @@ void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph
     return;
   }
   this->SolvedFrom = {};
-  const filters::ShapeModes::Effort effort =
-    this->Modes.Solve(this->Shapes(boundaries), this->Options(), monitor);
+  std::vector<filters::ShapeModes::Shape> shapes;
+  processes.Together([&] { shapes = this->Shapes(boundaries); });
+  const filters::ShapeModes::Effort effort = this->Modes.Solve(shapes, this->Options(), monitor);
   this->Results.SetInteger(
     "PrepareCount", this->Results.Integer("PrepareCount") + effort.Preparations);
   this->Results.SetInteger("SolveCount", this->Results.Integer("SolveCount") + effort.Solved);
@@ -171,7 +172,8 @@ std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
     this->Designs = {};
     return weights;
   }
-  filters::Designs designs = filters::Designs::Read(table, this->Names(shapes), weights);
+  filters::Designs designs =
+    filters::Designs::Read(table, this->Names(shapes), weights, this->Modes.Group());
   designs.KeepAnswer(std::move(this->Designs));
   this->Designs = std::move(designs);
   if (this->Filter->CheckDesigns)
@@ -183,21 +185,35 @@ std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
     }
     this->Results.SetText("InvertingDesigns", rows.empty() ? "none" : morph::listIds(rows, 100));
   }
-  const auto last = static_cast<vtkIdType>(this->Designs.Number()) - 1;
-  return this->Designs[std::min(this->Row, last)];
+  this->Rows = static_cast<vtkIdType>(this->Designs.Number());
+  this->Row = this->RowOf(this->Rows);
+  return this->Designs[this->Row];
+}
+
+void vtkMorphShapes::vtkInternals::WriteUndeformedSurface(
+  vtkUnstructuredGrid* grid, vtkPolyData* surface) const
+{
+  const filters::KeptModeSolver none{};
+  const filters::ModeSolver* solver = this->Modes.GetSolver();
+  (solver ? solver : &none)->WriteUndeformedSurface(grid, surface);
+}
+
+vtkIdType vtkMorphShapes::vtkInternals::RowOf(vtkIdType rows) const
+{
+  const auto last = static_cast<double>(std::max<vtkIdType>(rows - 1, 0));
+  return static_cast<vtkIdType>(std::clamp(std::floor(this->Time), 0., last));
 }
 
 void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
-  morph::Monitor& monitor)
+  filters::RankGroup::Of processes, vtkInformationVector* boundaries, vtkDataObject* table,
+  vtkInformationVector* outputs, morph::Monitor& monitor)
 {
-  vtkUnstructuredGrid* output = this->Ports.Output(outputs);
-  if (this->Modes.SetGrid(grid, monitor))
+  if (this->Modes.SetGrid(grid, processes, this->Options(), monitor))
   {
     this->SolvedFrom = {};
   }
   this->Modes.SetFeatureLines(this->Filter->FeatureLines);
-  this->Results.SetInteger("MirroredBodies", this->Modes.GetKept().MirroredBodies());
+  this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
   morph::ProgressRange checking(monitor, 0.6, 0.8);
@@ -205,11 +221,13 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
 
   const auto start = std::chrono::steady_clock::now();
-  const morph::Points& rest = this->Modes.GetKept().Mesh().points;
-  morph::blend(rest, this->Modes.Weighted(weights), this->Moved, monitor);
+  const filters::RankGroup& group = this->Modes.Group();
+  group.Together(
+    [&] {
+      morph::blend(this->Modes.Mesh().points, this->Modes.Weighted(weights), this->Moved, monitor);
+    });
   this->Results.SetNumber("EvaluateSeconds",
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  filters::Output::Write(grid, rest, this->Moved, this->Filter->OutputPointsPrecision, output);
+    group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
   if (this->Filter->FindValidRanges && this->Modes.HasRanges())
   {
     this->FindRanges(weights, monitor);
@@ -218,38 +236,28 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   {
     this->Results.SetText("ValidRanges", "not known for polyhedra");
   }
-  this->Measure(
-    output, vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2), monitor);
-  this->WriteShapes(weights, output);
+  this->Write(grid, outputs, monitor);
+  this->WriteShapes(weights, this->Ports.Output(outputs));
   this->Weights = weights;
 }
 
-void vtkMorphShapes::vtkInternals::Measure(vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Write(
+  vtkUnstructuredGrid* grid, vtkInformationVector* outputs, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
-  const std::vector<morph::Index>& outer = this->Modes.GetKept().Surface().OuterCells();
-  const morph::Mesh& mesh = this->Modes.GetKept().Mesh();
-  const std::vector<std::int8_t>& orientation = this->Modes.GetKept().Orientation();
-  const morph::Quality quality =
-    all ? filters::Quality::Measure(mesh, output, orientation, monitor)
-        : filters::Quality::Measure(mesh, output, orientation, outer, monitor);
-  this->Results.SetInteger("SurfaceInvertedCells",
-    this->Modes.GetKept().Surface().Write(output->GetPoints(), quality, surface));
-  filters::Quality::Remove(output);
+  const filters::ModeSolver::Outputs written = { this->Ports.Output(outputs),
+    vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2) };
+  const filters::ModeSolver::Measured measured = this->Modes.GetSolver()->Write(
+    grid, this->Moved, this->Filter->OutputPointsPrecision, all, written, monitor);
+  const morph::Quality& quality = measured.Whole;
+  this->Results.SetInteger("SurfaceInvertedCells", measured.SurfaceInverted);
   if (all)
   {
-    filters::Quality::Write(quality, output);
-    filters::BadCells::Extract(quality, output, badCells);
     this->Results.Set(quality);
-    this->Results.SetText(
-      "MorphStatus", quality.inverted + quality.degenerate > 0 ? "Inverted" : "Valid");
   }
-  else
-  {
-    this->Results.SetText("MorphStatus", "Unmeasured");
-  }
-  this->Results.Write(output);
+  const bool isBad = quality.inverted + quality.degenerate > 0;
+  this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
+  this->Results.Write(written.Mesh);
 }
 
 void vtkMorphShapes::vtkInternals::FindRanges(

@@ -6,6 +6,7 @@
 
 #include "Private/Data/Results.h"
 #include "Private/Pipeline/Ports.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Private/Shapes/Designs.h"
 #include "Private/Shapes/ShapeModes.h"
 #include "Private/Shapes/WeightRanges.h"
@@ -36,6 +37,7 @@ public:
   morph::filters::Designs Designs;
   vtkIdType Rows = 0;  ///< of the table, as of the last update of the information
   vtkIdType Row = 0;   ///< that the outputs are asked for
+  double Time = 0;     ///< of Row
   morph::Points Moved; ///< kept for its memory: its content has no effect
 
   explicit vtkInternals(vtkMorphShapes* filter)
@@ -44,8 +46,14 @@ public:
   {
   }
 
-  void Morph(vtkUnstructuredGrid* grid, vtkInformationVector* boundaries, vtkDataObject* table,
-    vtkInformationVector* outputs, morph::Monitor& monitor);
+  /// `processes`: those that have pieces of the mesh, and all of which call this.
+  void Morph(vtkUnstructuredGrid* grid, morph::filters::RankGroup::Of processes,
+    vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
+    morph::Monitor& monitor);
+  /// Writes the undeformed surface after an error, of a mesh that may not have been taken.
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
+  /// The row of the table at Time.
+  vtkIdType RowOf(vtkIdType rows) const;
 
 private:
   /// What the fields were solved from: all settings as text, and each boundary with its time. The
@@ -61,8 +69,7 @@ private:
   morph::filters::ShapeModes::Options Options() const;
   std::vector<morph::filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
   void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
-  void Measure(vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
-    morph::Monitor& monitor);
+  void Write(vtkUnstructuredGrid* grid, vtkInformationVector* outputs, morph::Monitor& monitor);
   /// The present weights: the filter's, or those of the table's row.
   std::vector<double> PresentWeights(
     std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor);

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Shapes/ShapeModes.h"
 
-#include "Geometry/RotationFit.h"
-#include "Mesh/Polyhedra.h"
-#include "Morpher/PolyhedralMorpher.h"
-#include "Private/Data/GridMesh.h"
-#include "Private/Data/Quality.h"
-#include "Private/Pipeline/Input.h"
+#include "Private/Distributed/OnRanks.h"
+#include "Private/Shapes/KeptModeSolver.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
@@ -14,6 +10,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace morph::filters
@@ -36,20 +34,6 @@ auto named(const std::string& name, const Work& work)
   {
     throw morph::Error(error.kind(), "Shape '" + name + "': " + error.what());
   }
-}
-
-/// The method, not prepared, for the cells of `mesh`.
-std::unique_ptr<morph::LinearMorpher> forCellsOf(
-  const morph::Mesh& mesh, std::unique_ptr<morph::LinearMorpher> method)
-{
-  if (!morph::hasPolyhedra(mesh))
-  {
-    return method;
-  }
-  // Of a linear method it is a linear one.
-  std::unique_ptr<morph::Morpher> onPieces = morph::morpherForPolyhedra(std::move(method));
-  return std::unique_ptr<morph::LinearMorpher>(
-    dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
 }
 
 /// The nodes that any of the shapes names, and those that all hold.
@@ -96,24 +80,82 @@ Points displacementOf(
   }
   return result;
 }
+}
 
-/// The rotation of the nodes that move, and their rows of `displacement`.
-std::pair<morph::AxisRotation, std::vector<Index>> rotationOf(const Points& displacement,
-  const std::vector<Index>& prescribed, const Points& rest, double tolerance)
+bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, const Options& options,
+  morph::Monitor& monitor)
 {
-  std::vector<Index> moving;
-  for (Index i = 0; i < displacement.rows(); ++i)
+  if (!this->Solver || this->Processes.IsOf() != processes)
   {
-    if (displacement.row(i).norm() > tolerance)
+    this->Processes = RankGroup(processes);
+    this->Solver = processes == RankGroup::Of::All ? OnRanks::MakeModeSolver()
+                                                   : std::make_unique<KeptModeSolver>();
+  }
+  const bool isTaken = this->Solver->Take(grid, options.CreateMorpher, monitor);
+  if (isTaken)
+  {
+    this->IsPrepared = false;
+    this->Modes.clear();
+  }
+  return isTaken;
+}
+
+std::vector<BoundaryMatch::Result> ShapeModes::Match(
+  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
+{
+  std::vector<BoundaryMatch::Result> matches;
+  this->Warnings.clear();
+  this->Processes.Together([&] { monitor.check(); });
+  for (const Shape& shape : shapes)
+  {
+    matches.push_back(
+      named(shape.Name, [&] { return this->Solver->Match(shape.Boundary, options.Matching); }));
+    for (const std::string& warning : matches.back().Warnings)
     {
-      moving.push_back(i);
+      if (this->Processes.IsFirst())
+      {
+        this->Warnings.push_back("Shape '" + shape.Name + "': " + warning);
+        monitor.warn(this->Warnings.back());
+      }
     }
   }
-  Points from(static_cast<Index>(moving.size()), 3), to = from;
-  for (Index i = 0; i < from.rows(); ++i)
+  return matches;
+}
+
+std::pair<morph::AxisRotation, std::vector<Index>> ShapeModes::RotationOf(
+  const Points& displacement, const std::vector<Index>& prescribed, double tolerance) const
+{
+  const Points& rest = this->Mesh().points;
+  std::vector<Index> moving;
+  constexpr std::size_t Width = 7; // an id, and two positions
+  std::vector<double> rows;
+  for (Index i = 0; i < displacement.rows(); ++i)
   {
-    from.row(i) = rest.row(prescribed[moving[i]]);
-    to.row(i) = from.row(i) + displacement.row(moving[i]);
+    if (displacement.row(i).norm() <= tolerance)
+    {
+      continue;
+    }
+    moving.push_back(i);
+    const Index node = prescribed[i];
+    if (this->Solver->Owns(node))
+    {
+      rows.push_back(static_cast<double>(this->Solver->NodeId(node))); // ids are below 2^52
+      const Eigen::RowVector3d from = rest.row(node), to = from + displacement.row(i);
+      rows.insert(rows.end(), from.data(), from.data() + 3);
+      rows.insert(rows.end(), to.data(), to.data() + 3);
+    }
+  }
+  rows = this->Processes.Gather(rows);
+  std::vector<std::size_t> order(rows.size() / Width);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return rows[Width * a] < rows[Width * b]; });
+  Points from(static_cast<Index>(order.size()), 3), to = from;
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    const double* row = rows.data() + Width * order[k];
+    from.row(static_cast<Index>(k)) << row[1], row[2], row[3];
+    to.row(static_cast<Index>(k)) << row[4], row[5], row[6];
   }
   try
   {
@@ -125,46 +167,12 @@ std::pair<morph::AxisRotation, std::vector<Index>> rotationOf(const Points& disp
                        " So it is not a rotation about an axis: take it as a displacement.");
   }
 }
-}
-
-bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
-{
-  const bool isCopied = this->Kept.Take(grid, monitor);
-  if (isCopied)
-  {
-    this->Method.reset();
-    this->Modes.clear();
-  }
-  return isCopied;
-}
-
-std::vector<BoundaryMatch::Result> ShapeModes::Match(
-  const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
-{
-  std::vector<BoundaryMatch::Result> matches;
-  this->Warnings.clear();
-  for (const Shape& shape : shapes)
-  {
-    monitor.check();
-    matches.push_back(named(shape.Name,
-      [&]
-      {
-        return BoundaryMatch::Match(shape.Boundary, this->Kept.Mesh(), this->Kept.OuterFaces(),
-          this->Kept.Size(), options.Matching);
-      }));
-    for (const std::string& warning : matches.back().Warnings)
-    {
-      this->Warnings.push_back("Shape '" + shape.Name + "': " + warning);
-      monitor.warn(this->Warnings.back());
-    }
-  }
-  return matches;
-}
 
 ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch::Result& match,
   const std::vector<Index>& prescribed, double tolerance, std::vector<Mode>& modes) const
 {
-  Points displacement = displacementOf(match, prescribed, this->Kept.Mesh().points);
+  const Points& rest = this->Mesh().points;
+  Points displacement = displacementOf(match, prescribed, rest);
   Solved solved;
   if (!shape.IsRotation)
   {
@@ -172,13 +180,14 @@ ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch:
     modes.push_back({ std::move(displacement), {} });
     return solved;
   }
-  const auto [rotation, moving] = named(shape.Name,
-    [&] { return rotationOf(displacement, prescribed, this->Kept.Mesh().points, tolerance); });
+  // All processes have the same points, so that it throws on all of them or none.
+  const auto [rotation, moving] =
+    named(shape.Name, [&] { return this->RotationOf(displacement, prescribed, tolerance); });
   Points first = Points::Zero(displacement.rows(), 3), second = first;
   for (Index i : moving)
   {
-    first.row(i) = rotation.first(this->Kept.Mesh().points.row(prescribed[i]));
-    second.row(i) = rotation.second(this->Kept.Mesh().points.row(prescribed[i]));
+    first.row(i) = rotation.first(rest.row(prescribed[i]));
+    second.row(i) = rotation.second(rest.row(prescribed[i]));
   }
   solved.Modes = { modes.size(), modes.size() + 1 };
   solved.Angle = rotation.angle;
@@ -190,48 +199,72 @@ ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch:
 void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& options,
   Effort& effort, morph::Monitor& monitor)
 {
-  if (this->Method && this->MethodOptions == options.Method &&
-      this->Method->partition().prescribed == prescribed)
+  const bool isSame =
+    this->IsPrepared && this->MethodOptions == options.Method && this->PreparedFor == prescribed;
+  if (!this->Processes.Any(!isSame))
   {
     return;
   }
-  this->Method.reset();
+  this->IsPrepared = false;
   this->Modes.clear();
-  auto method = forCellsOf(this->Kept.Mesh(), options.CreateMorpher());
-  method->prepare(this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), prescribed), monitor);
-  this->Method = std::move(method);
+  this->Solver->Prepare(options.CreateMorpher(), prescribed, monitor);
+  this->PreparedFor = prescribed;
   this->MethodOptions = options.Method;
+  this->IsPrepared = true;
   ++effort.Preparations;
+}
+
+std::vector<int> ShapeModes::FindKept(const std::vector<Mode>& modes) const
+{
+  const std::size_t kept = this->Modes.size();
+  std::vector<Index> differs(modes.size() * kept);
+  for (std::size_t k = 0; k < differs.size(); ++k)
+  {
+    differs[k] = modes[k / kept].Boundary != this->Modes[k % kept].Boundary;
+  }
+  this->Processes.Sum(differs.data(), differs.size());
+  std::vector<int> found(modes.size(), -1);
+  for (std::size_t i = 0; i < modes.size(); ++i)
+  {
+    const auto begin = differs.begin() + static_cast<std::ptrdiff_t>(i * kept);
+    const auto same = std::find(begin, begin + static_cast<std::ptrdiff_t>(kept), 0);
+    if (same != begin + static_cast<std::ptrdiff_t>(kept))
+    {
+      found[i] = static_cast<int>(same - begin);
+    }
+  }
+  return found;
 }
 
 ShapeModes::Effort ShapeModes::Solve(
   const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
 {
   const std::vector<BoundaryMatch::Result> matches = this->Match(shapes, options, monitor);
-  const std::vector<Index> prescribed = prescribedNodes(matches, this->Kept.Mesh().numberOfNodes());
+  const std::vector<Index> prescribed = prescribedNodes(matches, this->Mesh().numberOfNodes());
   std::vector<Mode> modes;
   std::vector<Solved> solved;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     solved.push_back(this->Describe(shapes[i], matches[i], prescribed,
-      options.Matching.MatchTolerance * this->Kept.Size(), modes));
+      options.Matching.MatchTolerance * this->Solver->Size(), modes));
   }
 
   Effort effort;
-  effort.Prescribed = static_cast<Index>(prescribed.size());
+  effort.Prescribed = std::count_if(
+    prescribed.begin(), prescribed.end(), [this](Index node) { return this->Solver->Owns(node); });
+  this->Processes.Sum(&effort.Prescribed, 1);
   const auto start = Clock::now();
   morph::ProgressRange preparing(monitor, 0, 0.5);
   this->Prepare(prescribed, options, effort, preparing);
   // The kept fields are replaced only once all are there: after an error or abort they stay.
   std::vector<Points> boundaries;
   std::vector<std::size_t> open;
+  const std::vector<int> kept = this->FindKept(modes);
   for (std::size_t i = 0; i < modes.size(); ++i)
   {
-    const auto found = std::find_if(this->Modes.begin(), this->Modes.end(),
-      [&](const Mode& mode) { return mode.Boundary == modes[i].Boundary; });
-    if (found != this->Modes.end())
+    if (kept[i] >= 0)
     {
-      modes[i].Field = found->Field;
+      modes[i].Field = this->Modes[kept[i]].Field;
       continue;
     }
     open.push_back(i);
@@ -241,7 +274,7 @@ ShapeModes::Effort ShapeModes::Solve(
   {
     std::vector<morph::EvaluateReport> reports;
     morph::ProgressRange solving(monitor, 0.5, 1);
-    std::vector<Points> fields = this->Method->basis(boundaries, solving, &reports);
+    std::vector<Points> fields = this->Solver->Basis(boundaries, reports, solving);
     for (std::size_t k = 0; k < open.size(); ++k)
     {
       modes[open[k]].Field = std::make_shared<Points>(std::move(fields[k]));
@@ -251,7 +284,8 @@ ShapeModes::Effort ShapeModes::Solve(
   effort.Solved = static_cast<int>(open.size());
   if (effort.Preparations + effort.Solved > 0)
   {
-    effort.Seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    effort.Seconds =
+      this->Processes.Maximum(std::chrono::duration<double>(Clock::now() - start).count());
   }
   this->Modes = std::move(modes);
   this->Shapes = std::move(solved);
@@ -260,7 +294,7 @@ ShapeModes::Effort ShapeModes::Solve(
 
 bool ShapeModes::HasRanges() const
 {
-  return !morph::hasPolyhedra(this->Kept.Mesh());
+  return !this->Solver->HasPolyhedra();
 }
 
 std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>& weights) const
@@ -297,7 +331,7 @@ morph::CombinedMotion ShapeModes::Combined(
   const std::vector<double>& weights, Points& straight, morph::Monitor& monitor) const
 {
   morph::CombinedMotion motion;
-  motion.base = &this->Kept.Mesh().points;
+  motion.base = &this->Mesh().points;
   std::vector<morph::WeightedMode> modes;
   for (std::size_t i = 0; i < this->Shapes.size(); ++i)
   {
@@ -342,20 +376,30 @@ std::vector<double> ShapeModes::Angles() const
 std::vector<double> ShapeModes::Derivatives(
   const std::vector<double>& weights, const Points& gradient, morph::Monitor& monitor) const
 {
+  // A node counts once, and cells of other processes bring none.
+  Points counted = Points::Zero(this->Mesh().numberOfNodes(), 3);
+  for (Index node = 0; node < gradient.rows(); ++node)
+  {
+    if (this->Solver->Owns(node))
+    {
+      counted.row(node) = gradient.row(node);
+    }
+  }
   std::vector<double> result;
   for (std::size_t i = 0; i < this->Shapes.size(); ++i)
   {
     const Solved& shape = this->Shapes[i];
-    const double along = morph::dot(*this->Modes[shape.Modes[0]].Field, gradient, monitor);
+    const double along = morph::dot(*this->Modes[shape.Modes[0]].Field, counted, monitor);
     if (shape.Angle == 0)
     {
       result.push_back(along);
       continue;
     }
-    const double across = morph::dot(*this->Modes[shape.Modes[1]].Field, gradient, monitor);
+    const double across = morph::dot(*this->Modes[shape.Modes[1]].Field, counted, monitor);
     const double angle = weights[i] * shape.Angle;
     result.push_back(shape.Angle * (std::cos(angle) * along + std::sin(angle) * across));
   }
+  this->Processes.Sum(result.data(), result.size());
   return result;
 }
 }

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Geometry/RotationFit.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Blend.h"
 #include "Morpher/Morpher.h"
 #include "Private/Morph/BoundaryMatch.h"
-#include "Private/Morph/KeptMesh.h"
+#include "Private/Morph/ModeSolver.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Quality/LargestFactor.h"
 #include "Quality/ValidRange.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkPointSet;
@@ -22,7 +24,9 @@ class vtkUnstructuredGrid;
 namespace morph::filters
 {
 /// The mesh, a linear method prepared for it, and the displacement fields of shapes. All are kept
-/// from one execution to the next, under their content; none of it has an effect on the result.
+/// from one execution to the next, under their content; none of it has an effect on the result. The
+/// mesh may have pieces on several MPI processes: then all of these make the same calls, functions
+/// that take a monitor throw on all or none, and results are those of the whole mesh.
 class ShapeModes
 {
 public:
@@ -37,7 +41,7 @@ public:
     BoundaryMatch::Options Matching;
     /// A text that differs for any two settings of the method.
     std::string Method;
-    std::function<std::unique_ptr<morph::LinearMorpher>()> CreateMorpher;
+    ModeSolver::CreateMorpher CreateMorpher;
   };
   /// The work of one call of Solve().
   struct Effort
@@ -49,11 +53,18 @@ public:
     morph::Index Prescribed = 0; ///< nodes
   };
 
-  /// Copies the grid, unless it is the same as the kept one; returns whether it was copied.
-  bool SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
-  const KeptMesh& GetKept() const { return this->Kept; }
+  /// Takes the grid, unless it is the same as the kept one; returns whether it did. `processes`:
+  /// that have pieces of it.
+  bool SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, const Options& options,
+    morph::Monitor& monitor);
+  /// The mesh and the method, or null before SetGrid().
+  const ModeSolver* GetSolver() const { return this->Solver.get(); }
+  /// The processes with pieces of the mesh.
+  const RankGroup& Group() const { return this->Processes; }
+  const morph::Mesh& Mesh() const { return this->Solver->Mesh(); }
+  const std::vector<std::int8_t>& Orientation() const { return this->Solver->Orientation(); }
   /// See KeptMesh. After SetGrid().
-  void SetFeatureLines(bool on) { this->Kept.SetFeatureLines(on); }
+  void SetFeatureLines(bool on) { this->Solver->SetFeatureLines(on); }
 
   /// Solves for the displacement fields of shapes that are not kept, and forgets others. A node
   /// that any shape names is prescribed; in shapes that do not name it, it stays. Throws
@@ -69,7 +80,8 @@ public:
   std::vector<std::shared_ptr<const morph::Points>> Fields() const;
   std::vector<double> Angles() const;
   /// The derivatives of an objective with respect to the weights, from those with respect to the
-  /// nodes' positions. `gradient`: #nodes x 3.
+  /// nodes' positions. `gradient`: #nodes of the grid x 3; where several points stand for a node,
+  /// each has that of the node.
   std::vector<double> Derivatives(const std::vector<double>& weights, const morph::Points& gradient,
     morph::Monitor& monitor) const;
   /// Whether the range of a weight in which cells stay valid can be found: not of polyhedra, whose
@@ -103,11 +115,19 @@ private:
     const std::vector<morph::Index>& prescribed, double tolerance, std::vector<Mode>& modes) const;
   void Prepare(const std::vector<morph::Index>& prescribed, const Options& options, Effort& effort,
     morph::Monitor& monitor);
+  /// For each of `modes` the number of the kept mode that is the same on all processes, or -1.
+  std::vector<int> FindKept(const std::vector<Mode>& modes) const;
+  /// The rotation of the nodes that move, and their rows of `displacement`.
+  std::pair<morph::AxisRotation, std::vector<morph::Index>> RotationOf(
+    const morph::Points& displacement, const std::vector<morph::Index>& prescribed,
+    double tolerance) const;
 
-  KeptMesh Kept;
-  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared for Kept under MethodOptions, or null
+  RankGroup Processes{ RankGroup::Of::One };
+  std::unique_ptr<ModeSolver> Solver;
+  bool IsPrepared = false; ///< Solver, for the nodes PreparedFor under MethodOptions
+  std::vector<morph::Index> PreparedFor;
   std::string MethodOptions;
-  std::vector<Mode> Modes;    ///< of Method
+  std::vector<Mode> Modes;    ///< of Solver
   std::vector<Solved> Shapes; ///< of the last Solve()
   std::vector<std::string> Warnings;
 };

@@ -5,6 +5,7 @@
 #include "Private/Shapes/ShapeModes.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace morph::filters
@@ -15,8 +16,8 @@ namespace
 double largestFactor(const ShapeModes& modes, const std::vector<double>& weights,
   const std::vector<morph::ValidRange>& ranges, const morph::Points& moved, morph::Monitor& monitor)
 {
-  const morph::Mesh& mesh = modes.GetKept().Mesh();
-  const std::vector<std::int8_t>& orientation = modes.GetKept().Orientation();
+  const morph::Mesh& mesh = modes.Mesh();
+  const std::vector<std::int8_t>& orientation = modes.Orientation();
   std::vector<std::size_t> weighted, turned;
   for (std::size_t i = 0; i < weights.size(); ++i)
   {
@@ -45,6 +46,18 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
   return morph::largestFactor(mesh, motion, orientation, monitor).factor;
 }
 
+/// The range in which the cells of all processes are valid.
+void join(const RankGroup& processes, morph::ValidRange& range)
+{
+  range.isEmpty = processes.Any(range.isEmpty);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double lowest = processes.Maximum(range.isEmpty ? 0 : range.lowest);
+  const double highest = processes.Minimum(range.isEmpty ? 0 : range.highest);
+  range.lowest = range.isEmpty ? nan : lowest;
+  range.highest = range.isEmpty ? nan : highest;
+  range.lowestCell = range.highestCell = -1; // of different processes
+}
+
 std::string endText(double end)
 {
   if (std::isinf(end))
@@ -61,18 +74,31 @@ std::string endText(double end)
 WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<double>& weights,
   const morph::Points& moved, morph::Monitor& monitor)
 {
+  const RankGroup& processes = modes.Group();
   WeightRanges result;
   morph::Points base;
-  for (std::size_t i = 0; i < weights.size(); ++i)
+  processes.Together(
+    [&]
+    {
+      for (std::size_t i = 0; i < weights.size(); ++i)
+      {
+        monitor.check();
+        std::vector<double> others = weights;
+        others[i] = 0;
+        morph::blend(modes.Mesh().points, modes.Weighted(others), base, monitor);
+        result.Shapes.push_back(
+          morph::validRange(modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), monitor));
+      }
+      result.LargestFactor = largestFactor(modes, weights, result.Shapes, moved, monitor);
+    });
+  for (morph::ValidRange& range : result.Shapes)
   {
-    monitor.check();
-    std::vector<double> others = weights;
-    others[i] = 0;
-    morph::blend(modes.GetKept().Mesh().points, modes.Weighted(others), base, monitor);
-    result.Shapes.push_back(morph::validRange(
-      modes.GetKept().Mesh(), modes.MotionOf(i, base), modes.GetKept().Orientation(), monitor));
+    join(processes, range);
   }
-  result.LargestFactor = largestFactor(modes, weights, result.Shapes, moved, monitor);
+  const bool isUnknown = std::isnan(result.LargestFactor);
+  const bool isAnyUnknown = processes.Any(isUnknown);
+  const double factor = processes.Minimum(isUnknown ? 0 : result.LargestFactor);
+  result.LargestFactor = isAnyUnknown ? std::numeric_limits<double>::quiet_NaN() : factor;
   return result;
 }
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/DistributedMesh.h"
+#include "Distributed/Method.h"
+#include "Distributed/Methods.h"
+#include "Distributed/Quality.h"
+#include "Mesh/NodePartition.h"
+#include "Mesh/Polyhedra.h"
+#include "Private/Data/Quality.h"
+#include "Private/Distributed/OnRanks.h"
+#include "Private/Distributed/RankMatch.h"
+#include "Private/Distributed/RankMesh.h"
+#include "Private/Distributed/RankOutput.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <utility>
+
+namespace morph::filters::OnRanks
+{
+namespace
+{
+class RankModeSolver : public ModeSolver
+{
+public:
+  bool Take(
+    vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) override
+  {
+    const int layers = morph::distributed::makeMethod(create())->layers();
+    const bool isTaken = this->Pieces.Take(grid, layers, GridMesh::UnknownCells::Refuse, monitor);
+    if (isTaken)
+    {
+      this->Method.reset();
+    }
+    this->Pieces.RequireVolumeCells();
+    if (this->Pieces.Ranks().sum(morph::Index(morph::hasPolyhedra(this->Pieces.Piece()))) > 0)
+    {
+      throw morph::Error("vtkMorphShapes of a mesh with polyhedra needs one MPI rank, and the mesh "
+                         "is distributed over several. Run on one.");
+    }
+    return isTaken;
+  }
+  void SetFeatureLines(bool on) override
+  {
+    if (on)
+    {
+      throw morph::Error("FeatureLines of vtkMorphShapes needs one MPI rank, and the mesh is "
+                         "distributed over several. Run on one, or switch it off.");
+    }
+  }
+  const morph::Mesh& Mesh() const override { return this->Pieces.Whole().mesh(); }
+  morph::Index GridNodes() const override { return this->Pieces.Whole().pieceNodes(); }
+  const std::vector<std::int8_t>& Orientation() const override
+  {
+    return this->Pieces.Whole().orientation();
+  }
+  double Size() const override { return this->Pieces.Whole().size(); }
+  bool HasPolyhedra() const override { return false; }
+  morph::Index MirroredBodies() const override { return this->Pieces.Whole().mirroredBodies(); }
+  bool Owns(morph::Index node) const override { return this->Pieces.Whole().owns(node); }
+  std::int64_t NodeId(morph::Index node) const override
+  {
+    return this->Pieces.Whole().nodeId(node);
+  }
+  BoundaryMatch::Result Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const override
+  {
+    return RankMatch::Match(boundary, this->Pieces.Whole(), options);
+  }
+  void Prepare(std::unique_ptr<morph::LinearMorpher> method,
+    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) override
+  {
+    this->Method.reset();
+    const morph::distributed::DistributedMesh& whole = this->Pieces.Whole();
+    morph::NodePartition partition;
+    whole.ranks().together([&] { partition = morph::partitionNodes(whole.mesh(), prescribed); });
+    auto prepared = morph::distributed::makeMethod(std::move(method));
+    prepared->prepare(whole, partition, monitor);
+    this->Method = std::move(prepared);
+  }
+  std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
+    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override
+  {
+    std::vector<morph::Points> fields(displacements.size());
+    const auto number = static_cast<double>(fields.size());
+    reports.clear();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+    {
+      const auto done = static_cast<double>(i);
+      morph::ProgressRange part(monitor, done / number, (done + 1) / number);
+      reports.push_back(this->Method->mode(displacements[i], fields[i], part));
+    }
+    return fields;
+  }
+  Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
+    const Outputs& outputs, morph::Monitor& monitor) const override
+  {
+    Measured result;
+    const morph::Quality mine =
+      RankOutput::WritePoints(this->Pieces, grid, moved, precision, all, outputs.Mesh, monitor);
+    if (all)
+    {
+      const auto& whole = this->Pieces.Whole();
+      result.Whole = morph::distributed::reduce(whole.ranks(), mine, whole.cellIds());
+      Quality::Write(mine, outputs.Mesh);
+    }
+    result.SurfaceInverted = RankOutput::WriteParts(
+      this->Pieces, mine, all, outputs.Mesh, outputs.BadCells, outputs.Surface);
+    return result;
+  }
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
+  {
+    this->Pieces.WriteUndeformedSurface(grid, surface);
+  }
+
+private:
+  RankMesh Pieces;
+  std::unique_ptr<morph::distributed::Method> Method; ///< prepared, or null
+};
+}
+
+std::unique_ptr<ModeSolver> MakeModeSolver()
+{
+  return std::make_unique<RankModeSolver>();
+}
+}

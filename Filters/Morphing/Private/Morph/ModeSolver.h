@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Morpher/Morpher.h"
+#include "Private/Morph/BoundaryMatch.h"
+#include "Quality/ScaledJacobian.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class vtkPointSet;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace morph
+{
+class Monitor;
+}
+
+namespace morph::filters
+{
+/// The undeformed mesh of vtkMorphShapes and its linear method, kept between executions. Either
+/// this process has the whole mesh, or several have pieces of it. In the second case all of them
+/// call each function that takes a monitor, and Match(), and these throw on all or none.
+class ModeSolver
+{
+public:
+  using CreateMorpher = std::function<std::unique_ptr<morph::LinearMorpher>()>;
+  virtual ~ModeSolver() = default;
+
+  /// Takes the grid, unless it is the same as the kept one; returns whether it did. Throws
+  /// morph::Error for a grid that cannot be morphed.
+  virtual bool Take(
+    vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) = 0;
+  /// See KeptMesh. After Take().
+  virtual void SetFeatureLines(bool on) = 0;
+
+  /// The mesh of this process. Of a piece, nodes and cells of other processes come behind its own.
+  virtual const morph::Mesh& Mesh() const = 0;
+  /// The nodes of the grid itself.
+  virtual morph::Index GridNodes() const = 0;
+  /// #cells; see Topology.h.
+  virtual const std::vector<std::int8_t>& Orientation() const = 0;
+  /// Of the whole mesh.
+  ///@{
+  virtual double Size() const = 0;
+  virtual bool HasPolyhedra() const = 0;
+  virtual morph::Index MirroredBodies() const = 0;
+  ///@}
+  /// Whether this process counts a node: one of those that have it does.
+  virtual bool Owns(morph::Index node) const = 0;
+  /// The number of a node in the whole mesh.
+  virtual std::int64_t NodeId(morph::Index node) const = 0;
+
+  /// BoundaryMatch::Match(). Of Sources the signs alone are known on several processes.
+  virtual BoundaryMatch::Result Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
+  /// Prepares the method for these nodes of Mesh(), ascending.
+  virtual void Prepare(std::unique_ptr<morph::LinearMorpher> method,
+    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) = 0;
+  /// See LinearMorpher::basis(). After Prepare().
+  virtual std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
+    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const = 0;
+
+  struct Outputs
+  {
+    vtkUnstructuredGrid* Mesh;
+    vtkUnstructuredGrid* BadCells;
+    vtkPolyData* Surface;
+  };
+  struct Measured
+  {
+    morph::Quality Whole; ///< the numbers of the whole mesh; of `all` cells alone
+    morph::Index SurfaceInverted = 0;
+  };
+  /// Writes the grid with its nodes at `moved`, #nodes of Mesh() x 3, and measures all cells, or
+  /// those behind the outer faces alone. `precision`: see MorphOutput::Write().
+  virtual Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision,
+    bool all, const Outputs& outputs, morph::Monitor& monitor) const = 0;
+  /// The surface of `grid` in its undeformed state, as far as it is known.
+  virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
+};
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Private/Morph/KeptMesh.h"
+#include "Private/Morph/ModeSolver.h"
+
+namespace morph::filters
+{
+/// ModeSolver of a mesh that this process has all of.
+class KeptModeSolver : public ModeSolver
+{
+public:
+  bool Take(
+    vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) override;
+  void SetFeatureLines(bool on) override { this->Kept.SetFeatureLines(on); }
+  const morph::Mesh& Mesh() const override { return this->Kept.Mesh(); }
+  morph::Index GridNodes() const override { return this->Kept.Mesh().numberOfNodes(); }
+  const std::vector<std::int8_t>& Orientation() const override { return this->Kept.Orientation(); }
+  double Size() const override { return this->Kept.Size(); }
+  bool HasPolyhedra() const override;
+  morph::Index MirroredBodies() const override { return this->Kept.MirroredBodies(); }
+  bool Owns(morph::Index) const override { return true; }
+  std::int64_t NodeId(morph::Index node) const override { return node; }
+  BoundaryMatch::Result Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const override;
+  void Prepare(std::unique_ptr<morph::LinearMorpher> method,
+    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) override;
+  std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
+    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override;
+  Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
+    const Outputs& outputs, morph::Monitor& monitor) const override;
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
+  {
+    this->Kept.WriteUndeformedSurface(grid, surface);
+  }
+
+private:
+  KeptMesh Kept;
+  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
+};
+}
