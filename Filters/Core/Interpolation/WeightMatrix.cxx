@@ -107,8 +107,7 @@ PaddedPoints WeightMatrix::padded(const Points& sites)
   return result;
 }
 
-void WeightMatrix::multiplyPadded(
-  const PaddedPoints& sites, Points& free, Monitor& monitor) const
+void WeightMatrix::multiplyPadded(const PaddedPoints& sites, Points& free, Monitor& monitor) const
 {
   free.resize(this->rows(), 3);
   monitor.parallelFor(this->rows(), Grain,
