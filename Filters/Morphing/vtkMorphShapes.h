@@ -163,9 +163,9 @@ public:
    * that ScaledJacobian measures: polynomials of degree 3 in a weight, and of degree 6 in the
    * tangent of half the angle for a rotation. The ends are on the safe side by rounding, for
    * quadratic cells by more (morph::validRange()). The field data have ShapeLowestWeight and
-   * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Of a mesh with
-   * polyhedra they are not known: GetValidRanges() says so, and those arrays are not there. Cost:
-   * one pass over the cells a shape. Default on.
+   * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Those of polyhedra
+   * are near the exact ends, on either side: their centres keep the weights that they have at a
+   * weight of 0. Cost: one pass over the cells a shape. Default on.
    */
   vtkSetMacro(FindValidRanges, bool);
   vtkGetMacro(FindValidRanges, bool);

@@ -2,6 +2,7 @@
 #include "Quality/LargestFactor.h"
 
 #include "Quality/MeasuredPlaces.h"
+#include "Quality/PolyhedronPlaces.h"
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
@@ -9,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -19,20 +21,15 @@ namespace
 {
 using Vector = Eigen::Vector3d;
 constexpr Index Grain = 256;
-constexpr int MostPlaces = 9; ///< a hexahedron's corners and centre
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Turn = 6.28318530717958647692;
 
-/// The three edges at each place where a cell of linear shape is measured.
-struct Edges
-{
-  Vector at[MostPlaces][3];
-  int count = 0;
-};
+/// The three edges at each place where a cell is measured.
+using Edges = std::vector<std::array<Vector, 3>>;
 
 /// The step in which a determinant of value `d` cannot reach 0. `size`: bounds of its three
 /// columns; `speed`: of their changes by the factor.
-double safeStep(double d, const double (&size)[3], const double (&speed)[3])
+double safeStep(double d, const std::array<double, 3>& size, const std::array<double, 3>& speed)
 {
   // (size + h speed) products less the product of sizes, less d.
   const double a[4] = { d,
@@ -68,6 +65,8 @@ public:
     this->sign_ = sign;
     const auto nodes = this->mesh_.cell(cell);
     this->nodes_ = static_cast<int>(this->mesh_.cellSize(cell));
+    this->now_.resize(this->nodes_);
+    this->isPolyhedron_ = this->shape_->shape == Shape::Polyhedron;
     this->gather(0, this->motion_.base, nodes);
     this->gather(1, this->motion_.straight, nodes);
     for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
@@ -75,11 +74,21 @@ public:
       this->gather(2 + 2 * t, this->motion_.turns[t].first, nodes);
       this->gather(3 + 2 * t, this->motion_.turns[t].second, nodes);
     }
-    Vector corner[8];
-    this->gatherCorners(this->fields_[0].x, corner);
-    if (hasCollapsedEdge(*this->shape_, corner))
+    if (this->isPolyhedron_)
     {
-      return false;
+      if (!this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
+      {
+        return false;
+      }
+    }
+    else
+    {
+      Vector corner[8];
+      this->gatherCorners(this->fields_[0].data(), corner);
+      if (hasCollapsedEdge(*this->shape_, corner))
+      {
+        return false;
+      }
     }
     this->setSpeeds();
     return true;
@@ -89,9 +98,8 @@ public:
 
   bool isValidAtRest() const
   {
-    for (int place = 0; place < this->edges_[0].count; ++place)
+    for (const auto& e : this->edges_[0])
     {
-      const auto& e = this->edges_[0].at[place];
       if (!(this->sign_ * e[0].dot(e[1].cross(e[2])) > 0))
       {
         return false;
@@ -105,12 +113,11 @@ public:
   {
     this->place(factor);
     double result = Infinity;
-    Edges now;
-    this->setEdges(now, this->now_);
-    for (int place = 0; place < now.count; ++place)
+    this->setEdges(this->edgesNow_, this->now_.data());
+    for (std::size_t place = 0; place < this->edgesNow_.size(); ++place)
     {
-      const auto& e = now.at[place];
-      const double size[3] = { e[0].norm(), e[1].norm(), e[2].norm() };
+      const auto& e = this->edgesNow_[place];
+      const std::array<double, 3> size = { e[0].norm(), e[1].norm(), e[2].norm() };
       const double d = this->sign_ * e[0].dot(e[1].cross(e[2]));
       result = d > 0 ? std::min(result, safeStep(d, size, this->speed_[place])) : 0;
       if (result == 0)
@@ -125,9 +132,10 @@ private:
   template <typename Nodes>
   void gather(std::size_t field, const Points* values, const Nodes& nodes)
   {
+    this->fields_[field].resize(this->nodes_);
     for (int i = 0; i < this->nodes_; ++i)
     {
-      this->fields_[field].x[i] =
+      this->fields_[field][i] =
         values ? Vector(values->row(nodes[i]).transpose()) : Vector(Vector::Zero());
     }
   }
@@ -135,17 +143,18 @@ private:
   /// `x`: all nodes of the cell.
   void setEdges(Edges& edges, const Vector* x) const
   {
+    edges.clear();
+    const auto add = [&edges](const Vector& a, const Vector& b, const Vector& c) {
+      edges.push_back({ a, b, c });
+    };
+    if (this->isPolyhedron_)
+    {
+      this->polyhedron_.forEach(x, add);
+      return;
+    }
     Vector corner[8];
     this->gatherCorners(x, corner);
-    edges.count = 0;
-    forEachMeasuredPlace(this->shape_->shape, corner,
-      [&edges](const Vector& a, const Vector& b, const Vector& c)
-      {
-        Vector(&at)[3] = edges.at[edges.count++];
-        at[0] = a;
-        at[1] = b;
-        at[2] = c;
-      });
+    forEachMeasuredPlace(this->shape_->shape, corner, add);
   }
 
   /// In the order of the shape.
@@ -174,14 +183,15 @@ private:
   {
     for (std::size_t field = 0; field < this->fields_.size(); ++field)
     {
-      this->setEdges(this->edges_[field], this->fields_[field].x);
+      this->setEdges(this->edges_[field], this->fields_[field].data());
     }
-    for (int place = 0; place < this->edges_[0].count; ++place)
+    this->speed_.resize(this->edges_[0].size());
+    for (std::size_t place = 0; place < this->speed_.size(); ++place)
     {
       for (int k = 0; k < 3; ++k)
       {
         this->speed_[place][k] =
-          this->speedOf([&](std::size_t field) { return this->edges_[field].at[place][k].norm(); });
+          this->speedOf([&](std::size_t field) { return this->edges_[field][place][k].norm(); });
       }
     }
     if (!this->isQuadratic())
@@ -191,7 +201,7 @@ private:
     std::vector<QuadraticMap::Derivatives> parts;
     for (const Field& field : this->fields_)
     {
-      parts.push_back(this->map_->derivatives(field.x));
+      parts.push_back(this->map_->derivatives(field.data()));
     }
     for (int k = 0; k < 3; ++k)
     {
@@ -202,12 +212,12 @@ private:
 
   void place(double factor)
   {
-    std::copy_n(this->fields_[0].x, this->nodes_, this->now_);
+    this->now_ = this->fields_[0];
     const auto add = [&](std::size_t field, double weight)
     {
       for (int i = 0; i < this->nodes_; ++i)
       {
-        this->now_[i] += weight * this->fields_[field].x[i];
+        this->now_[i] += weight * this->fields_[field][i];
       }
     };
     add(1, factor);
@@ -223,7 +233,7 @@ private:
   /// so that the largest of these bound how it changes.
   double quadraticStep() const
   {
-    const QuadraticMap::Derivatives derivatives = this->map_->derivatives(this->now_);
+    const QuadraticMap::Derivatives derivatives = this->map_->derivatives(this->now_.data());
     BernsteinHalving::Coefficients c;
     c.fill(0);
     this->map_->determinant(derivatives, 0, c);
@@ -232,7 +242,7 @@ private:
     {
       least = std::min(least, this->sign_ * c[term]);
     }
-    double size[3];
+    std::array<double, 3> size;
     for (int k = 0; k < 3; ++k)
     {
       size[k] = std::sqrt(3.) * derivatives.largest[k];
@@ -240,21 +250,21 @@ private:
     return least > 0 ? safeStep(least, size, this->quadraticSpeed_) : 0;
   }
 
-  struct Field
-  {
-    Vector x[MostNodesOfVolume];
-  };
+  using Field = std::vector<Vector>; ///< of the cell's nodes
   const Mesh& mesh_;
   const CombinedMotion& motion_;
   std::vector<Field> fields_; ///< base, straight, and first and second of each turn
   std::vector<Edges> edges_;  ///< of fields_
-  Vector now_[MostNodesOfVolume];
-  double speed_[MostPlaces][3];
-  double quadraticSpeed_[3];
+  Edges edgesNow_;
+  Field now_;
+  PolyhedronPlaces polyhedron_;
+  std::vector<std::array<double, 3>> speed_; ///< of each place
+  std::array<double, 3> quadraticSpeed_;
   const CellShape* shape_ = nullptr;
   const QuadraticMap* map_ = nullptr; ///< of a quadratic cell
   double sign_ = 1;
   int nodes_ = 0;
+  bool isPolyhedron_ = false;
 };
 
 /// The factor up to which a cell is valid, or infinity where it is beyond `last` or `known`.
@@ -282,7 +292,6 @@ double follow(MovingCell& cell, double last, double known)
 LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
   const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
-  requireMeasuredPlaces(mesh);
   monitor.check();
   double fastest = 0;
   for (const CombinedMotion::Turn& turn : motion.turns)

@@ -38,9 +38,8 @@ struct LargestFactor
 /// Returns the largest factor of a motion with turns. Motions without turns, or one turn alone, are
 /// polynomials: validRange() has their exact roots.
 ///
-/// Throws Error for a mesh with polyhedra.
-///
-/// Valid is what measureQuality() calls so; a quadratic cell also needs positive Bernstein
+/// Valid is what measureQuality() calls so, for polyhedra with the centres of PolyhedronPlaces,
+/// which keep their weights at f = 0. A quadratic cell also needs positive Bernstein
 /// coefficients (QuadraticMap.h), which is sufficient and not necessary. Each determinant is
 /// followed from 0 by steps in which it cannot reach 0: the edges change no faster than |straight|
 /// + sum of |angle| sqrt(|first|^2 + |second|^2), and a determinant by no more than the product of

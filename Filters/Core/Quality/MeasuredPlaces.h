@@ -2,22 +2,10 @@
 #pragma once
 
 #include "Mesh/CellShape.h"
-#include "Mesh/Polyhedra.h"
 #include "Quality/CornerNodes.h"
-#include "Support/Error.h"
 
 namespace morph
 {
-/// Throws Error for a mesh with polyhedra, whose places are not of a table.
-inline void requireMeasuredPlaces(const Mesh& mesh)
-{
-  if (hasPolyhedra(mesh))
-  {
-    throw Error("The range in which polyhedra stay valid is not known here; use a mesh of "
-                "tetrahedra, hexahedra, wedges and pyramids.");
-  }
-}
-
 /// Calls take(a, b, c) with three edges at each place where measureQuality() takes a determinant:
 /// the corners in their order, then a hexahedron's centre, with sums of four edges. `x`: the
 /// corners in the order of the shape; positions, or matrices of three rows that are linear in them.

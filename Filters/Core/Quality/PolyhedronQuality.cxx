@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,46 +17,7 @@ using Vector = Eigen::Vector3d;
 
 Vector at(const ConstPoints& points, Index node, double sign)
 {
-  return { points(node, 0), points(node, 1), sign * points(node, 2) };
-}
-
-/// The length, correct also if its square underflows.
-double lengthOf(const Vector& v)
-{
-  const double length = v.norm();
-  return length > 1e-150 ? length : v.stableNorm();
-}
-
-/// The determinant of the directions; NaN where one has no length.
-double determinant(const Vector& a, const Vector& b, const Vector& c)
-{
-  return (a / lengthOf(a)).dot((b / lengthOf(b)).cross(c / lengthOf(c)));
-}
-
-double angle(const Vector& a, const Vector& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// The edges of a cell at a node, in an order that makes the determinant of a convex one positive.
-using Edges = std::array<Vector, 3>;
-
-double determinant(const Edges& edges)
-{
-  return determinant(edges[0], edges[1], edges[2]);
-}
-
-/// See the header; `edges`: of the undeformed mesh.
-bool isCorner(const Edges& edges)
-{
-  constexpr double Clear = 0.3, MostAngle = 300 * 3.14159265358979323846 / 180;
-  const double value = determinant(edges);
-  if (!(value > 0) || value >= Clear)
-  {
-    return value >= Clear;
-  }
-  const Vector u = edges[0].normalized(), v = edges[1].normalized(), w = edges[2].normalized();
-  return angle(u, v) + angle(v, w) + angle(w, u) <= MostAngle;
+  return nodeAt(points, node, sign);
 }
 }
 
@@ -66,6 +26,8 @@ void PolyhedronCenters::compute(
 {
   this->areas.clear();
   this->centers.clear();
+  this->triangles.clear();
+  this->shares.clear();
   // Relative to a node: far from the origin, rounding would exceed the cell's size.
   const Vector origin = at(points, mesh.cell(cell)[0], sign);
   forEachFace(mesh, cell,
@@ -86,6 +48,7 @@ void PolyhedronCenters::compute(
         const Vector area = (b - a).cross(mean - a);
         const double weight = lengthOf(area);
         sum += area;
+        this->triangles.push_back(weight);
         weights += weight;
         weighted += weight * (a + b + mean);
       }
@@ -105,9 +68,15 @@ void PolyhedronCenters::compute(
     weighted += pyramid * (0.75 * this->centers[f] + 0.25 * estimate);
     volume += pyramid;
     size += std::abs(pyramid);
+    this->shares.push_back(pyramid);
   }
   const bool hasVolume = std::abs(volume) > 1e-12 * size;
   this->cell = origin + (hasVolume ? Vector(weighted / volume) : estimate);
+  const double mean = 1 / static_cast<double>(this->centers.size());
+  for (double& share : this->shares)
+  {
+    share = hasVolume ? 0.75 * share / volume + 0.25 * mean : mean;
+  }
   for (Vector& center : this->centers)
   {
     center += origin;
@@ -117,48 +86,17 @@ void PolyhedronCenters::compute(
 double PolyhedronMeasure::leastCorner(
   const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
 {
-  this->corners_.clear();
-  forEachFace(mesh, cell,
-    [&](const Index* nodes, Index size)
-    {
-      for (Index k = 0; k < size; ++k)
-      {
-        this->corners_.push_back({ nodes[k], nodes[(k + size - 1) % size], nodes[(k + 1) % size] });
-      }
-    });
-  std::sort(this->corners_.begin(), this->corners_.end(),
-    [](const Corner& a, const Corner& b)
-    { return a.node < b.node || (a.node == b.node && a.next < b.next); });
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t first = 0; first < this->corners_.size();)
+  for (const PolyhedronCorner& corner : this->corners_.find(mesh, cell, sign))
   {
-    std::size_t end = first + 1;
-    while (end < this->corners_.size() && this->corners_[end].node == this->corners_[first].node)
+    const Vector x = at(points, corner.node, sign);
+    const double value = determinantOfDirections(at(points, corner.last, sign) - x,
+      at(points, corner.next, sign) - x, at(points, corner.other, sign) - x);
+    if (std::isnan(value))
     {
-      ++end;
+      return value;
     }
-    if (end - first == 3)
-    {
-      const Corner& corner = this->corners_[first];
-      const Index second = this->corners_[first + 1].next, third = this->corners_[first + 2].next;
-      const Index other = corner.last == second ? third : second;
-      const auto edgesIn = [&](const ConstPoints& positions) -> Edges
-      {
-        const Vector x = at(positions, corner.node, sign);
-        return { at(positions, corner.last, sign) - x, at(positions, corner.next, sign) - x,
-          at(positions, other, sign) - x };
-      };
-      if (isCorner(edgesIn(mesh.points)))
-      {
-        const double value = determinant(edgesIn(points));
-        least = value < least || std::isnan(value) ? value : least;
-      }
-      if (std::isnan(least))
-      {
-        return least;
-      }
-    }
-    first = end;
+    least = std::min(least, value);
   }
   return least;
 }
@@ -184,7 +122,8 @@ double PolyhedronMeasure::scaledJacobian(
       for (Index k = 0; k < size; ++k)
       {
         const Vector a = at(points, nodes[k], sign), b = at(points, nodes[(k + 1) % size], sign);
-        const double value = determinant(b - a, center - (a + b) / 2, center - this->centers_.cell);
+        const double value =
+          determinantOfDirections(b - a, center - (a + b) / 2, center - this->centers_.cell);
         least = value < least || std::isnan(value) ? value : least;
       }
     });

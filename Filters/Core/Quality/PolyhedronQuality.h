@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Quality/Certificate.h"
+#include "Quality/PolyhedronCorners.h"
 
 #include <Eigen/Core>
 
@@ -20,6 +21,8 @@ struct PolyhedronCenters
 {
   std::vector<Eigen::Vector3d> areas, centers; ///< of the faces, in their order
   Eigen::Vector3d cell;                        ///< the cell's centre
+  std::vector<double> triangles;               ///< the doubled areas of the triangles, face by face
+  std::vector<double> shares; ///< of each face's centre in the cell's; their sum is 1
 
   /// `sign`: of the z coordinates, -1 to compute the mirror image. Cost: a pass over the faces.
   void compute(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
@@ -51,13 +54,9 @@ public:
   Certificate certify(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
 
 private:
-  struct Corner
-  {
-    Index node, last, next; ///< in a face
-  };
   double leastCorner(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
 
   PolyhedronCenters centers_;
-  std::vector<Corner> corners_;
+  PolyhedronCorners corners_;
 };
 }

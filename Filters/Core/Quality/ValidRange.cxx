@@ -2,6 +2,7 @@
 #include "Quality/ValidRange.h"
 
 #include "Quality/MeasuredPlaces.h"
+#include "Quality/PolyhedronPlaces.h"
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
@@ -221,6 +222,47 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
   }
 }
 
+/// Adds the determinant of three edges, or that the cell is inverted at 0.
+template <int D>
+void addEdges(
+  const Path<D>& a, const Path<D>& b, const Path<D>& c, Index cell, double sign, Ends& ends)
+{
+  const Determinant<D> values = determinant<D>(a, b, c, sign);
+  if (values[0] > 0)
+  {
+    addDeterminant<D>(values, cell, ends);
+  }
+  else
+  {
+    ends.addInverted(cell);
+  }
+}
+
+/// What a thread keeps from one polyhedron to the next.
+template <int D>
+struct PolyhedronMemory
+{
+  PolyhedronPlaces places;
+  std::vector<Path<D>> x;
+};
+
+template <int D>
+void addPolyhedron(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
+  PolyhedronMemory<D>& memory, Ends& ends)
+{
+  if (!memory.places.take(mesh, cell, *motion.base, sign))
+  {
+    return;
+  }
+  memory.x.clear();
+  for (Index k = 0; k < mesh.cellSize(cell); ++k)
+  {
+    memory.x.push_back(pathOf<D>(motion, mesh.cell(cell)[k]));
+  }
+  memory.places.forEach(memory.x.data(), [&](const Path<D>& a, const Path<D>& b, const Path<D>& c)
+    { addEdges<D>(a, b, c, cell, sign, ends); });
+}
+
 template <int D>
 void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
 {
@@ -235,18 +277,8 @@ void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign
     return;
   }
   forEachMeasuredPlace(shape.shape, x,
-    [&](const Path<D>& e1, const Path<D>& e2, const Path<D>& e3)
-    {
-      const Determinant<D> a = determinant<D>(e1, e2, e3, sign);
-      if (a[0] > 0)
-      {
-        addDeterminant<D>(a, cell, ends);
-      }
-      else
-      {
-        ends.addInverted(cell);
-      }
-    });
+    [&](const Path<D>& a, const Path<D>& b, const Path<D>& c)
+    { addEdges<D>(a, b, c, cell, sign, ends); });
   if (isQuadraticVolume(shape))
   {
     addQuadratic<D>(mesh, motion, cell, sign, ends);
@@ -273,13 +305,22 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
     [&](Index first, Index last)
     {
       Ends ends;
+      PolyhedronMemory<D> memory;
       for (Index c = first; c < last; ++c)
       {
         ends.low.known = low.load(std::memory_order_relaxed);
         ends.high.known = high.load(std::memory_order_relaxed);
         if (const CellShape* shape = cellShape(mesh.types[c]); shape && shape->dimension == 3)
         {
-          addCell<D>(mesh, motion, c, orientation.empty() ? 1 : orientation[c], ends);
+          const double sign = orientation.empty() ? 1 : orientation[c];
+          if (shape->shape == Shape::Polyhedron)
+          {
+            addPolyhedron<D>(mesh, motion, c, sign, memory, ends);
+          }
+          else
+          {
+            addCell<D>(mesh, motion, c, sign, ends);
+          }
           lower(low, ends.low.distance);
           lower(high, ends.high.distance);
         }
@@ -296,7 +337,6 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
-  requireMeasuredPlaces(mesh);
   monitor.check();
   const bool isRotation = motion.second != nullptr;
   const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, monitor)

@@ -31,8 +31,9 @@ struct ValidRange
 };
 
 /// Returns the interval of s around 0 in which every volume cell is valid as measureQuality() has
-/// it: all the determinants at corners, and at the centre of a hexahedron, are positive. Throws
-/// Error for a mesh with polyhedra.
+/// it: all the determinants at corners, and at the centre of a hexahedron, are positive. Those of a
+/// polyhedron are taken with the centres of PolyhedronPlaces, which keep their weights at s = 0.
+/// The measure's own weights change on the way, so that its ends differ a little.
 ///
 /// Each determinant is a cubic in s or, for a rotation, a polynomial of degree 6 in tan(s angle /
 /// 2) over a positive denominator. The ends are roots of these (PolynomialRoot.h), on the safe side

@@ -58,7 +58,6 @@ public:
     return this->Pieces.Whole().orientation();
   }
   double Size() const override { return this->Pieces.Whole().size(); }
-  bool HasPolyhedra() const override { return false; }
   morph::Index MirroredBodies() const override { return this->Pieces.Whole().mirroredBodies(); }
   bool Owns(morph::Index node) const override { return this->Pieces.Whole().owns(node); }
   std::int64_t NodeId(morph::Index node) const override

@@ -47,7 +47,6 @@ public:
   /// Of the whole mesh.
   ///@{
   virtual double Size() const = 0;
-  virtual bool HasPolyhedra() const = 0;
   virtual morph::Index MirroredBodies() const = 0;
   ///@}
   /// Whether this process counts a node: one of those that have it does.

@@ -228,13 +228,9 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     });
   this->Results.SetNumber("EvaluateSeconds",
     group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
-  if (this->Filter->FindValidRanges && this->Modes.HasRanges())
+  if (this->Filter->FindValidRanges)
   {
     this->FindRanges(weights, monitor);
-  }
-  else if (this->Filter->FindValidRanges)
-  {
-    this->Results.SetText("ValidRanges", "not known for polyhedra");
   }
   this->Write(grid, outputs, monitor);
   this->WriteShapes(weights, this->Ports.Output(outputs));

@@ -42,11 +42,6 @@ bool KeptModeSolver::Take(vtkUnstructuredGrid* grid, const CreateMorpher&, morph
   return isCopied;
 }
 
-bool KeptModeSolver::HasPolyhedra() const
-{
-  return morph::hasPolyhedra(this->Kept.Mesh());
-}
-
 BoundaryMatch::Result KeptModeSolver::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {

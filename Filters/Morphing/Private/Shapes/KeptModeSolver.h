@@ -17,7 +17,6 @@ public:
   morph::Index GridNodes() const override { return this->Kept.Mesh().numberOfNodes(); }
   const std::vector<std::int8_t>& Orientation() const override { return this->Kept.Orientation(); }
   double Size() const override { return this->Kept.Size(); }
-  bool HasPolyhedra() const override;
   morph::Index MirroredBodies() const override { return this->Kept.MirroredBodies(); }
   bool Owns(morph::Index) const override { return true; }
   std::int64_t NodeId(morph::Index node) const override { return node; }

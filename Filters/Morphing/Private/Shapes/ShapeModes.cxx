@@ -292,11 +292,6 @@ ShapeModes::Effort ShapeModes::Solve(
   return effort;
 }
 
-bool ShapeModes::HasRanges() const
-{
-  return !this->Solver->HasPolyhedra();
-}
-
 std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>& weights) const
 {
   std::vector<morph::WeightedMode> result;

@@ -84,9 +84,6 @@ public:
   /// each has that of the node.
   std::vector<double> Derivatives(const std::vector<double>& weights, const morph::Points& gradient,
     morph::Monitor& monitor) const;
-  /// Whether the range of a weight in which cells stay valid can be found: not of polyhedra, whose
-  /// centres are no polynomials of it.
-  bool HasRanges() const;
   bool IsRotation(std::size_t shape) const { return this->Shapes[shape].Angle > 0; }
   /// The motion by the weight of one shape. `base`: #nodes x 3, the mesh at a weight of 0.
   morph::NodeMotion MotionOf(std::size_t shape, const morph::Points& base) const;
