@@ -4,6 +4,9 @@
 #include "../Core/BoundaryShapes.h"
 #include "vtkClassifyBoundary.h"
 
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkExtractSelection.h>
 #include <vtkIdTypeArray.h>
@@ -120,6 +123,37 @@ TEST(BoundaryDisplacementCaching, DraggingRepeatsNothing)
       fresh->SetScaleFactor(1 + 0.1 * step);
       EXPECT_EQ(result(fresh), moved);
     }
+  }
+}
+
+TEST(BoundaryDisplacementCaching, TheLastMotionLeavesNoTrace)
+{
+  auto grid = grids::make(shapes::boxWithHole(16, 4, 4));
+  vtkNew<vtkTransform> transform;
+  auto filter = dragged(grid, transform);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  for (int step = 0; step < 9; ++step)
+  {
+    transform->Translate(0.1, 0.02 * step, 0.1);
+    filter->SetSurroundings(step % 3);
+    filter->SetMoving(step % 2 == 0 ? vtkBoundaryDisplacement::MOVE_PATCHES
+                                    : vtkBoundaryDisplacement::MOVE_NOTHING);
+    if (step % 4 == 0)
+    {
+      // Stopped on its way, with what it had in hand.
+      const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+      filter->Update();
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+      filter->RemoveObserver(tag);
+      filter->SetAbortExecute(0);
+      filter->Modified();
+    }
+    auto fresh = dragged(grid, transform);
+    fresh->SetSurroundings(step % 3);
+    fresh->SetMoving(filter->GetMoving());
+    EXPECT_EQ(result(filter), result(fresh));
   }
 }
 

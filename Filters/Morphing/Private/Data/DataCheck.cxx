@@ -4,6 +4,7 @@
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
 
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -18,6 +19,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -47,6 +49,26 @@ void requireLengths(
   }
 }
 
+/// Whether all ids are known to lie from 0 to `points` - 1. False proves nothing.
+bool areWithin(vtkDataArray* ids, vtkIdType points)
+{
+  const auto within = [points](const auto* values, vtkIdType count)
+  {
+    bool all = true;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      all &= values[i] >= 0 && values[i] < points;
+    }
+    return all;
+  };
+  if (auto* wide = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  {
+    return within(wide->GetPointer(0), wide->GetNumberOfValues());
+  }
+  auto* narrow = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids);
+  return narrow && within(narrow->GetPointer(0), narrow->GetNumberOfValues());
+}
+
 /// `first`: the id of the first of these cells in their data set.
 void requireCells(
   vtkCellArray* cells, vtkIdType first, vtkIdType points, const std::string& subject)
@@ -60,6 +82,10 @@ void requireCells(
     throw Error(subject +
                 "'s cell offsets do not match its connectivity. Write the cells again, with "
                 "offsets that start at 0 and do not decrease.");
+  }
+  if (areWithin(cells->GetConnectivityArray(), points))
+  {
+    return; // as nearly always
   }
   std::vector<Index> wrong;
   vtkNew<vtkIdList> ids;
@@ -257,17 +283,27 @@ bool IsModerate(const Eigen::RowVector3d& x)
   return (x.array().abs() <= Largest).all();
 }
 
-std::vector<Index> Immoderate(const morph::Points& x)
+std::vector<Index> Immoderate(const morph::Points& x, morph::Monitor* monitor)
 {
   std::vector<Index> rows;
   // Nearly always none: told without a branch for each value.
-  bool isModerate = true;
-  const double* values = x.data();
-  for (Index k = 0; k < x.size(); ++k)
-  {
-    isModerate &= std::abs(values[k]) <= Largest; // a NaN is not
-  }
-  if (isModerate)
+  std::atomic<bool> areModerate = true;
+  morph::Monitor serial;
+  (monitor ? *monitor : serial)
+    .parallelFor(x.size(), 16384,
+      [&](Index first, Index last)
+      {
+        bool isModerate = true;
+        for (const double* value = x.data() + first; value != x.data() + last; ++value)
+        {
+          isModerate &= std::abs(*value) <= Largest; // a NaN is not
+        }
+        if (!isModerate)
+        {
+          areModerate = false;
+        }
+      });
+  if (areModerate)
   {
     return rows;
   }

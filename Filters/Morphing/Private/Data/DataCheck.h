@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Support/Monitor.h"
 
 #include <vector>
 
@@ -37,8 +38,8 @@ void RequireLengths(vtkDataSet* data, const char* subject);
 /// Whether x is finite and not above Largest.
 bool IsModerate(const Eigen::RowVector3d& x);
 
-/// The rows of `x` that are not moderate.
-std::vector<morph::Index> Immoderate(const morph::Points& x);
+/// The rows of `x` that are not moderate. `monitor`: has the threads for it, null for none.
+std::vector<morph::Index> Immoderate(const morph::Points& x, morph::Monitor* monitor = nullptr);
 
 /// Throws morph::Error unless `size` is 0 or at least Smallest. `size`: the largest side of the
 /// bounding box; `subject`: what it bounds.

@@ -199,9 +199,11 @@ morph::Points FromVectors(vtkDataArray* vectors)
   const vtkIdType count = vectors->GetNumberOfTuples();
   const int components = vectors->GetNumberOfComponents();
   morph::Points result(count, 3);
-  if (auto* doubles = vtkDoubleArray::FastDownCast(vectors); doubles && components == 3)
+  if (auto* doubles = vtkDoubleArray::FastDownCast(vectors); doubles && components >= 3)
   {
-    std::copy_n(doubles->GetPointer(0), 3 * count, result.data());
+    using Stride = Eigen::OuterStride<>;
+    result = Eigen::Map<const morph::Points, 0, Stride>(
+      doubles->GetPointer(0), count, 3, Stride(components));
   }
   else if (auto* floats = vtkFloatArray::FastDownCast(vectors); floats && components == 3)
   {

@@ -14,40 +14,85 @@
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 namespace morph::filters
 {
 namespace
 {
-template <typename Array, typename Value>
-void writePoints(const morph::Points& rest, const morph::Points& moved, vtkUnstructuredGrid* output)
-{
-  using Written = Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>>;
-  const auto make = [&moved](const char* name)
-  {
-    auto array = vtkSmartPointer<Array>::New();
-    array->SetName(name);
-    array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(moved.rows());
-    return array;
-  };
-  auto coordinates = make("Points");
-  Written written(coordinates->GetPointer(0), moved.rows(), 3);
-  written = moved.cast<Value>();
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  output->SetPoints(points);
+constexpr morph::Index Grain = 4096;
 
-  auto displacement = make("MorphDisplacement");
-  Written(displacement->GetPointer(0), moved.rows(), 3) =
-    (written.template cast<double>() - rest).template cast<Value>();
-  output->GetPointData()->AddArray(displacement);
+/// The points as written and minus `rest`, or nothing where these or those are not writable.
+template <typename Array>
+struct Written
+{
+  vtkSmartPointer<Array> Coordinates, Displacement;
+
+  static Written Make(
+    const morph::Points& rest, const morph::Points& moved, morph::Monitor& monitor)
+  {
+    const auto make = [&moved](const char* name)
+    {
+      auto array = vtkSmartPointer<Array>::New();
+      array->SetName(name);
+      array->SetNumberOfComponents(3);
+      array->SetNumberOfTuples(moved.rows());
+      return array;
+    };
+    Written written = { make("Points"), make("MorphDisplacement") };
+    auto *to = written.Coordinates->GetPointer(0), *by = written.Displacement->GetPointer(0);
+    using Value = std::remove_pointer_t<decltype(to)>;
+    const double most =
+      std::min(DataCheck::Largest, static_cast<double>(std::numeric_limits<Value>::max()));
+    std::atomic<bool> isWritable = true;
+    monitor.parallelFor(moved.rows(), Grain,
+      [&](morph::Index first, morph::Index last)
+      {
+        const double *from = rest.data(), *x = moved.data();
+        bool isModerate = true;
+        for (morph::Index i = 3 * first; i < 3 * last; ++i)
+        {
+          isModerate &= std::abs(x[i]) <= most; // a NaN is not
+          isModerate &= std::is_same_v<Value, double> || !(std::abs(x[i] - from[i]) > most);
+        }
+        if (!isModerate)
+        {
+          isWritable = false;
+          return;
+        }
+        for (morph::Index i = 3 * first; i < 3 * last; ++i)
+        {
+          to[i] = static_cast<Value>(x[i]);
+          by[i] = static_cast<Value>(static_cast<double>(to[i]) - from[i]);
+        }
+      });
+    return isWritable ? written : Written();
+  }
+};
+
+template <typename Array>
+void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
+  vtkUnstructuredGrid* output, morph::Monitor& monitor)
+{
+  const auto written = Written<Array>::Make(rest, moved, monitor);
+  if (!written.Coordinates)
+  {
+    Output::RequireWritable(rest, moved, std::is_same_v<Array, vtkFloatArray>, "nodes");
+  }
+  output->ShallowCopy(input);
+  vtkNew<vtkPoints> points;
+  points->SetData(written.Coordinates);
+  output->SetPoints(points);
+  output->GetPointData()->AddArray(written.Displacement);
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
 
@@ -64,28 +109,28 @@ void addField(vtkDataObject* output, const char* name, Value value)
 namespace Output
 {
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
-  int precision, vtkUnstructuredGrid* output)
+  int precision, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
-  RequireWritable(rest, moved, IsFloat(input, precision), "nodes");
-  output->ShallowCopy(input);
-  if (IsFloat(input, precision))
-  {
-    writePoints<vtkFloatArray, float>(rest, moved, output);
-  }
-  else
-  {
-    writePoints<vtkDoubleArray, double>(rest, moved, output);
-  }
+  (IsFloat(input, precision) ? writePoints<vtkFloatArray> : writePoints<vtkDoubleArray>)(input,
+    rest, moved, output, monitor);
 }
 
-void RequireWritable(
-  const morph::Points& rest, const morph::Points& moved, bool isFloat, const char* what)
+void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool isFloat,
+  const char* what, const std::vector<morph::Index>* ids)
 {
+  const auto list = [ids](std::vector<morph::Index> rows)
+  {
+    for (morph::Index& row : rows)
+    {
+      row = ids ? (*ids)[row] : row;
+    }
+    return morph::listIds(rows);
+  };
   if (const auto wrong = DataCheck::Immoderate(moved); !wrong.empty())
   {
     throw morph::Error(std::string("The motion takes ") + what +
-                       " to places that are not finite or beyond 1e50: node ids " +
-                       morph::listIds(wrong) + ". Move the boundary less.");
+                       " to places that are not finite or beyond 1e50: node ids " + list(wrong) +
+                       ". Move the boundary less.");
   }
   std::vector<morph::Index> tooLarge;
   for (morph::Index n = 0; isFloat && n < moved.rows(); ++n)
@@ -100,7 +145,7 @@ void RequireWritable(
   if (!tooLarge.empty())
   {
     throw morph::Error(std::string("Single precision does not hold the new positions of ") + what +
-                       ", which are above 3.4e38: node ids " + morph::listIds(tooLarge) +
+                       ", which are above 3.4e38: node ids " + list(tooLarge) +
                        ". Set OutputPointsPrecision to double.");
   }
 }

@@ -63,11 +63,17 @@ void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& cho
 bool BoundaryFields::Give(
   const morph::AffineMotion& motion, const BoundaryModel& model, const morph::Points& moved) const
 {
-  const double tolerance = AffineArrays::Rounding(
-    model.Points().cwiseAbs().maxCoeff() + moved.cwiseAbs().maxCoeff(), false);
-  for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
+  const std::vector<morph::Index>& nodes = model.NodeOfPoint();
+  double before = 0, after = 0;
+  for (const morph::Index node : nodes)
   {
-    const morph::Index node = model.NodeOfPoint()[i];
+    before = std::max(before, model.Points().row(node).cwiseAbs().maxCoeff());
+    after = std::max(after, moved.row(node).cwiseAbs().maxCoeff());
+  }
+  const double tolerance = AffineArrays::Rounding(before + after, false);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const morph::Index node = nodes[i];
     Eigen::Matrix<double, 1, 4> fields(0, 0, 0, 0); // GCC 14 does not see that it is filled
     this->Fields->GetTypedTuple(static_cast<vtkIdType>(i), fields.data());
     const Eigen::RowVector3d place =

@@ -20,6 +20,8 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <numeric>
 #include <sstream>
@@ -131,6 +133,17 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
   return faces;
 }
 
+/// The diagonal of the box around these nodes; 0 for none.
+double sizeOf(const morph::Points& points, const std::vector<Index>& nodes)
+{
+  Eigen::AlignedBox3d box;
+  for (const Index node : nodes)
+  {
+    box.extend(points.row(node).transpose());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
 bool samePoints(const morph::Points& a, const morph::Points& b)
 {
   return a.rows() == b.rows() && a == b; // Eigen reads past the end of the shorter one
@@ -168,6 +181,7 @@ void BoundaryModel::Update(vtkPointSet* input, const Geometry::Options& options,
   next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon);
   AddNamedSets(next.NamedSets, next.FaceOfPolygon, firstPolygon, next.Surface);
   next.GeometryKey = key;
+  next.Size = sizeOf(next.Mesh.points, next.Faces.nodes);
   this->Kept = std::move(next);
 }
 
@@ -274,12 +288,6 @@ morph::Points BoundaryModel::OutwardAreas(const morph::Points& points) const
     areas.row(f) *= this->Kept.Orientation[f];
   }
   return areas;
-}
-
-double BoundaryModel::Size() const
-{
-  const morph::Points points = this->Points()(this->Faces().nodes, morph::allColumns);
-  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
 vtkPolyData* BoundaryModel::Surface() const

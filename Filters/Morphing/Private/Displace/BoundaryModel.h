@@ -47,7 +47,7 @@ public:
   morph::Points OutwardAreas(const morph::Points& points) const;
 
   /// Diagonal of the bounding box of the boundary's nodes, of which there is one at least.
-  double Size() const;
+  double Size() const { return this->Kept.Size; }
 
   /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
   vtkPolyData* Surface() const;
@@ -81,6 +81,7 @@ private:
     vtkMTimeType InputTime = 0;
     vtkIdType InputVersion = 0;
     vtkIdType MotionVersion = 0;
+    double Size = 0;
   };
 
   void TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,

@@ -27,28 +27,22 @@ namespace
 using morph::Index;
 
 template <typename Array, typename Value>
-void writePoints(const std::vector<Index>& nodes, const morph::Points& moved, vtkPolyData* output)
+void writePoints(const morph::Points& rest, const morph::Points& moved, vtkPolyData* output)
 {
   const auto make = [&](const char* name)
   {
     auto array = vtkSmartPointer<Array>::New();
     array->SetName(name);
     array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(nodes.size()));
+    array->SetNumberOfTuples(moved.rows());
     return array;
   };
   auto coordinates = make("Points");
   auto displacement = make("BoundaryDisplacement");
   using Written = Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>>;
-  const auto count = static_cast<Index>(nodes.size());
-  Written coordinate(coordinates->GetPointer(0), count, 3);
-  for (Index i = 0; i < count; ++i)
-  {
-    coordinate.row(i) = moved.row(nodes[i]).template cast<Value>();
-  }
-  const morph::Points rest =
-    GridMesh::FromVectors(output->GetPointData()->GetArray(Surface::RestName));
-  Written(displacement->GetPointer(0), count, 3) =
+  Written coordinate(coordinates->GetPointer(0), moved.rows(), 3);
+  coordinate = moved.template cast<Value>();
+  Written(displacement->GetPointer(0), moved.rows(), 3) =
     (coordinate.template cast<double>() - rest).template cast<Value>();
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);
@@ -78,7 +72,7 @@ void writeRoles(
   for (vtkIdType cell = 0; cell < faces->GetNumberOfCells(); ++cell)
   {
     faces->GetCellAtId(cell, points);
-    std::array<bool, 5> has = {};
+    std::array<bool, Surroundings::IsLayer + 1> has = {};
     for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
     {
       has[ofPoints->GetValue(points->GetId(k))] = true;
@@ -134,17 +128,14 @@ namespace DisplacedSurface
 void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output)
 {
-  Output::RequireWritable(
-    model.Rest(), result.Moved, Output::IsFloat(input, precision), "the boundary's nodes");
+  const bool isFloat = Output::IsFloat(input, precision);
+  const morph::Points moved = result.Moved(model.NodeOfPoint(), morph::allColumns);
+  const morph::Points rest =
+    GridMesh::FromVectors(model.Surface()->GetPointData()->GetArray(Surface::RestName));
+  Output::RequireWritable(rest, moved, isFloat, "the boundary's nodes", &model.NodeOfPoint());
   output->ShallowCopy(model.Surface());
-  if (Output::IsFloat(input, precision))
-  {
-    writePoints<vtkFloatArray, float>(model.NodeOfPoint(), result.Moved, output);
-  }
-  else
-  {
-    writePoints<vtkDoubleArray, double>(model.NodeOfPoint(), result.Moved, output);
-  }
+  (isFloat ? writePoints<vtkFloatArray, float> : writePoints<vtkDoubleArray, double>)(rest, moved,
+    output);
   writeRoles(model.NodeOfPoint(), result.Roles, output);
   writeFree(model.NodeOfPoint(), result.Roles, output);
 }

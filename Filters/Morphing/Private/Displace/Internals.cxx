@@ -3,6 +3,7 @@
 
 #include "BoundaryMorphing/LatticeMotion.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Displace/Motion.h"
@@ -20,6 +21,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace filters = morph::filters;
 
@@ -302,10 +304,13 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
   rest.Radius = filter->FalloffRadius * this->Model.Size();
   monitor.SetRange(extras.Target ? 0.7 : 0.5, 0.9);
-  filters::Surroundings::Result result =
-    this->Spread.Spread(this->Model, choice, targets, rest, monitor);
+  // Nothing is left of it where this throws.
+  this->Displaced = this->Spread.Spread(this->Model, choice, targets, rest, monitor,
+    std::exchange(this->Displaced, filters::Surroundings::Result()));
+  filters::Surroundings::Result& result = this->Displaced;
   if (hasInner)
   {
+    result.MotionVersion = -1; // inner nodes move, too
     this->Inner.Place(grid, this->Model, choice, inner, result, monitor);
     this->Inner.SpreadAround(this->Model, choice, targets, rest, result, monitor);
   }
@@ -317,6 +322,11 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
       "The motion leaves faces of the boundary without area, and no cell behind them can "
       "be valid: the output's cell ids " +
       morph::listIds(collapsed) + ". Is a scale zero?");
+  }
+  if (hasInner)
+  {
+    filters::Output::RequireWritable(this->Model.Rest(), result.Moved,
+      filters::Output::IsFloat(input, filter->OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->OutputPointsPrecision, output);

@@ -72,6 +72,7 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::filters::ChoiceKey ChosenFrom;
   morph::filters::Choice::Result Choice;
   morph::filters::Surroundings Spread;
+  morph::filters::Surroundings::Result Displaced; ///< by the last execution
   morph::filters::BoundaryFields Fields;
   morph::filters::FitToTarget Fit;
   morph::filters::InnerNodes Inner;

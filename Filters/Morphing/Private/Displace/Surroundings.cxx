@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace morph::filters
 {
@@ -111,6 +112,24 @@ void moveBetween(const BoundaryModel& model, Surroundings::Result& result)
   }
 }
 
+/// A result in which nothing moves, in the memory of another one.
+Surroundings::Result atRest(const BoundaryModel& model, Surroundings::Result last)
+{
+  if (last.MotionVersion != model.MotionVersion())
+  {
+    last.Moved = model.Points();
+    last.Roles.assign(model.Points().rows(), Surroundings::Stays);
+    last.MotionVersion = model.MotionVersion();
+    return last;
+  }
+  for (const Index node : model.Faces().nodes)
+  {
+    last.Moved.row(node) = model.Points().row(node);
+    last.Roles[node] = Surroundings::Stays;
+  }
+  return last;
+}
+
 /// Leaves the nodes on free surfaces alone, neither moving nor held, to the morph of the interior.
 void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
   const std::vector<Index>& surfaces, Surroundings::Result& result)
@@ -151,11 +170,9 @@ void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
 }
 
 Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choice::Result& choice,
-  const Points& targets, const Options& options, morph::Monitor& monitor)
+  const Points& targets, const Options& options, morph::Monitor& monitor, Result last)
 {
-  Result result;
-  result.Moved = model.Points();
-  result.Roles.assign(model.Points().rows(), Stays);
+  Result result = atRest(model, std::move(last));
   for (std::size_t i = 0; i < choice.Moving.size(); ++i)
   {
     result.Roles[choice.Moving[i]] = Moves;
@@ -322,23 +339,27 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
   given.insert(given.end(), fixed.begin(), fixed.end());
   Points places(static_cast<Index>(given.size()), 3);
   places << targets, rowsOf(model.Points(), fixed);
-  morph::BoundaryMotion motion = morph::beginMotion(
-    model.Points(), model.BodyOfNode(), model.Faces(), model.Geometry(), given, places);
-  morph::morphCurves(model.Geometry(), options.unattached, motion, monitor);
+  this->Local.Update(model);
+  const LocalBoundary& local = this->Local;
+  morph::BoundaryMotion motion = morph::beginMotion(local.Points(), local.BodyOfNode(),
+    local.Faces(), local.Geometry(), local.NumbersOf(given), places);
+  morph::morphCurves(local.Geometry(), options.unattached, motion, monitor);
   const morph::SurfaceMorphReport report =
-    morph::morphSurfaces(model.Faces(), model.Geometry(), options, motion, monitor, &this->Weights);
+    morph::morphSurfaces(local.Faces(), local.Geometry(), options, motion, monitor, &this->Weights);
   if (options.method == morph::SurfaceMorphOptions::Method::HarmonicExtension && !options.linear)
   {
-    morph::smoothSurfaces(model.Faces(), model.Geometry(), nullptr, motion, monitor);
+    morph::smoothSurfaces(local.Faces(), local.Geometry(), nullptr, motion, monitor);
   }
-  result.Moved = motion.moved();
-  for (Index node : model.Faces().nodes)
+  const Points moved = motion.moved();
+  for (std::size_t i = 0; i < local.Nodes().size(); ++i)
   {
-    if (motion.state[node] == morph::BoundaryMotion::Held)
+    const Index node = local.Nodes()[i];
+    result.Moved.row(node) = moved.row(static_cast<Index>(i));
+    if (motion.state[i] == morph::BoundaryMotion::Held)
     {
       result.Roles[node] = IsHeld;
     }
-    else if (motion.state[node] != morph::BoundaryMotion::Given)
+    else if (motion.state[i] != morph::BoundaryMotion::Given)
     {
       result.Roles[node] = Follows;
     }

@@ -5,6 +5,7 @@
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
+#include "Private/Displace/LocalBoundary.h"
 #include "Private/Displace/SurfaceShape.h"
 
 #include <memory>
@@ -50,6 +51,9 @@ public:
   {
     morph::Points Moved;            ///< #nodes x 3
     std::vector<signed char> Roles; ///< #nodes
+    /// BoundaryModel::MotionVersion() of a result in which nodes of the boundary alone have moved;
+    /// -1 for another one.
+    vtkIdType MotionVersion = -1;
   };
 
   /// Computes the positions of all nodes. `targets`: those of choice.Moving. Moving nodes go there,
@@ -65,9 +69,15 @@ public:
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point of the surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. Nodes of
   /// free surfaces alone, neither moving nor held, have the role IsFree and their current position.
-  /// A result does not depend on what is kept.
+  /// A result does not depend on what is kept. `last`: an earlier result that is no longer needed.
+  /// Its memory is used again, so that nodes inside cost nothing.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
-    const morph::Points& targets, const Options& options, morph::Monitor& monitor);
+    const morph::Points& targets, const Options& options, morph::Monitor& monitor, Result last);
+  Result Spread(const BoundaryModel& model, const Choice::Result& choice,
+    const morph::Points& targets, const Options& options, morph::Monitor& monitor)
+  {
+    return this->Spread(model, choice, targets, options, monitor, Result());
+  }
 
   /// How often weights were computed so far, those of a surface or of the falloff.
   int PrepareCount() const;
@@ -100,6 +110,7 @@ private:
 
   vtkIdType ShapesVersion = -1;
   std::vector<std::unique_ptr<SurfaceShape>> Shapes; ///< #surfaces, null where not needed yet
+  LocalBoundary Local;                               ///< of Follow
   Key WeightsKey, FalloffKey;
   morph::SurfaceWeights Weights;
   morph::Falloff Falloff;

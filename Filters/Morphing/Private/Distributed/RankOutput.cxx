@@ -71,7 +71,8 @@ morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
   mesh.Ranks().together(
     [&]
     {
-      Output::Write(grid, piece.points, moved.topRows(piece.numberOfNodes()), precision, output);
+      Output::Write(
+        grid, piece.points, moved.topRows(piece.numberOfNodes()), precision, output, monitor);
       Quality::Remove(output);
       mine = Quality::Measure(piece, output, mesh.Orientation(), skip, monitor);
     });

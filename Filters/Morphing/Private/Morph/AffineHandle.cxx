@@ -7,6 +7,8 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 
+#include <algorithm>
+
 namespace morph::filters
 {
 std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
@@ -20,7 +22,12 @@ std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
   AffineHandle handle;
   handle.Motion = scale * found->Motion;
   handle.Fields = morph::AffineFields::Zero(match.Targets.rows(), 4);
-  const double size = rest.points.cwiseAbs().maxCoeff() + match.Targets.cwiseAbs().maxCoeff();
+  double size = match.Targets.cwiseAbs().maxCoeff(), before = 0;
+  for (const morph::Index node : match.Ids)
+  {
+    before = std::max(before, rest.points.row(node).cwiseAbs().maxCoeff());
+  }
+  size += before;
   const bool isSingle = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
   const double tolerance = AffineArrays::Rounding(size, isSingle);
   for (morph::Index i = 0; i < handle.Fields.rows(); ++i)

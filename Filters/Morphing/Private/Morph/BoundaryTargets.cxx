@@ -193,6 +193,8 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
     holdUnnamed(outer, rest, targets, row);
   }
 
+  result.Ids.reserve(pairs.size() + outer.nodes.size());
+  result.Sources.reserve(pairs.size() + outer.nodes.size());
   for (Index node = 0; node < rest.numberOfNodes(); ++node)
   {
     if (row[node] != Unnamed && row[node] != Free)

@@ -66,7 +66,7 @@ void Write(const Session& session, const StepResult& step, int precision, Measur
   vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  Output::Write(grid, session.GetKept().Mesh().points, step.Moved, precision, output);
+  Output::Write(grid, session.GetKept().Mesh().points, step.Moved, precision, output, monitor);
   Quality::Remove(output);
   if (measures.All)
   {

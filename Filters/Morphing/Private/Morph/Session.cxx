@@ -257,7 +257,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     auto untangling = part(0.74, 0.75);
     morph::untangleHigherOrder(from, partition, this->Kept.Orientation(), result.Moved, untangling);
   }
-  if (const auto wrong = DataCheck::Immoderate(result.Moved); !wrong.empty())
+  if (const auto wrong = DataCheck::Immoderate(result.Moved, &evaluating); !wrong.empty())
   {
     throw morph::Error(
       "The method gave positions that are not finite or beyond 1e50, at node ids " +

@@ -70,7 +70,7 @@ ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morp
   const morph::Mesh& mesh = this->Kept.Mesh();
   const MovedSurface& surface = this->Kept.Surface();
   vtkUnstructuredGrid* output = outputs.Mesh;
-  Output::Write(grid, mesh.points, moved, precision, output);
+  Output::Write(grid, mesh.points, moved, precision, output, monitor);
   Measured result;
   result.Whole =
     all ? Quality::Measure(mesh, output, this->Orientation(), monitor)
