@@ -12,9 +12,17 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <QFontMetrics>
 #include <QHeaderView>
+#include <QHelpEvent>
+#include <QLabel>
 #include <QMap>
+#include <QStringList>
+#include <QStyle>
+#include <QToolTip>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent)
   : Superclass(filter, parent)
@@ -29,7 +37,7 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
 
   const QByteArray name = this->Name.toUtf8();
   this->List->setObjectName("ArraySelectionWidget");
-  this->List->setHeaderLabel(0, list->GetXMLLabel());
+  this->List->setHeaderLabel(0, tr("Name"));
   this->List->setHeaderLabel(1, tr("Faces"));
   this->List->setHeaderLabel(2, tr("Area"));
   this->List->setMaximumRowCountBeforeScrolling(
@@ -38,8 +46,9 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   // ParaView shows such a list's other columns before the names.
   QHeaderView* const header = this->List->header();
   header->moveSection(header->visualIndex(0), 0);
-  header->setSectionResizeMode(0, QHeaderView::Stretch);
+  header->setSectionResizeMode(0, QHeaderView::Interactive);
   header->setStretchLastSection(false);
+  this->List->viewport()->installEventFilter(this);
   for (const int column : { 1, 2 })
   {
     header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
@@ -49,6 +58,8 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
 
   auto* const layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  // Above the list: as the title of a column it would leave the others no room in a narrow dock.
+  layout->addWidget(new QLabel(list->GetXMLLabel(), this));
   layout->addWidget(this->List);
   this->setShowLabel(false);
   this->setChangeAvailableAsChangeFinished(true);
@@ -73,10 +84,12 @@ void SurfaceList::showSizes()
   }
   this->proxy()->UpdatePropertyInformation(this->Sizes);
   QMap<QString, QString> counts, measures;
+  QStringList names;
   const vtkSMPropertyHelper sizes(this->Sizes);
   for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
   {
     const QString name = sizes.GetAsString(i);
+    names << name;
     const QString measure = QString::number(QString(sizes.GetAsString(i + 2)).toDouble(), 'g', 4);
     const bool isCurve = name.startsWith("Curve ");
     counts[name] =
@@ -85,4 +98,39 @@ void SurfaceList::showSizes()
   }
   this->List->setColumnData(1, this->Name, std::move(counts));
   this->List->setColumnData(2, this->Name, std::move(measures));
+  this->fitNames(names);
+}
+
+void SurfaceList::fitNames(const QStringList& names)
+{
+  // As wide as the names and not as the panel, which a narrow dock shows in part: so that the sizes
+  // beside them are seen.
+  const QFontMetrics metrics = this->List->fontMetrics();
+  int widest = metrics.horizontalAdvance(tr("Name"));
+  for (const QString& name : names)
+  {
+    widest = std::max(widest, metrics.horizontalAdvance(name));
+  }
+  const int box = 3 * this->style()->pixelMetric(QStyle::PM_IndicatorWidth);
+  this->List->header()->resizeSection(0, std::min(widest, 20 * metrics.averageCharWidth()) + box);
+}
+
+bool SurfaceList::eventFilter(QObject* object, QEvent* event)
+{
+  if (event->type() == QEvent::ToolTip && object == this->List->viewport())
+  {
+    const auto* const help = static_cast<QHelpEvent*>(event);
+    const QModelIndex index = this->List->indexAt(help->pos());
+    if (index.isValid())
+    {
+      QStringList texts;
+      for (const int column : { 0, 1, 2 })
+      {
+        texts << index.sibling(index.row(), column).data().toString();
+      }
+      QToolTip::showText(help->globalPos(), texts.join(", "), this->List->viewport());
+      return true;
+    }
+  }
+  return this->Superclass::eventFilter(object, event);
 }

@@ -5,6 +5,7 @@
 #include <pqPropertyWidget.h>
 
 #include <QString>
+#include <QStringList>
 
 class pqArraySelectionWidget;
 
@@ -23,10 +24,16 @@ public:
   SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent = nullptr);
   ~SurfaceList() override;
 
+protected:
+  /// Shows a row's name and sizes, which may be cut off, as its tool tip.
+  bool eventFilter(QObject* object, QEvent* event) override;
+
 private Q_SLOTS:
   void showSizes();
 
 private:
+  void fitNames(const QStringList& names);
+
   pqArraySelectionWidget* List;
   vtkSMProperty* Sizes;
   QString Name; ///< of the list

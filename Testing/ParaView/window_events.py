@@ -3,6 +3,8 @@
 (paraview --test-script)."""
 import os
 import subprocess
+import sys
+from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from versions import PLUGIN_FILE_DIALOG, SETTINGS
@@ -27,11 +29,36 @@ def category(name):
     return "Mesh Morphing" if name in FIRST else "Mesh Morphing Steps"
 
 
+HERE = Path(__file__).resolve().parent
+#: Where pictures of the window are kept; none: no pictures.
+SHOTS = os.environ.get("MESHMORPHING_SHOTS")
+_taken = set()
+
+
+def shot_name(step):
+    """The name of a picture: the test's program and the step, a number added where it repeats."""
+    words = "".join(c if c.isalnum() else " " for c in step).split()
+    name = "-".join([Path(sys.argv[0]).stem, *words])
+    count = 2
+    while name in _taken:
+        name, count = f"{name.rsplit('-again', 1)[0]}-again{count}", count + 1
+    _taken.add(name)
+    return name
+
+
 class Events:
     """What a user does, in order, by the names of ParaView's widgets."""
 
     def __init__(self):
         self.lines = []
+        self.shots = []  # names of pictures, in the order of the saved states
+
+    def shot(self, step):
+        """Keeps a picture of the whole window in SHOTS. ParaView's test scripts have no pause, so
+        the picture is taken while a state is saved, which window_shots.py observes."""
+        if SHOTS:
+            name = shot_name(step)
+            self.save_state(Path(SHOTS) / f"{name}.pvsm", name)
 
     def do(self, widget, command, argument=""):
         self.lines.append(f"<pqevent object={quoteattr(widget)} command={quoteattr(command)} "
@@ -79,8 +106,10 @@ class Events:
     def accept_inputs(self):
         self.do(MAIN + "SelectInputDialog/buttonBox/1QPushButton0", "activate")
 
-    def save_state(self, path):
-        self.menu("menu_File", "actionFileSaveServerState")
+    def save_state(self, path, step=None):
+        """`step`: the name of the picture that is taken then."""
+        self.shots.append(step or shot_name(Path(path).stem))
+        Events.menu(self, "menu_File", "actionFileSaveServerState")
         self.do(MAIN + "FileSaveServerStateDialog", "filesSelected", str(path))
 
     def select_cells(self, first, last):
@@ -112,6 +141,12 @@ class Events:
         environment = {**os.environ, **(environment or {}), "HOME": str(folder),
                        "XDG_RUNTIME_DIR": str(folder), "DASHBOARD_TEST_FROM_CTEST": "1"}
         environment.pop("PV_PLUGIN_PATH", None)
+        if SHOTS:
+            Path(SHOTS).mkdir(parents=True, exist_ok=True)
+            environment["MORPH_SHOTS"] = "\n".join(str(Path(SHOTS) / name) for name in self.shots)
+            environment["PYTHONPATH"] = os.pathsep.join(
+                [str(HERE), *filter(None, [environment.get("PYTHONPATH")])])
+            script = script or HERE / "window_shots.py"
         command = ["paraview", *arguments, *([f"--script={script}"] if script else []),
                    f"--test-script={played}"]
         return {"args": command, "env": environment, "cwd": folder, "text": True,
@@ -122,4 +157,6 @@ class Events:
         messages. `options`: of prepare()."""
         how = self.prepare(folder, **options)
         run = subprocess.run([*how.pop("args"), "--exit"], timeout=seconds, check=False, **how)
+        for name in self.shots if SHOTS else ():
+            (Path(SHOTS) / f"{name}.pvsm").unlink(missing_ok=True)
         return run.returncode, run.stdout

@@ -199,6 +199,27 @@ class FirstTasks(unittest.TestCase):
         for name in NUMBERS:
             self.assertEqual(getattr(morph, name), getattr(again, name))
 
+    def test_a_state_is_saved_and_loaded(self):
+        mesh, names = self.names(BORE)
+        morph = MorphMesh(Input=mesh, Surfaces=[TOP])
+        morph.Transform.Translate = [0, 0, float(UP)]
+        updated(morph)
+        self.open(BORE)
+        self.events.filter("MorphMesh")
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.type(BOX + "translateZ", UP)
+        self.events.apply()
+        self.events.task("save a state")
+        self.events.saves(self.folder / "state.pvsm")
+        self.events.done()
+        self.events.menu("menu_Edit", "Reset Session")
+        self.events.task("load a state")
+        self.events.loads(self.folder / "state.pvsm")
+        self.events.select("/0:0/0:0/0:0")
+        self.events.done()
+        self.events.shows(morph)
+        self.play({"save a state": 3, "load a state": 5})
+
     def test_exodus(self):
         mesh = simple.OpenDataFile(str(BORE))
         file = self.folder / "part.ex2"

@@ -52,6 +52,7 @@ class Tasks(Clicks):
 
     def done(self):
         self.counted[self.name] += self.clicks
+        self.shot(self.name)
 
     def select(self, *arguments):
         super().select(*arguments)
@@ -85,6 +86,20 @@ class Tasks(Clicks):
             self.do(VIEW, "mouseMove", f"({x:.4f},{y:.4f},0,4,0)")
         self.do(VIEW, "mouseRelease", f"({last[0]},{last[1]},4,0,0)")
         self.clicks += 1
+
+    def saves(self, path):
+        """A state, by the menu and a dialog in which the path is typed."""
+        self.save_state(path)
+        self.clicks += 3
+        self.typed += 1
+
+    def loads(self, path):
+        """A state likewise; a dialog asks where its files are."""
+        self.menu("menu_File", "actionFileLoadServerState")
+        self.do(MAIN + "FileLoadServerStateDialog", "filesSelected", str(path))
+        self.do(MAIN + "LoadStateDialog/OK", "activate")
+        self.clicks += 2
+        self.typed += 1
 
     def accept_inputs(self):
         """Of a filter with several inputs, as the dialog has them."""
@@ -159,14 +174,6 @@ class WindowTasks(unittest.TestCase):
             for zones, label in ZONES.items():
                 events.expect(f"{PANEL}{zones}/PanelLabel", label)
 
-            if HELP_PAGE:
-                events.task("open the filter's page")
-                events.do(PROPERTIES + "Help", "activate")
-                events.clicks += 1
-                events.done()
-                events.expect(HELP_PAGE, "qthelp://meshmorphing.org/MeshMorphing/"
-                              "filters.MorphMesh.html", "source")
-
             events.select("/0:0/0:0")
             events.task("widen a hole by a number")
             events.filter("MorphMesh")
@@ -219,6 +226,15 @@ class WindowTasks(unittest.TestCase):
             events.apply()
             events.done()
             events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "-1")
+
+            # Last: its window covers the other.
+            if HELP_PAGE:
+                events.task("open the filter's page")
+                events.do(PROPERTIES + "Help", "activate")
+                events.clicks += 1
+                events.done()
+                events.expect(HELP_PAGE, "qthelp://meshmorphing.org/MeshMorphing/"
+                              "filters.MorphMesh.html", "source")
 
             events.save_state(folder / "state.pvsm")
             code, messages = events.play(folder)
