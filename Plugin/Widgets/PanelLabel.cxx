@@ -59,6 +59,10 @@ bool PanelLabel::eventFilter(QObject* object, QEvent* event)
     {
       label->setText(this->Text);
     }
+    else if (auto* title = this->parentWidget()->findChild<QLabel*>("PanelLabel"))
+    {
+      title->setText(this->Text); // that of an earlier time, or a widget's own
+    }
     else if (auto* list = this->parentWidget()->findChild<pqArraySelectionWidget*>())
     {
       list->setHeaderLabel(this->Text);
@@ -67,7 +71,7 @@ bool PanelLabel::eventFilter(QObject* object, QEvent* event)
     {
       box->setText(this->Text);
     }
-    else if (!this->parentWidget()->findChild<QLabel*>("PanelLabel"))
+    else
     {
       putAbove(this->parentWidget(), this->Text);
     }

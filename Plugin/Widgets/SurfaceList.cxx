@@ -12,17 +12,13 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
-#include <QFontMetrics>
 #include <QHeaderView>
 #include <QHelpEvent>
 #include <QLabel>
 #include <QMap>
 #include <QStringList>
-#include <QStyle>
 #include <QToolTip>
 #include <QVBoxLayout>
-
-#include <algorithm>
 
 SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent)
   : Superclass(filter, parent)
@@ -46,12 +42,13 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   // ParaView shows such a list's other columns before the names.
   QHeaderView* const header = this->List->header();
   header->moveSection(header->visualIndex(0), 0);
-  header->setSectionResizeMode(0, QHeaderView::Interactive);
+  // As wide as what they show and not as the panel, which a narrow dock shows in part.
   header->setStretchLastSection(false);
+  header->setMaximumSectionSize(24 * this->fontMetrics().averageCharWidth());
   this->List->viewport()->installEventFilter(this);
+  header->setSectionResizeMode(QHeaderView::ResizeToContents);
   for (const int column : { 1, 2 })
   {
-    header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     this->List->setColumnItemData(
       column, Qt::TextAlignmentRole, static_cast<int>(Qt::AlignRight | Qt::AlignVCenter));
   }
@@ -59,7 +56,9 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   auto* const layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   // Above the list: as the title of a column it would leave the others no room in a narrow dock.
-  layout->addWidget(new QLabel(list->GetXMLLabel(), this));
+  auto* const title = new QLabel(list->GetXMLLabel(), this);
+  title->setObjectName("PanelLabel");
+  layout->addWidget(title);
   layout->addWidget(this->List);
   this->setShowLabel(false);
   this->setChangeAvailableAsChangeFinished(true);
@@ -84,12 +83,10 @@ void SurfaceList::showSizes()
   }
   this->proxy()->UpdatePropertyInformation(this->Sizes);
   QMap<QString, QString> counts, measures;
-  QStringList names;
   const vtkSMPropertyHelper sizes(this->Sizes);
   for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
   {
     const QString name = sizes.GetAsString(i);
-    names << name;
     const QString measure = QString::number(QString(sizes.GetAsString(i + 2)).toDouble(), 'g', 4);
     const bool isCurve = name.startsWith("Curve ");
     counts[name] =
@@ -98,21 +95,6 @@ void SurfaceList::showSizes()
   }
   this->List->setColumnData(1, this->Name, std::move(counts));
   this->List->setColumnData(2, this->Name, std::move(measures));
-  this->fitNames(names);
-}
-
-void SurfaceList::fitNames(const QStringList& names)
-{
-  // As wide as the names and not as the panel, which a narrow dock shows in part: so that the sizes
-  // beside them are seen.
-  const QFontMetrics metrics = this->List->fontMetrics();
-  int widest = metrics.horizontalAdvance(tr("Name"));
-  for (const QString& name : names)
-  {
-    widest = std::max(widest, metrics.horizontalAdvance(name));
-  }
-  const int box = 3 * this->style()->pixelMetric(QStyle::PM_IndicatorWidth);
-  this->List->header()->resizeSection(0, std::min(widest, 20 * metrics.averageCharWidth()) + box);
 }
 
 bool SurfaceList::eventFilter(QObject* object, QEvent* event)

@@ -5,7 +5,6 @@
 #include <pqPropertyWidget.h>
 
 #include <QString>
-#include <QStringList>
 
 class pqArraySelectionWidget;
 
@@ -32,8 +31,6 @@ private Q_SLOTS:
   void showSizes();
 
 private:
-  void fitNames(const QStringList& names);
-
   pqArraySelectionWidget* List;
   vtkSMProperty* Sizes;
   QString Name; ///< of the list

@@ -199,7 +199,7 @@ class FirstTasks(unittest.TestCase):
         for name in NUMBERS:
             self.assertEqual(getattr(morph, name), getattr(again, name))
 
-    def test_a_state_is_saved_and_loaded(self):
+    def test_a_state_is_saved(self):
         mesh, names = self.names(BORE)
         morph = MorphMesh(Input=mesh, Surfaces=[TOP])
         morph.Transform.Translate = [0, 0, float(UP)]
@@ -212,13 +212,12 @@ class FirstTasks(unittest.TestCase):
         self.events.task("save a state")
         self.events.saves(self.folder / "state.pvsm")
         self.events.done()
-        self.events.menu("menu_Edit", "Reset Session")
-        self.events.task("load a state")
-        self.events.loads(self.folder / "state.pvsm")
-        self.events.select("/0:0/0:0/0:0")
-        self.events.done()
-        self.events.shows(morph)
-        self.play({"save a state": 3, "load a state": 5})
+        self.play({"save a state": 3})
+        least = morph.MinScaledJacobian
+        simple.ResetSession()
+        simple.LoadState(str(self.folder / "state.pvsm"))
+        again = updated(simple.FindSource("MorphMesh1"))
+        self.assertEqual(again.MinScaledJacobian, least)
 
     def test_exodus(self):
         mesh = simple.OpenDataFile(str(BORE))

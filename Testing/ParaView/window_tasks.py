@@ -93,14 +93,6 @@ class Tasks(Clicks):
         self.clicks += 3
         self.typed += 1
 
-    def loads(self, path):
-        """A state likewise; a dialog asks where its files are."""
-        self.menu("menu_File", "actionFileLoadServerState")
-        self.do(MAIN + "FileLoadServerStateDialog", "filesSelected", str(path))
-        self.do(MAIN + "LoadStateDialog/OK", "activate")
-        self.clicks += 2
-        self.typed += 1
-
     def accept_inputs(self):
         """Of a filter with several inputs, as the dialog has them."""
         super().accept_inputs()
