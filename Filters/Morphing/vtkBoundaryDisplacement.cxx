@@ -270,6 +270,7 @@ void vtkBoundaryDisplacement::ResetResults()
 {
   this->MovingPoints = this->HeldPoints = this->FollowingPoints = this->FreePoints = 0;
   this->ZonePoints = this->LayerPoints = 0;
+  this->Internals->SlideReport = "None";
 }
 
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)

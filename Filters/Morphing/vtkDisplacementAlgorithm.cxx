@@ -144,6 +144,11 @@ morphObjectMacro(ZoneRegion, vtkImplicitFunction);
 morphObjectMacro(Transform, vtkAbstractTransform);
 morphObjectMacro(RigidTransform, vtkAbstractTransform);
 
+const char* vtkDisplacementAlgorithm::GetSlideReport() const
+{
+  return this->Shared->SlideReport.c_str();
+}
+
 void vtkDisplacementAlgorithm::SetZoneRegionType(int type)
 {
   const int known = std::clamp(type, int(ZONE_NONE), this->LargestZoneType);
@@ -298,6 +303,7 @@ void vtkDisplacementAlgorithm::CopyDisplacement(vtkDisplacementAlgorithm* from)
   this->SetScaleFactor(from->ScaleFactor);
   this->SetSurroundings(from->Surroundings);
   this->SetFalloffRadius(from->FalloffRadius);
+  this->SetSlideRounds(from->SlideRounds);
   this->SetFeatureAngle(from->FeatureAngle);
   this->SetCornerAngle(from->CornerAngle);
   this->SetSurfaceIdArray(from->SurfaceIdArray);
@@ -358,6 +364,7 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
+  os << indent << "SlideRounds: " << this->SlideRounds << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
   os << indent << "CornerAngle: " << this->CornerAngle << "\n";
   os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";

@@ -402,6 +402,29 @@ public:
 
   ///@{
   /**
+   * How often the nodes of sliding surfaces are iterated with the volume. A round lets them go
+   * along their surfaces to where FEMWARP, with uniform stiffness, pulls none of them along. It
+   * solves for volume and surfaces together, linearised at the present places, and puts the nodes
+   * back onto the surfaces. On planes one round is exact. Rounds end early where the pull is
+   * rounding, or does not fall. A node slides so if all of its surfaces do, and if it neither
+   * moves, nor is held, nor is of a zone or layer. Two arrays of the output's field data have a
+   * value for each round. `SlideChange` is its largest move, in units of the diagonal of the
+   * boundary's bounding box. `SlideForce` is the pull that is left, in parts of that before the
+   * first. Errors: polyhedra, a surface as input, several MPI ranks. Cost: two to six solutions a
+   * round. Default 0, no rounds; range [0, 20].
+   */
+  vtkSetClampMacro(SlideRounds, int, 0, 20);
+  vtkGetMacro(SlideRounds, int);
+  ///@}
+
+  /**
+   * What each round of SlideRounds has done in the last execution: the numbers of SlideChange and
+   * SlideForce. "None" where there was no round.
+   */
+  const char* GetSlideReport() const;
+
+  ///@{
+  /**
    * How the geometry is found: see vtkClassifyBoundary. If port 0 takes a boundary, SurfaceIdArray
    * is one of its cell arrays.
    */
@@ -485,6 +508,7 @@ protected:
   double ScaleFactor = 1;
   int Surroundings = SURROUNDINGS_FOLLOW;
   double FalloffRadius = 0.1;
+  int SlideRounds = 0;
   double FeatureAngle = 25;
   double CornerAngle = 45;
   char* SurfaceIdArray = nullptr;

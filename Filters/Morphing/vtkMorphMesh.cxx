@@ -263,6 +263,7 @@ int vtkMorphMesh::RequestData(
   filters::Monitor monitor(this, this->NumberOfThreads);
   std::string partial;
   own.Results.Reset();
+  own.SlideReport = "None";
   const auto work = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, own.Blocks,

@@ -166,6 +166,14 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--fix, --slide and --free need --move, --target, --handles or --lattice.");
   }
+  if (motion.slideRounds > 0 && motion.sliding.empty())
+  {
+    throw UsageError("--slide-rounds needs --slide.");
+  }
+  if (motion.slideRounds > 20)
+  {
+    throw UsageError("--slide-rounds is at most 20.");
+  }
   if (!motion.isMade() &&
       (!motion.frozen.empty() || !motion.rigid.empty() || motion.keepLayers > 0))
   {
@@ -342,6 +350,10 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--slide", "<surface>",
       "a surface whose nodes slide along it, a plane of symmetry; repeatable",
       [&](const std::string& value) { result.motion.sliding.push_back(value); } },
+    { "--slide-rounds", "<number>",
+      "iterate what slides with the volume, up to so many rounds (20 at most)",
+      [&](const std::string& value)
+      { result.motion.slideRounds = wholeNumber("--slide-rounds", value); } },
     { "--free", "<surface>", "a surface whose nodes are solved with the interior; repeatable",
       [&](const std::string& value) { result.motion.free.push_back(value); } },
     { "--freeze", "<zone>",

@@ -161,6 +161,7 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
     filter->AddRigidZone(name.c_str());
   }
   filter->SetKeepLayers(motion.keepLayers);
+  filter->SetSlideRounds(motion.slideRounds);
   if (!motion.target.empty())
   {
     filter->SetMotionToTarget();

@@ -10,6 +10,7 @@
 #include "ProgressBar.h"
 #include "Report.h"
 
+#include <vtkDisplacementAlgorithm.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphAlgorithm.h>
 #include <vtkNew.h>
@@ -96,6 +97,11 @@ void setBoundary(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arg
   if (!motion.target.empty() && !arguments.quiet)
   {
     printTargetDistances(displacement->GetOutputDataObject(0));
+  }
+  if (motion.slideRounds > 0 && !arguments.quiet)
+  {
+    std::cout << "sliding: "
+              << vtkDisplacementAlgorithm::SafeDownCast(displacement)->GetSlideReport() << "\n";
   }
   filter->SetBoundaryData(displacement->GetOutputDataObject(0));
 }

@@ -11,9 +11,11 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 using namespace morph;
 using motions::difference;
@@ -267,6 +269,21 @@ TEST(RadialBasis, ManySitesAreMultiscaleNearTheDenseResult)
   method.prepare(mesh, partition, monitor);
   method.evaluate(motions::targets(mesh, partition, bend), nearlyDense, monitor);
   EXPECT_LT(difference(moved, nearlyDense), 1e-3 * meshes::size(mesh.points));
+}
+
+TEST(RadialBasis, NeitherRoundingNorNumbersChooseTheCentresOfASymmetricBody)
+{
+  const Mesh mesh = shapes::cylinder(16, 60);
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> noise(-1e-14, 1e-14);
+  std::vector<Index> order(static_cast<std::size_t>(mesh.points.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), random);
+  Mesh other = meshes::renumbered(mesh, order);
+  other.points = other.points.unaryExpr([&](double x) { return x + noise(random); });
+  const Points one = morphed(mesh, motions::outerPartition(mesh));
+  const Points two = morphed(other, motions::outerPartition(other));
+  EXPECT_LT(difference(one, meshes::rows(two, order)), 1e-8 * meshes::size(mesh.points));
 }
 
 TEST(RadialBasis, SitesThatNearlyCoincideAreCorrected)

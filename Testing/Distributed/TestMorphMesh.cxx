@@ -223,6 +223,13 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
         filter->AddSurface("Surface 1");
         filter->SetKeepLayers(2);
       } },
+    { "SlideRounds of vtkBoundaryDisplacement needs one MPI rank",
+      [](vtkMorphMesh* filter)
+      {
+        filter->AddSurface("Surface 1");
+        filter->AddSlidingSurface("Surface 0");
+        filter->SetSlideRounds(3);
+      } },
     { "Soft zones of vtkMorphMesh need one MPI rank",
       [](vtkMorphMesh* filter)
       {

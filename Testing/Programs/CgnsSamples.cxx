@@ -166,6 +166,23 @@ void writeStructured(const std::string& path)
   check(cg_close(file));
 }
 
+/// A square in the plane, in one quadrilateral.
+void writePlanar(const std::string& path)
+{
+  int file = 0, base = 0, zone = 0, id = 0;
+  check(cg_set_file_type(CG_FILE_HDF5));
+  check(cg_open(path.c_str(), CG_MODE_WRITE, &file));
+  check(cg_base_write(file, "Plane", 2, 2, &base));
+  const cgsize_t sizes[] = { 4, 1, 0 };
+  check(cg_zone_write(file, base, "zone", sizes, CGNS_ENUMV(Unstructured), &zone));
+  const double x[] = { 0, 1, 1, 0 }, y[] = { 0, 0, 1, 1 };
+  check(cg_coord_write(file, base, zone, CGNS_ENUMV(RealDouble), "CoordinateX", x, &id));
+  check(cg_coord_write(file, base, zone, CGNS_ENUMV(RealDouble), "CoordinateY", y, &id));
+  const cgsize_t corners[] = { 1, 2, 3, 4 };
+  check(cg_section_write(file, base, zone, "faces", CGNS_ENUMV(QUAD_4), 1, 1, 0, corners, &id));
+  check(cg_close(file));
+}
+
 /// One element of second order. `corners`: their positions; `between`: the corners in whose middle
 /// each further node lies, in the order of CGNS.
 void writeElement(const std::string& path, CGNS_ENUMT(ElementType_t) type,
@@ -234,4 +251,5 @@ void writeCgnsSamples(const std::string& folder)
   writeCube(folder + "/cube_adf.cgns", CG_FILE_ADF, false);
   writeCube(folder + "/cube_single.cgns", CG_FILE_HDF5, true);
   writeStructured(folder + "/structured.cgns");
+  writePlanar(folder + "/planar.cgns");
 }

@@ -488,6 +488,8 @@ class Cgns(Files):
 
     def test_what_is_refused(self):
         self.refuse("zone block is structured", "--list-surfaces", self.folder / "structured.cgns")
+        self.refuse("base Plane is not three-dimensional: planar meshes", "--list-surfaces",
+                    self.folder / "planar.cgns")
         for name in ("cube.cgns", "cube_adf.cgns"):
             path = self.folder / name
             content = path.read_bytes()

@@ -217,6 +217,14 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
         self.fails(1, "FreePatches names 'Wall'", "--free", "Wall", *options)
 
+    def test_what_slides_is_iterated_with_the_volume(self):
+        options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
+        result = run("--slide", "Surface 0", "--slide-rounds", "2", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"sliding: (None|round 1: moved by [0-9.e-]+ of the size)")
+        self.fails(2, "--slide-rounds needs --slide", "--slide-rounds", "2", *options)
+        self.fails(2, "at most 20", "--slide", "Surface 0", "--slide-rounds", "21", *options)
+
     def test_zones_and_layers_are_prescribed(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
         prescribed = []

@@ -306,6 +306,47 @@ class SolverFiles(unittest.TestCase):
                 self.refuse(message, "--list-surfaces", path)
                 self.refuse(message, "--move", "Surface 0", "--translate", "1,0,0", path, path)
 
+    def test_planar_files_of_each_format(self):
+        """CGNS and Exodus II: library_files.py. OpenFOAM has no planar mesh: its two-dimensional
+        cases are one cell thick."""
+        places = ("0.,0.,0.", "1.,0.,0.", "1.,1.,0.", "0.,1.,0.")
+        numbered = "".join(f"{i + 1},{x}\n" for i, x in enumerate(places))
+        points = "".join(x.replace(",", " ") + "\n" for x in places)
+        msh = ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n" +
+               numbered.replace(",", " ") + "$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n"
+               "$EndElements\n")
+        msh4 = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n" +
+                points + "$EndNodes\n$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n")
+        vtk = ("# vtk DataFile Version 3.0\nplanar\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+               "POINTS 4 double\n" + points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n")
+        array = ('<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}'
+                 '</DataArray>')
+        vtu = ('<VTKFile type="UnstructuredGrid"><UnstructuredGrid>'
+               '<Piece NumberOfPoints="4" NumberOfCells="1"><Points>' +
+               array.format("Float64", "Points", 3, points) + "</Points><Cells>" +
+               array.format("Int64", "connectivity", 1, "0 1 2 3") +
+               array.format("Int64", "offsets", 1, "4") + array.format("UInt8", "types", 1, "9") +
+               "</Cells></Piece></UnstructuredGrid></VTKFile>")
+        inp = "*NODE\n" + numbered + "*ELEMENT, TYPE={}\n1, 1, 2, 3, 4\n"
+        bdf = "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(places))
+        none = "is a volume cell"
+        for name, content, message in (
+                ("m.inp", inp.format("CPS4"), "CPS4 make a planar model"),
+                ("m.inp", inp.format("S4"), none),
+                ("m.bdf", bdf + "CQUAD4,1,7,1,2,3,4\n", none),
+                ("m.su2", "NDIME= 2\nNELEM= 1\n9 0 1 2 3 0\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n"
+                 "0 1 3\nNMARK= 0\n", "two-dimensional mesh: planar meshes are not morphed"),
+                ("m.msh", msh, "no volume elements: planar meshes"),
+                ("m.msh", msh4, "no volume elements: planar meshes"),
+                ("m.vtk", vtk, none), ("m.vtu", vtu, none)):
+            with self.subTest(name=name, message=message):
+                path = self.folder / name
+                path.write_text(content)
+                self.refuse(name + ".*" + message, "--list-surfaces", path)
+                self.refuse(name + ".*" + message, "--move", "Surface 0", "--translate", "1,0,0",
+                            path, self.folder / ("out" + path.suffix))
+                self.assertFalse((self.folder / ("out" + path.suffix)).exists())
+
 
 def forget_tests_of_superclass(case):
     for name in dir(SolverFiles):

@@ -47,6 +47,26 @@ struct Workspace
       " Look for inverted or nearly flat cells in the undeformed mesh, or raise the tolerance.");
 }
 
+[[noreturn]] void throwTooManyIterations(int iterations, double residual, double tolerance)
+{
+  std::ostringstream text;
+  text << "after " << iterations << " iterations the relative residual is " << residual << " where "
+       << tolerance << " is asked for.";
+  throwNoConvergence(text.str());
+}
+
+/// Projects the constrained rows onto their directions.
+template <typename Vectors>
+void project(const RowConstraints& constraints, Vectors& x)
+{
+  using Scalar = typename Vectors::value_type::Scalar;
+  for (std::size_t i = 0; i < constraints.rows.size(); ++i)
+  {
+    auto row = x[constraints.rows[i]].template head<3>();
+    row = (constraints.directions[i] * row.template cast<double>()).template cast<Scalar>().eval();
+  }
+}
+
 void requireFinite(const Row& norm2, int iterations)
 {
   if (!norm2.allFinite())
@@ -84,6 +104,8 @@ struct SpdSolver::Implementation
   Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
   SolveReport iterate(
     const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
+  SolveReport iterateConstrained(const Points& b, const RowConstraints& constraints, Rows& solution,
+    double tolerance, int maxIterations, Monitor& monitor) const;
 };
 
 SpdSolver::SpdSolver() = default;
@@ -203,10 +225,7 @@ SolveReport SpdSolver::Implementation::iterate(
       requireFinite(norm2, report.iterations);
       if (report.iterations == maxIterations)
       {
-        std::ostringstream text;
-        text << "after " << report.iterations << " iterations the relative residual is "
-             << largestRatio(norm2, bNorm2) << " where " << tolerance << " is asked for.";
-        throwNoConvergence(text.str());
+        throwTooManyIterations(report.iterations, largestRatio(norm2, bNorm2), tolerance);
       }
       monitor.check();
 
@@ -265,6 +284,134 @@ SolveReport SpdSolver::Implementation::iterate(
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
                       report.iterations * this->preconditioner.bytesMoved();
   return report;
+}
+
+SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
+  const RowConstraints& constraints, Rows& solution, double tolerance, int maxIterations,
+  Monitor& monitor) const
+{
+  const Index n = this->A.rows();
+  Rows residual(n), direction(n), image(n), step(n);
+  Multigrid::Vector residual32(n), step32(n);
+  Multigrid::Workspace multigrid(this->preconditioner);
+  const auto sum = [&](const auto& body) { return reproducibleSum(n, monitor, 0., body); };
+  const auto findResidual = [&]
+  {
+    monitor.parallelFor(n, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, solution);
+        }
+      });
+    project(constraints, residual);
+    return sum([&](Index i) { return residual[i].squaredNorm(); });
+  };
+  const double given2 = std::max(sum([&](Index i) { return b.row(i).squaredNorm(); }),
+    sum([&](Index i) { return rowProduct(this->A, i, solution).squaredNorm(); }));
+  const double goal2 = std::max(tolerance * tolerance, 1e-28) * given2;
+  double norm2 = findResidual();
+  if (!std::isfinite(given2) || !std::isfinite(norm2))
+  {
+    throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
+  }
+
+  SolveReport report;
+  for (double before = HUGE_VAL; norm2 > goal2 && norm2 <= 0.25 * before;)
+  {
+    before = norm2;
+    // The preconditioner has single precision: scales the residual to about 1.
+    const double unscale = std::sqrt(norm2 / static_cast<double>(n));
+    double rz = 0;
+    for (bool first = true; norm2 > goal2; first = false)
+    {
+      if (!std::isfinite(norm2))
+      {
+        throwNoConvergence(
+          "their numbers overflowed after " + std::to_string(report.iterations) + " iterations.");
+      }
+      if (report.iterations == maxIterations)
+      {
+        throwTooManyIterations(report.iterations, std::sqrt(norm2 / given2), tolerance);
+      }
+      monitor.check();
+      for (Index i = 0; i < n; ++i)
+      {
+        residual32[i] = (residual[i] / unscale).cast<float>();
+      }
+      this->preconditioner.apply(residual32, step32, multigrid, monitor);
+      for (Index i = 0; i < n; ++i)
+      {
+        step[i] = unscale * step32[i].cast<double>();
+      }
+      project(constraints, step);
+      const double rzBefore = rz;
+      rz = sum([&](Index i) { return residual[i].dot(step[i]); });
+      const double beta = first ? 0 : rz / rzBefore;
+      for (Index i = 0; i < n; ++i)
+      {
+        direction[i] = first ? step[i] : Row(step[i] + beta * direction[i]);
+      }
+      const double curvature = sum(
+        [&](Index i)
+        {
+          image[i] = rowProduct(this->A, i, direction);
+          return image[i].dot(direction[i]);
+        });
+      project(constraints, image);
+      const double alpha = rz / curvature;
+      norm2 = sum(
+        [&](Index i)
+        {
+          solution[i] += alpha * direction[i];
+          residual[i] -= alpha * image[i];
+          return residual[i].squaredNorm();
+        });
+      ++report.iterations;
+    }
+    norm2 = findResidual();
+  }
+  report.relativeResidual = given2 > 0 ? std::sqrt(norm2 / given2) : 0;
+  report.bytesMoved = report.iterations * (12. * static_cast<double>(this->A.nonZeros()) +
+                                            12. * sizeof(Row) * static_cast<double>(n) +
+                                            this->preconditioner.bytesMoved());
+  return report;
+}
+
+SolveReport SpdSolver::solveConstrained(const Points& b, const RowConstraints& constraints,
+  Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  Rows solution(x.rows());
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    solution[i] = toRow(x.row(i));
+  }
+  const SolveReport report = this->implementation_->iterateConstrained(
+    b, constraints, solution, tolerance, maxIterations, monitor);
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    x.row(i) = solution[i].head<3>();
+  }
+  return report;
+}
+
+Points SpdSolver::product(const Points& x, Monitor& monitor) const
+{
+  const CsrMatrix& A = this->matrix();
+  Points result = Points::Zero(x.rows(), 3);
+  monitor.parallelFor(x.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        for (CsrMatrix::InnerIterator entry(A, static_cast<int>(i)); entry; ++entry)
+        {
+          result.row(i) += entry.value() * x.row(entry.col());
+        }
+      }
+    });
+  return result;
 }
 
 SolveReport SpdSolver::solve(

@@ -7,10 +7,21 @@
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <Eigen/Core>
+
 #include <memory>
+#include <vector>
 
 namespace morph
 {
+/// Rows of a system whose three columns are the coordinates of nodes, and the directions in which
+/// these may change. All other rows are free.
+struct RowConstraints
+{
+  std::vector<int> rows;                   ///< distinct
+  std::vector<Eigen::Matrix3d> directions; ///< of each: an orthogonal projection, symmetric
+};
+
 /// Solves A X = B by conjugate gradients, with A sparse, symmetric positive definite. B has three
 /// columns; one pass over the matrix serves all three. The preconditioner is a smoothed-aggregation
 /// multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
@@ -34,6 +45,16 @@ public:
   /// `maxIterations` or on overflow.
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+
+  /// Solves P A x = P b for the x that differ from the guess by vectors of P's range, where P
+  /// projects the constrained rows onto their directions. The columns are coupled there, so all
+  /// three are iterated as one. Stops at |P (b - A x)| <= tolerance max(|b|, |A guess|). Otherwise
+  /// as solve(). The preconditioner knows no constraints: iterations grow with the square root of
+  /// the number of cells across the mesh.
+  SolveReport solveConstrained(const Points& b, const RowConstraints& constraints, Points& x,
+    double tolerance, int maxIterations, Monitor& monitor) const;
+  /// Returns A x, #rows x 3.
+  Points product(const Points& x, Monitor& monitor) const;
 
   const CsrMatrix& matrix() const;
   const RowComponents& components() const;

@@ -300,12 +300,11 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
   }
 }
 
-Points InnerNodes::Guess(
-  const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor)
+std::vector<Index> InnerNodes::Prescribed(
+  const BoundaryModel& model, const Surroundings::Result& result)
 {
-  const morph::Mesh& mesh = model.Mesh();
   std::vector<Index> prescribed;
-  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  for (Index n = 0; n < model.Points().rows(); ++n)
   {
     const bool isOuter =
       std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), n);
@@ -314,6 +313,14 @@ Points InnerNodes::Guess(
       prescribed.push_back(n);
     }
   }
+  return prescribed;
+}
+
+Points InnerNodes::Guess(
+  const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor)
+{
+  const morph::Mesh& mesh = model.Mesh();
+  const std::vector<Index> prescribed = Prescribed(model, result);
   if (!this->Method || this->MethodVersion != model.InputVersion() ||
       this->Method->partition().prescribed != prescribed)
   {

@@ -54,6 +54,11 @@ public:
   static void Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     const Surroundings::Result& result, vtkPolyData* output);
 
+  /// The nodes that a morph prescribes: those of the boundary that are not free, and inner ones of
+  /// zones and layers. Ascending.
+  static std::vector<morph::Index> Prescribed(
+    const BoundaryModel& model, const Surroundings::Result& result);
+
 private:
   struct Zone
   {

@@ -314,6 +314,13 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     this->Inner.Place(grid, this->Model, choice, inner, result, monitor);
     this->Inner.SpreadAround(this->Model, choice, targets, rest, result, monitor);
   }
+  const bool hasRounds = filter->SlideRounds > 0 && filter->Moving != MOVE_NOTHING;
+  if (hasRounds)
+  {
+    monitor.SetRange(0.9, 1);
+    this->Slide.Run(
+      this->Model, choice.Held, rest.Sliding, filter->SlideRounds, this->Spread, result, monitor);
+  }
   const std::vector<morph::Index> collapsed =
     filters::Motion::Collapsed(this->Model, choice, result.Moved);
   if (!collapsed.empty())
@@ -330,7 +337,12 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->OutputPointsPrecision, output);
-  if (hasInner)
+  if (hasRounds)
+  {
+    this->Slide.Write(this->Model.Size(), output->GetFieldData());
+    this->SlideReport = this->Slide.Report(this->Model.Size());
+  }
+  if (hasInner || hasRounds)
   {
     filters::AffineArrays::Remove(output);
   }
@@ -392,6 +404,12 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
       {
         throw morph::Error("Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank, and "
                            "the mesh is distributed over several. Run on one, or turn them off.");
+      }
+      if (filter->SlideRounds > 0 && filter->Moving != MOVE_NOTHING)
+      {
+        throw morph::Error(
+          "SlideRounds of vtkBoundaryDisplacement needs one MPI rank, and the mesh "
+          "is distributed over several. Run on one, or set it to 0.");
       }
     });
   if (!this->Whole)

@@ -15,6 +15,7 @@
 #include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
+#include "Private/Displace/SlideRounds.h"
 #include "Private/Displace/Surroundings.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
@@ -76,6 +77,7 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::filters::BoundaryFields Fields;
   morph::filters::FitToTarget Fit;
   morph::filters::InnerNodes Inner;
+  morph::filters::SlideRounds Slide;
   morph::filters::Picker Picker;
   /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
   std::unique_ptr<morph::filters::WholeSurface> Whole;

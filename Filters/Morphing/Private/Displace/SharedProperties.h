@@ -11,6 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 /// The properties of vtkDisplacementAlgorithm that are objects or lists.
@@ -22,4 +23,5 @@ struct vtkDisplacementAlgorithm::vtkShared
   vtkSmartPointer<vtkExtractSelection> Extractor;
   std::vector<std::array<double, 7>> Handles;
   std::vector<std::array<double, 6>> LatticeDisplacements;
+  std::string SlideReport = "None"; ///< of the last execution
 };

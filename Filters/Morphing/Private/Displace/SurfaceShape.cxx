@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolygon.h>
 #include <vtkStaticCellLocator.h>
 
 #include <Eigen/Dense>
@@ -180,6 +181,31 @@ Row SurfaceShape::Closest(const Row& x) const
   double squared = 0;
   this->Locator->FindClosestPoint(x.data(), closest.data(), cell, part, squared);
   return cell < 0 ? x : closest;
+}
+
+Row SurfaceShape::Normal(const Row& x) const
+{
+  if (this->How == Kind::Plane)
+  {
+    return this->Direction;
+  }
+  if (this->How == Kind::Cylinder)
+  {
+    return this->Outwards(x);
+  }
+  Row closest = x, normal = Row::Zero();
+  vtkIdType cell = -1;
+  int part = 0;
+  double squared = 0;
+  this->Locator->FindClosestPoint(x.data(), closest.data(), cell, part, squared);
+  if (cell >= 0)
+  {
+    vtkNew<vtkIdList> corners;
+    this->Locator->GetDataSet()->GetCellPoints(cell, corners);
+    vtkPolygon::ComputeNormal(vtkPolyData::SafeDownCast(this->Locator->GetDataSet())->GetPoints(),
+      static_cast<int>(corners->GetNumberOfIds()), corners->GetPointer(0), normal.data());
+  }
+  return normal;
 }
 
 Row SurfaceShape::Outwards(const Row& x) const

@@ -35,6 +35,8 @@ public:
   Row Outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.
   Row Closest(const Row& x) const;
+  /// The unit normal of the shape at its point nearest to `x`, either way; zero where it has none.
+  Row Normal(const Row& x) const;
   double Distance(const Row& x) const { return (this->Closest(x) - x).norm(); }
 
 private:

@@ -229,6 +229,25 @@ const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surf
   return *this->Shapes[surface];
 }
 
+Eigen::RowVector3d Surroundings::Closest(
+  const BoundaryModel& model, const std::vector<Index>& surfaces, const Eigen::RowVector3d& from)
+{
+  Eigen::RowVector3d x = from;
+  for (int round = 0; round < (surfaces.size() > 1 ? 100 : 1); ++round)
+  {
+    const Eigen::RowVector3d before = x;
+    for (const Index s : surfaces)
+    {
+      x = this->ShapeOf(model, s).Closest(x);
+    }
+    if (x == before)
+    {
+      break;
+    }
+  }
+  return x;
+}
+
 std::vector<Index> Surroundings::AbleToSlide(const BoundaryModel& model,
   const std::vector<Index>& surfaces, const Result& result, morph::Monitor& monitor)
 {
@@ -284,21 +303,7 @@ void Surroundings::Slide(const BoundaryModel& model, const std::vector<Index>& s
   }
   for (const auto& [node, on] : surfacesOf)
   {
-    // A node of several surfaces: alternating projections end where they meet.
-    Eigen::RowVector3d x = result.Moved.row(node);
-    for (int round = 0; round < (on.size() > 1 ? 100 : 1); ++round)
-    {
-      const Eigen::RowVector3d before = x;
-      for (const Index s : on)
-      {
-        x = this->ShapeOf(model, s).Closest(x);
-      }
-      if (x == before)
-      {
-        break;
-      }
-    }
-    result.Moved.row(node) = x;
+    result.Moved.row(node) = this->Closest(model, on, result.Moved.row(node));
   }
 }
 

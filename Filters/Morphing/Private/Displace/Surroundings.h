@@ -79,6 +79,13 @@ public:
     return this->Spread(model, choice, targets, options, monitor, Result());
   }
 
+  /// The undeformed shape of a surface of the geometry, by its number; kept with the boundary.
+  const SurfaceShape& ShapeOf(const BoundaryModel& model, morph::Index surface);
+  /// The point of these surfaces near `x`: the nearest one of a single surface. Of several it is
+  /// where they meet, by alternating projections.
+  Eigen::RowVector3d Closest(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
+    const Eigen::RowVector3d& x);
+
   /// How often weights were computed so far, those of a surface or of the falloff.
   int PrepareCount() const;
 
@@ -97,7 +104,6 @@ private:
   void Fade(const BoundaryModel& model, const Choice::Result& choice, const morph::Points& targets,
     double radius, Result& result, morph::Monitor& monitor);
 
-  const SurfaceShape& ShapeOf(const BoundaryModel& model, morph::Index surface);
   /// Surfaces along which the others' motion lets them slide; warns of those that leave theirs.
   std::vector<morph::Index> AbleToSlide(const BoundaryModel& model,
     const std::vector<morph::Index>& surfaces, const Result& result, morph::Monitor& monitor);

@@ -21,6 +21,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataObjectTree.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkPointData.h>
@@ -363,6 +364,14 @@ std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstru
   output->ShallowCopy(this->Morph->GetOutput(0));
   badCells->ShallowCopy(this->Morph->GetOutput(1));
   surface->ShallowCopy(this->Morph->GetOutputDataObject(2));
+  for (const char* name : { "SlideChange", "SlideForce" })
+  {
+    if (vtkDataArray* ofRounds = this->Displacement->GetOutput()->GetFieldData()->GetArray(name))
+    {
+      output->GetFieldData()->AddArray(ofRounds);
+    }
+  }
+  this->SlideReport = this->Displacement->GetSlideReport();
   this->TakeResults();
   this->WriteDistances(output);
   return follower.Errors().empty() ? std::string() : follower.Errors().front();

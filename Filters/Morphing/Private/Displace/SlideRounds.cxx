@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/SlideRounds.h"
+
+#include "Mesh/Polyhedra.h"
+#include "Private/Displace/InnerNodes.h"
+#include "Support/Error.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Index;
+using Row = Eigen::RowVector3d;
+using Surfaces = std::vector<Index>;
+
+constexpr const char* ChangeName = "SlideChange";
+constexpr const char* ForceName = "SlideForce";
+/// Of the angle between two surfaces: below it they are one where a node slides.
+constexpr double LeastSine = 1e-3;
+
+/// The surfaces of each node that slides, by node id.
+std::map<Index, Surfaces> slidingNodes(const BoundaryModel& model, const std::vector<Index>& held,
+  const Surfaces& sliding, const Surroundings::Result& result)
+{
+  std::map<Index, Surfaces> nodes;
+  const auto& surfaces = model.Geometry().surfaces;
+  for (const Index s : sliding)
+  {
+    for (const Index node : surfaces[s].nodes)
+    {
+      const signed char role = result.Roles[node];
+      if (role == Surroundings::Stays || role == Surroundings::Follows ||
+          role == Surroundings::IsHeld) // vertices, and surfaces that nothing touches
+      {
+        nodes[node].push_back(s);
+      }
+    }
+  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    if (!std::binary_search(sliding.begin(), sliding.end(), static_cast<Index>(s)))
+    {
+      for (const Index node : surfaces[s].nodes)
+      {
+        nodes.erase(node);
+      }
+    }
+  }
+  for (const Index node : held)
+  {
+    nodes.erase(node);
+  }
+  return nodes;
+}
+
+/// The projection onto the directions along all surfaces at `x`.
+Eigen::Matrix3d directionsAt(
+  const BoundaryModel& model, const Surfaces& surfaces, Surroundings& shapes, const Row& x)
+{
+  Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
+  for (const Index s : surfaces)
+  {
+    const Eigen::Vector3d across = free * shapes.ShapeOf(model, s).Normal(x).transpose();
+    if (across.norm() > LeastSine)
+    {
+      const Eigen::Vector3d unit = across.normalized();
+      free -= unit * unit.transpose();
+    }
+  }
+  // Three surfaces that meet leave rounding.
+  return free.trace() < 0.5 ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : free;
+}
+
+/// Moves mid-side and face nodes that slide by what their corners have moved since `before`.
+void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sliding,
+  const morph::Points& before, Surroundings& shapes, morph::Points& moved)
+{
+  const morph::BoundaryFaces& faces = model.Faces();
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const auto k = static_cast<Index>(i);
+    const Index *begin = faces.between.begin(k), *end = faces.between.end(k);
+    const auto found = sliding.find(faces.nodes[i]);
+    if (begin == end || found == sliding.end())
+    {
+      continue;
+    }
+    Row sum = Row::Zero();
+    for (const Index* corner = begin; corner != end; ++corner)
+    {
+      sum += moved.row(*corner) - before.row(*corner);
+    }
+    if (!sum.isZero(0))
+    {
+      moved.row(found->first) = shapes.Closest(
+        model, found->second, before.row(found->first) + sum / static_cast<double>(end - begin));
+    }
+  }
+}
+}
+
+void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held,
+  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes,
+  Surroundings::Result& result, morph::Monitor& monitor)
+{
+  this->Rounds.clear();
+  if (surfaces.empty())
+  {
+    monitor.warn("SlideRounds has no effect: no surface is named that slides.");
+    return;
+  }
+  const morph::Mesh& mesh = model.Mesh();
+  if (mesh.numberOfCells() == 0)
+  {
+    throw morph::Error("SlideRounds needs the mesh's cells, and the input is a surface. Give the "
+                       "volume mesh to this filter, or set SlideRounds to 0.");
+  }
+  if (morph::hasPolyhedra(mesh))
+  {
+    throw morph::Error("SlideRounds does not know polyhedra, and the mesh has some. Set it to 0.");
+  }
+  const std::map<Index, Surfaces> sliding = slidingNodes(model, held, surfaces, result);
+  std::vector<Index> nodes, prescribed;
+  for (const auto& [node, on] : sliding)
+  {
+    nodes.push_back(node);
+  }
+  for (const Index node : InnerNodes::Prescribed(model, result))
+  {
+    if (sliding.count(node) == 0)
+    {
+      prescribed.push_back(node);
+    }
+  }
+  if (!this->Method || this->MethodVersion != model.InputVersion() || nodes != this->Sliding ||
+      prescribed != this->Prescribed)
+  {
+    this->Method = nullptr; // in case it throws
+    auto method = std::make_unique<morph::SlidingWarp>();
+    method->prepare(mesh, prescribed, nodes, monitor);
+    this->Method = std::move(method);
+    this->MethodVersion = model.InputVersion();
+    this->Sliding = nodes;
+    this->Prescribed = prescribed;
+  }
+  const auto surfacesOf = [&](Index i) -> const Surfaces&
+  { return sliding.at(this->Method->slidingNodes()[static_cast<std::size_t>(i)]); };
+  const morph::SlidingWarp::Surfaces along = { [&](Index i, const Row& x)
+    { return directionsAt(model, surfacesOf(i), shapes, x); },
+    [&](Index i, const Row& x) { return shapes.Closest(model, surfacesOf(i), x); } };
+  const morph::Points before = result.Moved;
+  this->Rounds = this->Method->slide(along, rounds, result.Moved, monitor);
+  moveBetween(model, sliding, before, shapes, result.Moved);
+  for (const Index node : nodes)
+  {
+    if (result.Moved.row(node) != before.row(node))
+    {
+      result.Roles[node] = Surroundings::Follows;
+    }
+  }
+}
+
+void SlideRounds::Write(double size, vtkFieldData* data) const
+{
+  vtkNew<vtkDoubleArray> change, force;
+  change->SetName(ChangeName);
+  force->SetName(ForceName);
+  for (const morph::SlidingWarp::Round& round : this->Rounds)
+  {
+    change->InsertNextValue(round.change / size);
+    force->InsertNextValue(round.force);
+  }
+  data->AddArray(change);
+  data->AddArray(force);
+}
+
+std::string SlideRounds::Report(double size) const
+{
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t i = 0; i < this->Rounds.size(); ++i)
+  {
+    text << (i > 0 ? "; " : "") << "round " << i + 1 << ": moved by "
+         << this->Rounds[i].change / size << " of the size, force left " << this->Rounds[i].force;
+  }
+  return this->Rounds.empty() ? "None" : text.str();
+}
+}

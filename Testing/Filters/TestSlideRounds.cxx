@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SlideRounds: surfaces that slide, iterated with the volume.
+#include "DisplacedBoundaries.h"
+
+#include "../Core/Meshes.h"
+#include "../Core/PolyhedralMeshes.h"
+#include "vtkFEMWarpMorph.h"
+#include "vtkMorphMesh.h"
+
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+using grids::Row;
+using morph::Index;
+using morph::Points;
+
+namespace
+{
+constexpr int Side = 6;
+
+bool isAt(double value, double wanted)
+{
+  return std::abs(value - wanted) < 1e-9;
+}
+
+/// Where the bottom z = 0 of the block goes: nowhere at its outer edges, and symmetric to x = 0.
+Row push(const Row& x)
+{
+  const double s = (Side - std::abs(x[0])) * (Side - std::abs(x[1])) / (Side * Side);
+  return isAt(x[2], 0) ? Row(0.3 * s * x[0], 0, s) : Row(0, 0, 0);
+}
+
+void addPush(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkDoubleArray> by, bottom;
+  by->SetName("Push");
+  by->SetNumberOfComponents(3);
+  bottom->SetName("Bottom");
+  const Points points = grids::points(grid);
+  for (Index n = 0; n < points.rows(); ++n)
+  {
+    const Row u = push(points.row(n));
+    by->InsertNextTuple3(u[0], u[1], u[2]);
+    bottom->InsertNextValue(isAt(points(n, 2), 0));
+  }
+  grid->GetPointData()->AddArray(by);
+  grid->GetPointData()->AddArray(bottom);
+}
+
+void configure(vtkMorphMesh* filter, vtkUnstructuredGrid* grid)
+{
+  addPush(grid);
+  filter->SetInputData(grid);
+  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMovingArray("Bottom");
+  filter->SetDisplacementToArray();
+  filter->SetDisplacementArray("Push");
+  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
+  filter->SetValidity(0);
+  vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
+}
+
+std::vector<double> ofRounds(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  std::vector<double> values;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    values.push_back(array->GetComponent(i, 0));
+  }
+  return values;
+}
+
+std::string surface(vtkUnstructuredGrid* grid, const std::function<bool(const Row&)>& is)
+{
+  auto filter = displaced::make(grid);
+  return displaced::surfaceName(filter, is);
+}
+
+bool onPlane(const Row& x)
+{
+  return isAt(x[0], 0);
+}
+
+/// A quarter of a pipe about the z axis, of radius 1 to 2 and length 3, in hexahedra.
+morph::Mesh quarterPipe()
+{
+  morph::Mesh mesh = meshes::hexes(4, 8, 8);
+  meshes::transform(mesh,
+    [](const Row& x)
+    {
+      const double r = 1 + x[0] / 4, phi = M_PI / 2 * x[1] / 8;
+      return Row(r * std::cos(phi), r * std::sin(phi), 3 * x[2] / 8);
+    });
+  return mesh;
+}
+}
+
+TEST(SlideRounds, APlaneOfSymmetryGivesHalfOfTheWholeMesh)
+{
+  morph::Mesh half = meshes::hexes(Side, Side, Side), whole = meshes::hexes(2 * Side, Side, Side);
+  meshes::transform(whole, [](const Row& x) { return Row(x[0] - Side, x[1], x[2]); });
+  auto grid = grids::make(half), both = grids::make(whole);
+  vtkNew<vtkMorphMesh> filter, expected;
+  configure(expected, both);
+  expected->Update();
+  std::map<std::array<double, 3>, Row> placeOf;
+  const Points rest = grids::points(both), wanted = grids::points(expected->GetOutput());
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    placeOf[{ rest(n, 0), rest(n, 1), rest(n, 2) }] = wanted.row(n);
+  }
+
+  configure(filter, grid);
+  filter->AddSlidingSurface(surface(grid, onPlane).c_str());
+  const Points from = grids::points(grid);
+  double errors[2] = { 0, 0 };
+  for (const int rounds : { 0, 3 })
+  {
+    filter->SetSlideRounds(rounds);
+    grids::Listener listener(filter);
+    filter->Update();
+    ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+    const Points moved = grids::points(filter->GetOutput());
+    for (Index n = 0; n < from.rows(); ++n)
+    {
+      const Row to = placeOf.at({ from(n, 0), from(n, 1), from(n, 2) });
+      errors[rounds > 0] = std::max(errors[rounds > 0], (moved.row(n) - to).norm());
+      EXPECT_TRUE(!onPlane(from.row(n)) || std::abs(moved(n, 0)) < 1e-12) << moved(n, 0);
+    }
+  }
+  EXPECT_GT(errors[0], 0.1); // the plane stays
+  EXPECT_LT(errors[1], 1e-8);
+  const std::vector<double> force = ofRounds(filter->GetOutput(), "SlideForce");
+  const std::vector<double> change = ofRounds(filter->GetOutput(), "SlideChange");
+  ASSERT_FALSE(force.empty());
+  ASSERT_EQ(change.size(), force.size());
+  EXPECT_LT(force[0], 1e-7);
+  EXPECT_GT(change[0], 0.01);
+  EXPECT_NE(std::string(filter->GetSlideReport()).find("round 1: moved by 0."), std::string::npos)
+    << filter->GetSlideReport();
+  filter->SetSlideRounds(0);
+  filter->Update();
+  EXPECT_STREQ(filter->GetSlideReport(), "None");
+}
+
+TEST(SlideRounds, NodesStayOnACylinderAndTheForceFalls)
+{
+  auto grid = grids::make(quarterPipe());
+  // One end turns and stretches radially by nothing: its nodes stay on the cylinders.
+  vtkNew<vtkDoubleArray> by, end;
+  by->SetName("Push");
+  by->SetNumberOfComponents(3);
+  end->SetName("Bottom");
+  const Points rest = grids::points(grid);
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    const double r = std::hypot(rest(n, 0), rest(n, 1));
+    const double phi = std::atan2(rest(n, 1), rest(n, 0));
+    const double to = phi + 0.25 * std::sin(2 * phi);
+    const bool moves = isAt(rest(n, 2), 0);
+    end->InsertNextValue(moves);
+    by->InsertNextTuple3(moves ? r * std::cos(to) - rest(n, 0) : 0,
+      moves ? r * std::sin(to) - rest(n, 1) : 0, moves ? 0.2 : 0);
+  }
+  grid->GetPointData()->AddArray(by);
+  grid->GetPointData()->AddArray(end);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMovingArray("Bottom");
+  filter->SetDisplacementToArray();
+  filter->SetDisplacementArray("Push");
+  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
+  filter->SetValidity(0);
+  const auto radius = [](const Row& x) { return std::hypot(x[0], x[1]); };
+  for (const double r : { 1., 2. })
+  {
+    filter->AddSlidingSurface(
+      surface(grid, [&](const Row& x) { return isAt(radius(x), r); }).c_str());
+  }
+  for (const int c : { 0, 1 })
+  {
+    filter->AddSlidingSurface(surface(grid, [&](const Row& x) { return isAt(x[c], 0); }).c_str());
+  }
+  filter->SetSlideRounds(3);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const Points moved = grids::points(filter->GetOutput());
+  double slid = 0;
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    for (const double r : { 1., 2. })
+    {
+      EXPECT_TRUE(!isAt(radius(rest.row(n)), r) || std::abs(radius(moved.row(n)) - r) < 1e-11)
+        << radius(moved.row(n));
+    }
+    for (const int c : { 0, 1 })
+    {
+      EXPECT_TRUE(!isAt(rest(n, c), 0) || std::abs(moved(n, c)) < 1e-11) << moved(n, c);
+    }
+    slid = isAt(rest(n, 2), 0) ? slid : std::max(slid, (moved.row(n) - rest.row(n)).norm());
+  }
+  EXPECT_GT(slid, 0.1);
+  const std::vector<double> force = ofRounds(filter->GetOutput(), "SlideForce");
+  const std::vector<double> change = ofRounds(filter->GetOutput(), "SlideChange");
+  ASSERT_EQ(force.size(), 3u) << filter->GetSlideReport();
+  for (std::size_t i = 0; i < force.size(); ++i)
+  {
+    EXPECT_LT(force[i], i > 0 ? force[i - 1] : 1);
+    EXPECT_TRUE(i == 0 || change[i] < change[i - 1]);
+  }
+  EXPECT_LT(force[2], 1e-2) << filter->GetSlideReport();
+}
+
+TEST(SlideRounds, MidSideNodesStayInThePlaneWithTheirCorners)
+{
+  auto grid = grids::make(meshes::quadraticHexes(Side, Side, Side, false));
+  vtkNew<vtkMorphMesh> filter;
+  configure(filter, grid);
+  filter->AddSlidingSurface(surface(grid, onPlane).c_str());
+  filter->SetSlideRounds(2);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
+  int midSides = 0;
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    if (onPlane(rest.row(n)))
+    {
+      EXPECT_LT(std::abs(moved(n, 0)), 1e-12);
+      const bool isMidSide = std::floor(rest(n, 1)) != rest(n, 1);
+      midSides += isMidSide && isAt(rest(n, 2), 1) && moved(n, 2) > rest(n, 2) + 0.05;
+    }
+  }
+  EXPECT_GT(midSides, 3);
+}
+
+TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
+{
+  auto grid = grids::make(meshes::hexes(3, 3, 3));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(surface(grid, [](const Row& x) { return isAt(x[2], 0); }).c_str());
+  filter->AddSlidingPatch(surface(grid, onPlane).c_str());
+  filter->SetSlideRounds(3);
+  filter->Update();
+  EXPECT_STREQ(filter->GetSlideReport(), "None");
+  EXPECT_TRUE(grids::points(filter->GetOutput()) == displaced::restPositions(filter->GetOutput()));
+}
+
+TEST(SlideRounds, RefusesWhatItDoesNotKnow)
+{
+  auto grid = grids::make(meshes::hexes(3, 3, 3));
+  const std::string bottom = surface(grid, [](const Row& x) { return isAt(x[2], 0); });
+  const std::string side = surface(grid, onPlane);
+  const auto message = [&](vtkDataObject* input, bool slides)
+  {
+    auto filter = displaced::make(input);
+    filter->SetMovingToPatches();
+    filter->AddPatch(bottom.c_str());
+    filter->SetMotionToVector();
+    filter->SetVector(0, 0, 0.1);
+    if (slides)
+    {
+      filter->AddSlidingPatch(side.c_str());
+    }
+    filter->SetSlideRounds(3);
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_EQ(listener.Errors.size() + listener.Warnings.size(), 1u);
+    return listener.Errors.empty() ? listener.Warnings.at(0) : listener.Errors.at(0);
+  };
+  EXPECT_NE(message(grid, false).find("no surface is named that slides"), std::string::npos);
+  auto boundary = displaced::make(grid);
+  boundary->SetMovingToNothing();
+  boundary->Update();
+  EXPECT_NE(message(boundary->GetOutput(), true).find("the input is a surface"), std::string::npos);
+  EXPECT_NE(message(grids::make(meshes::asPolyhedra(meshes::hexes(3, 3, 3))), true)
+              .find("does not know polyhedra"),
+    std::string::npos);
+}
