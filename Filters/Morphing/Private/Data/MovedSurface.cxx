@@ -57,8 +57,9 @@ void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
 }
 
-void MovedSurface::SetFeatureLines(
-  bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces)
+void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,
+  const morph::BoundaryFaces& faces,
+  const std::function<bool(const std::vector<morph::Index>& cells)>& isDrawn)
 {
   if (on == (this->Lines != nullptr))
   {
@@ -79,7 +80,13 @@ void MovedSurface::SetFeatureLines(
     }
     for (morph::Index edge = 0; edge < edges.count(); ++edge)
     {
-      if (isFeature[edge])
+      std::vector<morph::Index> cells;
+      for (const morph::Index* face = edges.faces.begin(edge); face != edges.faces.end(edge);
+           ++face)
+      {
+        cells.push_back(faces.cells[*face]);
+      }
+      if (isFeature[edge] && (!isDrawn || isDrawn(cells)))
       {
         lines->InsertNextCell({ number[edges.nodes[edge][0]], number[edges.nodes[edge][1]] });
       }

@@ -8,6 +8,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <functional>
 #include <vector>
 
 class vtkCellArray;
@@ -29,8 +30,11 @@ public:
     const std::vector<std::int8_t>* orientation = nullptr);
   /// Adds lines along the edges at which the undeformed faces turn by more than 25 degrees, or not
   /// exactly two faces meet; or takes them away. `mesh`, `faces`: those of Make(). Cost: where they
-  /// were not there, a sort of the faces' edges.
-  void SetFeatureLines(bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces);
+  /// were not there, a sort of the faces' edges. `isDrawn`: null, or for a part of a mesh whether
+  /// it draws an edge, from the cells at the edge; `faces` may then have others of the mesh, too.
+  void SetFeatureLines(bool on, const morph::Mesh& mesh, const morph::BoundaryFaces& faces,
+    const std::function<bool(const std::vector<morph::Index>& cells)>& isDrawn = nullptr);
+  bool HasFeatureLines() const { return this->Lines != nullptr; }
   /// The cells behind the faces, ascending.
   const std::vector<morph::Index>& OuterCells() const { return this->Outer; }
 

@@ -138,6 +138,26 @@ bool RankMesh::Take(
   return true;
 }
 
+void RankMesh::SetFeatureLines(bool on, morph::Monitor& monitor)
+{
+  const morph::distributed::DistributedMesh& whole = *this->Distributed;
+  const auto isBefore = [&](morph::Index a, morph::Index b)
+  { return whole.cellId(a) < whole.cellId(b); };
+  // The lowest cell at an edge is known where any is: all cells around the piece's nodes are here.
+  const auto isDrawn = [&](const std::vector<morph::Index>& cells)
+  { return whole.isGhost()[*std::min_element(cells.begin(), cells.end(), isBefore)] == 0; };
+  this->Processes.together(
+    [&]
+    {
+      if (on != this->Polygons.HasFeatureLines())
+      {
+        const morph::BoundaryFaces faces =
+          on ? morph::boundaryFaces(whole.mesh(), monitor) : morph::BoundaryFaces();
+        this->Polygons.SetFeatureLines(on, whole.mesh(), faces, isDrawn);
+      }
+    });
+}
+
 void RankMesh::RequireVolumeCells() const
 {
   if (this->Distributed->volumeCells() == 0)

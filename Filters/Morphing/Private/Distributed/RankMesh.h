@@ -32,6 +32,8 @@ public:
   /// processes for a mesh that cannot be read. `layers`: of ghost cells.
   bool Take(
     vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
+  /// Adds lines to Surface(), or takes them away; see MovedSurface. Each line is on one process.
+  void SetFeatureLines(bool on, morph::Monitor& monitor);
   /// Throws morph::Error on all processes unless the mesh can be morphed.
   void RequireVolumeCells() const;
 

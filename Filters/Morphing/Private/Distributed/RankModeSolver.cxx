@@ -43,13 +43,9 @@ public:
     }
     return isTaken;
   }
-  void SetFeatureLines(bool on) override
+  void SetFeatureLines(bool on, morph::Monitor& monitor) override
   {
-    if (on)
-    {
-      throw morph::Error("FeatureLines of vtkMorphShapes needs one MPI rank, and the mesh is "
-                         "distributed over several. Run on one, or switch it off.");
-    }
+    this->Pieces.SetFeatureLines(on, monitor);
   }
   const morph::Mesh& Mesh() const override { return this->Pieces.Whole().mesh(); }
   morph::Index GridNodes() const override { return this->Pieces.Whole().pieceNodes(); }

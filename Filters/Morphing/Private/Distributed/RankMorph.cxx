@@ -45,7 +45,7 @@ double secondsSince(Clock::time_point start)
 }
 
 /// Throws for what is not done on several ranks, the same on all of them.
-void requireAvailable(const Morphing::Task& task, const Session::Options& options)
+void requireAvailable(const Session::Options& options)
 {
   const auto refuse = [&](const std::string& what)
   {
@@ -56,10 +56,6 @@ void requireAvailable(const Morphing::Task& task, const Session::Options& option
   if (options.PostSmooth)
   {
     refuse("PostSmooth");
-  }
-  if (task.FeatureLines)
-  {
-    refuse("FeatureLines");
   }
 }
 }
@@ -390,8 +386,9 @@ std::string Morphing::Run(
   const Task& task, const Session::Options& options, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
-  requireAvailable(task, options);
+  requireAvailable(options);
   own.Take(task.Grid, options, monitor);
+  own.Mesh.SetFeatureLines(task.FeatureLines, monitor);
   morph::ProgressRange morphing(monitor, 0.02, 0.9), writing(monitor, 0.9, 1);
   std::shared_ptr<const StepResult> step;
   if (task.Series)

@@ -36,7 +36,7 @@ public:
   virtual bool Take(
     vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) = 0;
   /// See KeptMesh. After Take().
-  virtual void SetFeatureLines(bool on) = 0;
+  virtual void SetFeatureLines(bool on, morph::Monitor& monitor) = 0;
 
   /// The mesh of this process. Of a piece, nodes and cells of other processes come behind its own.
   virtual const morph::Mesh& Mesh() const = 0;

@@ -212,7 +212,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   {
     this->SolvedFrom = {};
   }
-  this->Modes.SetFeatureLines(this->Filter->FeatureLines);
+  this->Modes.SetFeatureLines(this->Filter->FeatureLines, monitor);
   this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);

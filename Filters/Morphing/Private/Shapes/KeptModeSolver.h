@@ -12,7 +12,7 @@ class KeptModeSolver : public ModeSolver
 public:
   bool Take(
     vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) override;
-  void SetFeatureLines(bool on) override { this->Kept.SetFeatureLines(on); }
+  void SetFeatureLines(bool on, morph::Monitor&) override { this->Kept.SetFeatureLines(on); }
   const morph::Mesh& Mesh() const override { return this->Kept.Mesh(); }
   morph::Index GridNodes() const override { return this->Kept.Mesh().numberOfNodes(); }
   const std::vector<std::int8_t>& Orientation() const override { return this->Kept.Orientation(); }

@@ -64,7 +64,10 @@ public:
   const morph::Mesh& Mesh() const { return this->Solver->Mesh(); }
   const std::vector<std::int8_t>& Orientation() const { return this->Solver->Orientation(); }
   /// See KeptMesh. After SetGrid().
-  void SetFeatureLines(bool on) { this->Solver->SetFeatureLines(on); }
+  void SetFeatureLines(bool on, morph::Monitor& monitor)
+  {
+    this->Solver->SetFeatureLines(on, monitor);
+  }
 
   /// Solves for the displacement fields of shapes that are not kept, and forgets others. A node
   /// that any shape names is prescribed; in shapes that do not name it, it stays. Throws
