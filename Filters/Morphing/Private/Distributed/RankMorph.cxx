@@ -4,6 +4,7 @@
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
 #include "Distributed/Patches.h"
+#include "Distributed/SmoothMesh.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
@@ -44,6 +45,20 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Smooths towards the undeformed shapes; returns the steps, 0 where the mesh stays. See Session.
+morph::Index smoothAfterwards(const DistributedMesh& mesh, const morph::Points& rest,
+  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  morph::SmoothingOptions options;
+  options.target = morph::SmoothingTarget::Initial;
+  options.iterationLimit = iterationLimit;
+  options.neverWorse = true;
+  const morph::SmoothingReport report =
+    morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+}
+
 /// Throws for what is not done on several ranks, the same on all of them.
 void requireAvailable(const Morphing::Task& task, const Session::Options& options)
 {
@@ -53,10 +68,6 @@ void requireAvailable(const Morphing::Task& task, const Session::Options& option
                        " needs one MPI rank, and the mesh is distributed over several. Run on "
                        "one, or choose another setting.");
   };
-  if (options.PostSmooth)
-  {
-    refuse("PostSmooth");
-  }
   if (task.FeatureLines)
   {
     refuse("FeatureLines");
@@ -257,7 +268,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     morph::distributed::repairInverted(
       whole, this->Mesh.Whole().mesh().points, partition, result.Moved, evaluating);
   }
-  double seconds = secondsSince(start);
+  result.Statistics = report.statistics;
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
   ranks.together(
     [&]
@@ -270,6 +281,13 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
           ". Check the boundary for huge values, and the mesh for cells without volume.");
       }
     });
+  if (options.PostSmooth)
+  {
+    result.Statistics.push_back(
+      { "PostSmoothSteps", smoothAfterwards(whole, this->Mesh.Whole().mesh().points, partition,
+                             options.PostSmoothIterations, result.Moved, evaluating) });
+  }
+  double seconds = secondsSince(start);
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
@@ -299,7 +317,6 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     result.BoundaryInverted = 0;
   }
   result.Iterations = report.iterations;
-  result.Statistics = report.statistics;
   morph::Index prescribed = 0;
   for (const morph::Index node : match.Ids)
   {
