@@ -7,6 +7,7 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkFieldData.h>
 #include <vtkInversionFreeMorph.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -201,6 +202,35 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     {
       std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second << "\n";
     }
+  }
+}
+
+TEST(RankSteps, PostSmoothIsAsGoodAsOnOneRank)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh whole = block();
+  const auto run = [&](vtkUnstructuredGrid* grid)
+  {
+    vtkNew<vtkFEMWarpMorph> filter;
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(grids::boundary(grid, waves));
+    filter->PostSmoothOn();
+    filter->Update();
+    vtkDataArray* steps = filter->GetOutput()->GetFieldData()->GetArray("PostSmoothSteps");
+    return std::pair(
+      std::string(filter->GetMorphStatus()) + (steps && steps->GetComponent(0, 0) > 0 ? " +" : ""),
+      filter->GetMinScaledJacobian());
+  };
+  std::pair<std::string, double> serial;
+  rank_grids::alone([&] { serial = run(grids::make(whole)); });
+  const auto mine = run(rank_grids::piece(ranks, whole));
+  EXPECT_EQ(serial.first, "Valid +"); // FEMWARP alone inverts cells
+  EXPECT_EQ(mine.first, serial.first);
+  EXPECT_GT(mine.second, 0.99 * serial.second);
+  if (ranks.rank() == 0)
+  {
+    std::cout << serial.first << ": minimum " << mine.second << ", on one rank " << serial.second
+              << "\n";
   }
 }
 

@@ -15,7 +15,7 @@ namespace
 constexpr double LeastVolume = 1e-3; // of the mean cell's
 
 /// Returns the volume of each volume cell, 0 for other cells. Nearly flat cells get the mean.
-std::vector<double> volumes(const Mesh& rest)
+std::vector<double> volumes(const Mesh& rest, const Communicator& communicator)
 {
   std::vector<double> result(rest.numberOfCells(), 0);
   double sum = 0;
@@ -32,6 +32,8 @@ std::vector<double> volumes(const Mesh& rest)
       ++count;
     }
   }
+  sum = communicator.sum(sum);
+  count = communicator.sum(count);
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
@@ -44,9 +46,10 @@ std::vector<double> volumes(const Mesh& rest)
   return result;
 }
 
-TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation)
+TargetMatrices idealTargets(
+  const Mesh& rest, const std::vector<std::int8_t>& orientation, const Communicator& communicator)
 {
-  const std::vector<double> volume = volumes(rest);
+  const std::vector<double> volume = volumes(rest, communicator);
   TargetMatrices result;
   result.start.assign(1, 0);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
@@ -79,14 +82,14 @@ TargetMatrices idealTargets(const Mesh& rest, const std::vector<std::int8_t>& or
 }
 
 TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  SmoothingTarget target, Monitor& monitor)
+  SmoothingTarget target, Monitor& monitor, const Communicator& communicator)
 {
   if (target == SmoothingTarget::Ideal)
   {
-    return idealTargets(rest, orientation);
+    return idealTargets(rest, orientation, communicator);
   }
-  TargetMatrices result = targetMatrices(
-    rest, orientation, rest.points, TargetConstruction::Initial, CellWeights::Volume, monitor);
+  TargetMatrices result = targetMatrices(rest, orientation, rest.points,
+    TargetConstruction::Initial, CellWeights::Volume, monitor, communicator);
   for (TargetMatrices::Tetrahedron& tetrahedron : result.tetrahedra)
   {
     tetrahedron.theta = 0;

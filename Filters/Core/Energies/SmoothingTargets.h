@@ -18,5 +18,6 @@ enum class SmoothingTarget
 /// Ideal cell has the undeformed cell's volume, or the mean volume if that is nearly 0.
 /// `orientation`: #cells, see cellSigns() in Topology.h. Cost: as targetMatrices().
 TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  SmoothingTarget target, Monitor& monitor);
+  SmoothingTarget target, Monitor& monitor,
+  const Communicator& communicator = Communicator::alone());
 }

@@ -116,23 +116,24 @@ Tetrahedra tetrahedraOf(const CellBatches& batches, const TargetMatrices& target
     }
     result.first.push_back(static_cast<Index>(result.volumes.size()));
   }
-  result.count = std::max<Index>(1, result.count);
   return result;
 }
 }
 
-UntangleEnergy::UntangleEnergy(
-  const Mesh& mesh, const std::vector<Index>& free, const TargetMatrices& targets, double margin)
+UntangleEnergy::UntangleEnergy(const Mesh& mesh, const std::vector<Index>& free,
+  const TargetMatrices& targets, double margin, const Communicator& communicator)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_)
   , tetrahedra_(tetrahedraOf(this->batches_, targets, margin))
 {
+  this->share(communicator, this->free_);
+  this->tetrahedra_.count = std::max<Index>(1, communicator.sum(this->tetrahedra_.count));
 }
 
 Objective::Value UntangleEnergy::value(const Points& points, Monitor& monitor) const
 {
-  const auto sum =
-    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->tetrahedra_, points);
+  const double sum = this->communicator().sum(
+    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->tetrahedra_, points));
   return { 4 * sum / static_cast<double>(this->tetrahedra_.count), true };
 }
 
@@ -140,5 +141,6 @@ void UntangleEnergy::gradient(const Points& points, Points& result, Monitor& mon
 {
   gatherFromBatches<BatchGradient>(
     this->batches_, this->parts_, result, monitor, this->tetrahedra_, points);
+  this->rows().add(result);
 }
 }

@@ -21,8 +21,8 @@ class UntangleEnergy : public Objective
 public:
   /// `free`: ids of the nodes that move, ascending. `margin`: b, relative to the targets' volumes.
   /// Cost: passes over the cells; 8 bytes a tetrahedron and 50 a corner of a cell.
-  UntangleEnergy(
-    const Mesh& mesh, const std::vector<Index>& free, const TargetMatrices& targets, double margin);
+  UntangleEnergy(const Mesh& mesh, const std::vector<Index>& free, const TargetMatrices& targets,
+    double margin, const Communicator& communicator = Communicator::alone());
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
@@ -40,7 +40,7 @@ public:
     std::vector<Index> first{ 0 }; ///< #batches + 1
     std::vector<Volumes> volumes;
     double margin;
-    Index count = 0; ///< number of tetrahedra that are not left out
+    Index count = 0; ///< those that are not left out, of all processes
   };
 
 private:

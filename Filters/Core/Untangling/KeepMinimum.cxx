@@ -13,7 +13,7 @@ constexpr int Layers = 30;
 }
 
 Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points& start,
-  Points& points, const std::function<Quality(Points&)>& measure)
+  Points& points, const std::function<Quality(Points&)>& measure, const Communicator& communicator)
 {
   Points copy = start;
   const double minimum = measure(copy).minimum;
@@ -43,15 +43,18 @@ Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points
     {
       break;
     }
+    std::vector<Index> corners;
     for (Index c = 0; c < mesh.numberOfCells(); ++c)
     {
       // Cells that are not measured are NaN.
       if (quality.scaledJacobian[c] < minimum)
       {
-        std::for_each(
-          mesh.cell(c), mesh.cell(c) + cellShape(mesh.types[c])->numberOfCorners, takeBack);
+        corners.insert(
+          corners.end(), mesh.cell(c), mesh.cell(c) + cellShape(mesh.types[c])->numberOfCorners);
       }
     }
+    communicator.spread(corners);
+    std::for_each(corners.begin(), corners.end(), takeBack);
     if (layer == Layers)
     {
       std::for_each(free.begin(), free.end(), takeBack);

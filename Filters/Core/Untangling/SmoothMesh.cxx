@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace morph
 {
@@ -32,43 +34,47 @@ constexpr double LeastDecrease = 1e-6; // of the shape measure in a step, relati
 constexpr double Barrier = 1e-10;      // regularisation: only for rounding
 
 double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
-  Monitor& monitor)
+  Monitor& monitor, const Communicator& communicator)
 {
-  return reproducibleSum(mesh.numberOfCells(), monitor, 0.,
+  return communicator.sum(reproducibleSum(mesh.numberOfCells(), monitor, 0.,
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
       double x[8][3];
       copyCorners(mesh, c, shape, points, x[0]);
       return numberOfCorners(shape.shape) > 0 ? orientation[c] * signedVolume(shape.shape, x) : 0;
-    });
+    }));
 }
 
 /// Returns the mean edge length at each node; 0 if it has none.
-std::vector<double> edgeLengths(const Mesh& mesh, const Points& points)
+std::vector<double> edgeLengths(
+  const Mesh& mesh, const Points& points, const Communicator& communicator)
 {
-  std::vector<double> sum(mesh.numberOfNodes(), 0);
-  std::vector<Index> count(mesh.numberOfNodes(), 0);
+  Points sums = Points::Zero(mesh.numberOfNodes(), 3); // of lengths and edges
   forCellEdges(mesh,
     [&](Index a, Index b)
     {
       const double length = (points.row(a) - points.row(b)).norm();
       for (Index node : { a, b })
       {
-        sum[node] += length;
-        ++count[node];
+        sums(node, 0) += length;
+        ++sums(node, 1);
       }
     });
+  std::vector<Index> nodes(mesh.numberOfNodes());
+  std::iota(nodes.begin(), nodes.end(), Index(0));
+  communicator.rows(nodes)->add(sums);
+  std::vector<double> mean(mesh.numberOfNodes());
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)
   {
-    sum[n] /= static_cast<double>(std::max<Index>(1, count[n]));
+    mean[n] = sums(n, 0) / std::max(1., sums(n, 1));
   }
-  return sum;
+  return mean;
 }
 
 /// Returns the power of two that scales edges to a length near 1. So no number depends on the unit
 /// of length.
-double unitScale(const std::vector<double>& edgeLength)
+double unitScale(const std::vector<double>& edgeLength, const Communicator& communicator)
 {
   double sum = 0;
   Index count = 0;
@@ -77,26 +83,37 @@ double unitScale(const std::vector<double>& edgeLength)
     sum += length;
     count += length > 0;
   }
+  sum = communicator.sum(sum); // a node of several processes counts on each
+  count = communicator.sum(count);
   return sum > 0 ? std::exp2(-std::round(std::log2(sum / static_cast<double>(count)))) : 1;
+}
+
+/// Infinite without a measured cell.
+double minimumOf(const Quality& quality, const Communicator& communicator)
+{
+  return communicator.minimum(
+    quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
 }
 
 class Smoother
 {
 public:
   Smoother(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-    const std::vector<Index>& free, const SmoothingOptions& options, Monitor& monitor)
+    const std::vector<Index>& free, const SmoothingOptions& options, Monitor& monitor,
+    const Communicator& communicator)
     : mesh_(rest)
     , orientation_(orientation)
     , free_(free)
     , options_(options)
     , monitor_(monitor)
-    , targets_(smoothingTargets(rest, orientation, options.target, monitor))
+    , communicator_(communicator)
+    , targets_(smoothingTargets(rest, orientation, options.target, monitor, communicator))
   {
   }
 
   SmoothingReport run(Points& points)
   {
-    MeshEnergy energy(this->mesh_, this->free_);
+    MeshEnergy energy(this->mesh_, this->free_, this->communicator_);
     const bool isCondition = this->options_.objective == SmoothingObjective::ConditionNumber;
     this->prepare(energy, isCondition);
     if (!this->isValid(energy, points))
@@ -106,7 +123,7 @@ public:
     }
     if (this->isValid(energy, points))
     {
-      this->edgeLength_ = edgeLengths(this->mesh_, points);
+      this->edgeLength_ = edgeLengths(this->mesh_, points, this->communicator_);
       this->improvePatches(isCondition, points);
       this->monitor_.progress(0.5);
       this->improve(energy, this->options_.iterationLimit, points);
@@ -151,10 +168,11 @@ private:
   {
     // The boundary determines the volume: cells cannot be larger on average than it allows.
     const double ratio =
-      volume(this->mesh_, this->orientation_, points, this->monitor_) /
-      volume(this->mesh_, this->orientation_, this->mesh_.points, this->monitor_);
-    const UntangleEnergy tangle(
-      this->mesh_, this->free_, this->targets_, Margin * (ratio > 0 ? ratio : 1));
+      volume(this->mesh_, this->orientation_, points, this->monitor_, this->communicator_) /
+      volume(
+        this->mesh_, this->orientation_, this->mesh_.points, this->monitor_, this->communicator_);
+    const UntangleEnergy tangle(this->mesh_, this->free_, this->targets_,
+      Margin * (ratio > 0 ? ratio : 1), this->communicator_);
     MinimizerLimits limits;
     limits.slowDecrease = 0;
     MinimizerEffort effort;
@@ -208,7 +226,7 @@ private:
       most =
         std::max(most, (after.row(node) - before.row(node)).norm() / (length > 0 ? length : 1));
     }
-    return most;
+    return this->communicator_.maximum(most);
   }
 
   /// Returns the free nodes in rings of cells around these.
@@ -218,7 +236,8 @@ private:
     {
       this->around_ = nodeToCells(this->mesh_);
     }
-    return kRingOfCells(this->mesh_, this->around_, this->free_, cells, Rings).nodes;
+    return kRingOfCells(this->mesh_, this->around_, this->free_, cells, Rings, this->communicator_)
+      .nodes;
   }
 
   void improvePatches(bool isCondition, Points& points)
@@ -226,17 +245,19 @@ private:
     for (int round = 0; round < MostPatchRounds; ++round)
     {
       const std::vector<Index> bad = this->badCells(points);
-      if (bad.empty())
+      if (this->communicator_.all(bad.empty()))
       {
         return;
       }
       const std::vector<Index> patch = this->patchAround(bad);
-      if (patch.empty() ||
-          static_cast<double>(patch.size()) > MostOfMesh * static_cast<double>(this->free_.size()))
+      // A node of several processes counts on each.
+      const auto nodes = this->communicator_.sum(static_cast<double>(patch.size()));
+      if (nodes == 0 ||
+          nodes > MostOfMesh * this->communicator_.sum(static_cast<double>(this->free_.size())))
       {
         return;
       }
-      MeshEnergy energy(this->mesh_, patch);
+      MeshEnergy energy(this->mesh_, patch, this->communicator_);
       this->prepare(energy, isCondition);
       ++this->report_.patches;
       if (!this->improve(energy, PatchSteps, points))
@@ -254,19 +275,20 @@ private:
     {
       const std::vector<Index> bad = this->badCells(points);
       const std::vector<Index> patch = this->patchAround(bad);
-      if (bad.empty() || patch.empty())
+      if (this->communicator_.all(patch.empty()))
       {
         return;
       }
-      MeshEnergy energy(this->mesh_, patch);
+      MeshEnergy energy(this->mesh_, patch, this->communicator_);
       this->prepare(energy, true);
       ++this->report_.patches;
       Points trial = points;
       const bool isLower = this->improve(energy, steps, trial);
-      const Index back = keepMinimum(this->mesh_, patch, points, trial,
-        [this](const Points& measured) { return this->measure(measured); });
+      const Index back = keepMinimum(
+        this->mesh_, patch, points, trial,
+        [this](const Points& measured) { return this->measure(measured); }, this->communicator_);
       points.swap(trial);
-      if (!isLower || back > 0)
+      if (!isLower || !this->communicator_.all(back == 0))
       {
         return; // the next round would move the same nodes
       }
@@ -275,7 +297,9 @@ private:
 
   Quality measure(const Points& points) const
   {
-    return measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
+    Quality quality = measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
+    quality.minimum = minimumOf(quality, this->communicator_);
+    return quality;
   }
 
   std::vector<Index> badCells(const Points& points) const
@@ -297,6 +321,7 @@ private:
   const std::vector<Index>& free_;
   const SmoothingOptions& options_;
   Monitor& monitor_;
+  const Communicator& communicator_;
   const TargetMatrices targets_;
   std::vector<double> edgeLength_;
   Adjacency around_; ///< cells of each node, empty until needed
@@ -305,12 +330,13 @@ private:
 };
 
 bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& result,
-  const Points& start, Monitor& monitor)
+  const Points& start, Monitor& monitor, const Communicator& communicator)
 {
   const Quality after = measureQuality(mesh, result, orientation, {}, monitor);
   const Quality before = measureQuality(mesh, start, orientation, {}, monitor);
-  return after.inverted > before.inverted ||
-         (after.inverted == before.inverted && !(after.minimum >= before.minimum));
+  const Index more = communicator.sum(after.inverted - before.inverted);
+  const double now = minimumOf(after, communicator), then = minimumOf(before, communicator);
+  return more > 0 || (more == 0 && !(now >= then));
 }
 
 void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points)
@@ -331,13 +357,14 @@ void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& po
 }
 
 SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, const SmoothingOptions& options, Points& points, Monitor& monitor)
+  const NodePartition& partition, const SmoothingOptions& options, Points& points, Monitor& monitor,
+  const Communicator& communicator)
 {
-  const double scale = unitScale(edgeLengths(rest, rest.points));
+  const double scale = unitScale(edgeLengths(rest, rest.points, communicator), communicator);
   Mesh mesh = rest;
   mesh.points *= scale;
   Points result = points * scale;
-  Smoother smoother(mesh, orientation, partition.free, options, monitor);
+  Smoother smoother(mesh, orientation, partition.free, options, monitor, communicator);
   SmoothingReport report = smoother.run(result);
   monitor.check();
   result /= scale;
@@ -349,7 +376,8 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
     smoothed.row(node) = result.row(node);
   }
   carryFollowers(rest, partition, smoothed);
-  report.wasKept = options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor);
+  report.wasKept =
+    options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor, communicator);
   if (!report.wasKept)
   {
     points.swap(smoothed);

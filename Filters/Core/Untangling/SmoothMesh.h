@@ -4,6 +4,7 @@
 #include "Energies/SmoothingTargets.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -74,8 +75,8 @@ struct SmoothingReport
 /// start and result. Throws Error of kind Cancelled, leaving `points`. The result does not depend
 /// on threads, on numbering (up to rounding), position, rotation and scale. Cost: about 3
 /// microseconds a tetrahedron and Newton step (eight a hexahedron, ten with target Initial); about
-/// 2.5 kB a hexahedron.
+/// 2.5 kB a hexahedron. On several processes `rest` has the cells of this one.
 SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, const SmoothingOptions& options, Points& points,
-  Monitor& monitor);
+  const NodePartition& partition, const SmoothingOptions& options, Points& points, Monitor& monitor,
+  const Communicator& communicator = Communicator::alone());
 }

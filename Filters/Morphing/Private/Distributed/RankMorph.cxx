@@ -4,6 +4,7 @@
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
 #include "Distributed/Patches.h"
+#include "Distributed/SmoothMesh.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
@@ -44,19 +45,19 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Throws for what is not done on several ranks, the same on all of them.
-void requireAvailable(const Session::Options& options)
+/// Smooths towards the undeformed shapes; returns the steps, 0 where the mesh stays. See Session.
+morph::Index smoothAfterwards(const DistributedMesh& mesh, const morph::Points& rest,
+  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
 {
-  const auto refuse = [&](const std::string& what)
-  {
-    throw morph::Error(what + " of " + options.Method +
-                       " needs one MPI rank, and the mesh is distributed over several. Run on "
-                       "one, or choose another setting.");
-  };
-  if (options.PostSmooth)
-  {
-    refuse("PostSmooth");
-  }
+  morph::SmoothingOptions options;
+  options.target = morph::SmoothingTarget::Initial;
+  options.iterationLimit = iterationLimit;
+  options.neverWorse = true;
+  const morph::SmoothingReport report =
+    morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+}
 }
 }
 
@@ -253,7 +254,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     morph::distributed::repairInverted(
       whole, this->Mesh.Whole().mesh().points, partition, result.Moved, evaluating);
   }
-  double seconds = secondsSince(start);
+  result.Statistics = report.statistics;
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
   ranks.together(
     [&]
@@ -266,6 +267,13 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
           ". Check the boundary for huge values, and the mesh for cells without volume.");
       }
     });
+  if (options.PostSmooth)
+  {
+    result.Statistics.push_back(
+      { "PostSmoothSteps", smoothAfterwards(whole, this->Mesh.Whole().mesh().points, partition,
+                             options.PostSmoothIterations, result.Moved, evaluating) });
+  }
+  double seconds = secondsSince(start);
   if (options.MeasureAll)
   {
     result.Valid = validity.Ensure(result.Moved, checking);
@@ -295,7 +303,6 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     result.BoundaryInverted = 0;
   }
   result.Iterations = report.iterations;
-  result.Statistics = report.statistics;
   morph::Index prescribed = 0;
   for (const morph::Index node : match.Ids)
   {
@@ -386,7 +393,6 @@ std::string Morphing::Run(
   const Task& task, const Session::Options& options, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
-  requireAvailable(options);
   own.Take(task.Grid, options, monitor);
   own.Mesh.SetFeatureLines(task.FeatureLines, monitor);
   morph::ProgressRange morphing(monitor, 0.02, 0.9), writing(monitor, 0.9, 1);
