@@ -296,9 +296,12 @@ InversionFree::Outcome InversionFree::improve(
     {
       best = quality.measure(bestPoints, monitor);
     }
-    if (hasReached(best.minimum, goal) || best.minimum >= enough * this->minimumAtRest_)
+    // Tetrahedra aim for their undeformed shape, which costs much and rarely raises the minimum.
+    const bool isAtGoal = hasReached(best.minimum, goal);
+    if (isAtGoal || best.minimum >= enough * this->minimumAtRest_ ||
+        mostlyTetrahedra(this->referenceMesh_))
     {
-      if (best.minimum < enough * this->minimumAtRest_)
+      if (isAtGoal && best.minimum < enough * this->minimumAtRest_)
       {
         raiseNextWorst(quality, raised, bestPoints, monitor);
       }
