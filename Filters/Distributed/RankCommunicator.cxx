@@ -137,6 +137,13 @@ public:
         this->counts_[rows[r][i]] = mine[r][i];
       }
     }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if (this->counts_[i] == 0)
+      {
+        this->countedElsewhere_.push_back(static_cast<Index>(i));
+      }
+    }
   }
 
   void add(Points& rows) const override
@@ -178,6 +185,8 @@ public:
       [&](Index i) { return this->counts_[i] != 0 ? a.row(i).dot(b.row(i)) : 0.; }));
   }
 
+  const std::vector<Index>& countedElsewhere() const override { return this->countedElsewhere_; }
+
 private:
   static std::vector<std::vector<double>> buffers(const std::vector<std::vector<Index>>& lists)
   {
@@ -205,6 +214,7 @@ private:
 
   std::shared_ptr<RankCommunicator::Votes> votes_;
   std::vector<char> counts_;                       ///< #rows: whether it counts in dot()
+  std::vector<Index> countedElsewhere_;            ///< the rows that do not
   std::vector<int> owners_, others_;               ///< ranks
   std::vector<std::vector<Index>> rows_, slotsOf_; ///< for each owner, and for each other
   mutable std::vector<Slot> slots_;
@@ -242,6 +252,12 @@ void RankCommunicator::run(const std::function<void()>& work) const
 double RankCommunicator::sum(double value) const
 {
   return this->votes_->sum(value);
+}
+
+void RankCommunicator::sum(double* values, int count) const
+{
+  this->votes_->sum(0);
+  this->mesh_.ranks().sum(values, count);
 }
 
 double RankCommunicator::minimum(double value) const

@@ -26,6 +26,7 @@ public:
 
   double sum(double value) const override;
   double minimum(double value) const override;
+  void sum(double* values, int count) const override;
   using Communicator::sum;
   void spread(std::vector<Index>& nodes) const override;
   /// Cost: two messages for each neighbor of a rank, of 8 bytes a node that both have.

@@ -16,6 +16,12 @@ double CopiedRows::dot(const Points& a, const Points& b, Monitor& monitor) const
   return morph::dot(a, b, monitor);
 }
 
+const std::vector<Index>& CopiedRows::countedElsewhere() const
+{
+  static const std::vector<Index> none;
+  return none;
+}
+
 const CopiedRows& CopiedRows::alone()
 {
   static const CopiedRows instance;
@@ -32,6 +38,10 @@ double Communicator::sum(double value) const
 double Communicator::minimum(double value) const
 {
   return value;
+}
+
+void Communicator::sum(double*, int) const
+{
 }
 
 void Communicator::spread(std::vector<Index>&) const

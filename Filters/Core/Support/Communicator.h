@@ -19,6 +19,8 @@ public:
   virtual void add(Points& rows) const;
   /// Returns the sum of the products of all entries, in which the copies of a row count once.
   virtual double dot(const Points& a, const Points& b, Monitor& monitor) const;
+  /// Returns the rows that count on another process, ascending. Not collective.
+  virtual const std::vector<Index>& countedElsewhere() const;
 
   static const CopiedRows& alone();
 };
@@ -38,6 +40,8 @@ public:
   ///@{
   virtual double sum(double value) const;
   virtual double minimum(double value) const;
+  /// Each of `count` values.
+  virtual void sum(double* values, int count) const;
   /// For values below 2^53.
   Index sum(Index value) const { return static_cast<Index>(this->sum(static_cast<double>(value))); }
   double maximum(double value) const { return -this->minimum(-value); }
