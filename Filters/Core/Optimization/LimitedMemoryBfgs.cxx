@@ -64,66 +64,66 @@ using Numbers = std::array<double, Slots>; ///< one a slot
 struct Order
 {
   std::array<int, Slots> slot{};
-  /// Products of the gradient, and of the newest difference, with themselves and with the pairs.
-  struct Products
-  {
-    double gradient = 0;
-    Numbers stepGradient{}, differenceGradient{}, stepNewest{}, differenceNewest{};
-
-    Products& operator+=(const Products& other)
-    {
-      this->gradient += other.gradient;
-      for (int i = 0; i < Slots; ++i)
-      {
-        this->stepGradient[i] += other.stepGradient[i];
-        this->differenceGradient[i] += other.differenceGradient[i];
-        this->stepNewest[i] += other.stepNewest[i];
-        this->differenceNewest[i] += other.differenceNewest[i];
-      }
-      return *this;
-    }
-
-    /// Takes out the products of row `r`, of which another process has the copy that counts.
-    void takeOut(Index r, const Order& order, const Points& g, const Pairs& pairs)
-    {
-      const Points& newest = pairs[order.slot[order.count - 1]].difference;
-      this->gradient -= g.row(r).squaredNorm();
-      for (const int i : order)
-      {
-        const auto step = pairs[i].step.row(r), difference = pairs[i].difference.row(r);
-        this->stepGradient[i] -= step.dot(g.row(r));
-        this->differenceGradient[i] -= difference.dot(g.row(r));
-        this->stepNewest[i] -= step.dot(newest.row(r));
-        this->differenceNewest[i] -= difference.dot(newest.row(r));
-      }
-    }
-
-    /// Sums over all processes.
-    void share(const Communicator& processes)
-    {
-      std::array<double, 1 + 4 * Slots> all{};
-      double* to = all.data();
-      *to++ = this->gradient;
-      const auto numbers = { &this->stepGradient, &this->differenceGradient, &this->stepNewest,
-        &this->differenceNewest };
-      for (const Numbers* own : numbers)
-      {
-        to = std::copy(own->begin(), own->end(), to);
-      }
-      processes.sum(all.data(), static_cast<int>(all.size()));
-      const double* from = all.data();
-      this->gradient = *from++;
-      for (Numbers* own : numbers)
-      {
-        std::copy(from, from + Slots, own->begin());
-        from += Slots;
-      }
-    }
-  };
-
   int count = 0;
   const int* begin() const { return this->slot.data(); }
   const int* end() const { return this->slot.data() + this->count; }
+};
+
+/// Products of the gradient, and of the newest difference, with themselves and with the pairs.
+struct Products
+{
+  double gradient = 0;
+  Numbers stepGradient{}, differenceGradient{}, stepNewest{}, differenceNewest{};
+
+  Products& operator+=(const Products& other)
+  {
+    this->gradient += other.gradient;
+    for (int i = 0; i < Slots; ++i)
+    {
+      this->stepGradient[i] += other.stepGradient[i];
+      this->differenceGradient[i] += other.differenceGradient[i];
+      this->stepNewest[i] += other.stepNewest[i];
+      this->differenceNewest[i] += other.differenceNewest[i];
+    }
+    return *this;
+  }
+
+  /// Takes out the products of row `r`, of which another process has the copy that counts.
+  void takeOut(Index r, const Order& order, const Points& g, const Pairs& pairs)
+  {
+    const Points& newest = pairs[order.slot[order.count - 1]].difference;
+    this->gradient -= g.row(r).squaredNorm();
+    for (const int i : order)
+    {
+      const auto step = pairs[i].step.row(r), difference = pairs[i].difference.row(r);
+      this->stepGradient[i] -= step.dot(g.row(r));
+      this->differenceGradient[i] -= difference.dot(g.row(r));
+      this->stepNewest[i] -= step.dot(newest.row(r));
+      this->differenceNewest[i] -= difference.dot(newest.row(r));
+    }
+  }
+
+  /// Sums over all processes.
+  void share(const Communicator& processes)
+  {
+    std::array<double, 1 + 4 * Slots> all{};
+    double* to = all.data();
+    *to++ = this->gradient;
+    const auto numbers = { &this->stepGradient, &this->differenceGradient, &this->stepNewest,
+      &this->differenceNewest };
+    for (const Numbers* own : numbers)
+    {
+      to = std::copy(own->begin(), own->end(), to);
+    }
+    processes.sum(all.data(), static_cast<int>(all.size()));
+    const double* from = all.data();
+    this->gradient = *from++;
+    for (Numbers* own : numbers)
+    {
+      std::copy(from, from + Slots, own->begin());
+      from += Slots;
+    }
+  }
 };
 
 /// Makes a block of the newest pair, the last in the order, and its products.
