@@ -382,6 +382,7 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   vtkMorphAlgorithm* from = this->Morph;
   filters::Results& to = this->Results;
   to.SetText("MorphStatus", from->GetMorphStatus());
+  to.SetText("SlideReport", this->SlideReport);
   to.SetNumber("MinScaledJacobian", from->GetMinScaledJacobian());
   to.SetNumber("MeanScaledJacobian", from->GetMeanScaledJacobian());
   to.SetNumber("WorstMeanScaledJacobian", from->GetWorstMeanScaledJacobian());
