@@ -213,6 +213,28 @@ TEST(InversionFree, MinimumIsNotBelowFemWarpsAndSimplexLinears)
   EXPECT_GE(better, 4);
 }
 
+TEST(InversionFree, ValidTetrahedraAreRaisedWithoutTheEnergy)
+{
+  Mesh mesh = meshes::tets(6, 6, 6);
+  meshes::jitterInterior(mesh, 0.2, meshes::seed());
+  const Points boundary =
+    target(mesh, [](const motions::Row& x) { return motions::twist(x, 6, 6, 1.2); });
+  const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
+  meshes::ThreadedMonitor monitor;
+  morph::FemWarp femWarp;
+  Points warped;
+  femWarp.prepare(mesh, motions::outerPartition(mesh), monitor);
+  femWarp.evaluate(boundary, warped, monitor);
+  const double known = morph::measureCorners(mesh, warped, orientation, {}, monitor).minimum;
+  ASSERT_GT(known, 0);
+  ASSERT_LT(
+    known, 0.75 * morph::measureCorners(mesh, mesh.points, orientation, {}, monitor).minimum);
+  InversionFree method;
+  const Morphed result = run(method, mesh, boundary);
+  EXPECT_EQ(count(result.report, "NewtonSteps"), 0);
+  EXPECT_GE(result.minimum, known);
+}
+
 TEST(InversionFree, TangledRestMeshesAreUntangled)
 {
   for (const auto& [name, mesh] : meshes::all(4, 4, 4))

@@ -83,6 +83,44 @@ TEST(WorstCornerNorm, OneWhereAllCornersAreTheLeastAndInfiniteWhereOneIsInverted
   EXPECT_FALSE(value.allowed);
 }
 
+TEST(WorstCornerNorm, ValueAndGradientAtOnceAreThoseOfEach)
+{
+  meshes::ThreadedMonitor one(1), three(3);
+  for (auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    const std::vector<Index> free = motions::outerPartition(mesh).free;
+    const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7, 5);
+    Points gradient, both;
+    angles.gradient(mesh.points, gradient, one);
+    const double energy = angles.valueAndGradient(mesh.points, both, three).energy;
+    EXPECT_NEAR(energy, angles.value(mesh.points, one).energy, 1e-13 * energy);
+    EXPECT_EQ(energy, angles.valueAndGradient(mesh.points, both, one).energy);
+    EXPECT_EQ(gradient, both);
+  }
+}
+
+TEST(WorstCornerNorm, IsEnoughWhereTheMinimumIsAtTheGoal)
+{
+  meshes::ThreadedMonitor monitor;
+  for (auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    const std::vector<Index> free = motions::outerPartition(mesh).free;
+    const std::vector<std::int8_t> orientation = orientationOf(mesh);
+    const double minimum =
+      morph::MovableQuality(mesh, orientation, free).measure(mesh.points, monitor).minimum;
+    for (const double goal : { 0.99 * minimum, 1.01 * minimum })
+    {
+      const WorstCornerNorm angles(
+        mesh, orientation, volumeCells(mesh), free, 0.5 * minimum, 4, goal);
+      EXPECT_EQ(angles.value(mesh.points, monitor).enough, goal < minimum);
+    }
+    const WorstCornerNorm never(mesh, orientation, volumeCells(mesh), free, minimum, 4);
+    EXPECT_FALSE(never.value(mesh.points, monitor).enough);
+  }
+}
+
 TEST(RaiseWorstCells, RaisesTheLeastAndKeepsTheRest)
 {
   for (const Mesh& rest :

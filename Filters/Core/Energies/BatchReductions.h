@@ -14,23 +14,20 @@ namespace morph
 namespace detail
 {
 constexpr Index BatchGrain = 128;
-}
 
-/// Sums Body::run(batch, batches, arguments..., sum) over all batches, see SimdDispatch.h. Batches
-/// are summed in fixed blocks in order, so the result does not depend on threads.
-template <typename Body, typename Sum, typename... Arguments>
-Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments&... arguments)
+/// Sums body(first, last, sum) over blocks of batches, in order.
+template <typename Sum, typename Body>
+Sum sumOfBlocks(const CellBatches& batches, Monitor& monitor, const Body& body)
 {
   const Index count = batches.size();
-  const Index blocks = (count + detail::BatchGrain - 1) / detail::BatchGrain;
+  const Index blocks = (count + BatchGrain - 1) / BatchGrain;
   std::vector<Sum> part(blocks);
   monitor.parallelFor(blocks, 1,
     [&](Index first, Index last)
     {
       for (Index b = first; b < last; ++b)
       {
-        dispatchedFor<Body>(b * detail::BatchGrain, std::min(count, (b + 1) * detail::BatchGrain),
-          batches, arguments..., part[b]);
+        body(b * BatchGrain, std::min(count, (b + 1) * BatchGrain), part[b]);
       }
     });
   Sum sum{};
@@ -39,6 +36,17 @@ Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments
     sum += p;
   }
   return sum;
+}
+}
+
+/// Sums Body::run(batch, batches, arguments..., sum) over all batches, see SimdDispatch.h. Batches
+/// are summed in fixed blocks in order, so the result does not depend on threads.
+template <typename Body, typename Sum, typename... Arguments>
+Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments&... arguments)
+{
+  return detail::sumOfBlocks<Sum>(batches, monitor,
+    [&](Index first, Index last, Sum& own)
+    { dispatchedFor<Body>(first, last, batches, arguments..., own); });
 }
 
 /// Sums the contributions of all batches to the rows' corners into `result`, #rows x 3.
@@ -53,5 +61,19 @@ void gatherFromBatches(const CellBatches& batches, Points& parts, Points& result
     [&](Index first, Index last)
     { dispatchedFor<Body>(first, last, batches, arguments..., parts); });
   gatherSum(batches.uses(), parts, result, monitor);
+}
+
+/// sumOverBatches() and gatherFromBatches() in one pass: Body::run(batch, batches, arguments...,
+/// parts, sum).
+template <typename Body, typename Sum, typename... Arguments>
+Sum sumAndGather(const CellBatches& batches, Points& parts, Points& result, Monitor& monitor,
+  const Arguments&... arguments)
+{
+  parts.resize(batches.places(), 3);
+  const Sum sum = detail::sumOfBlocks<Sum>(batches, monitor,
+    [&](Index first, Index last, Sum& own)
+    { dispatchedFor<Body>(first, last, batches, arguments..., parts, own); });
+  gatherSum(batches.uses(), parts, result, monitor);
+  return sum;
 }
 }

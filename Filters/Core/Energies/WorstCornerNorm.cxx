@@ -43,107 +43,103 @@ double scaleOf(Shape shape)
   }
 }
 
+/// Computes the 2^squarings-th power of 1 / s from its square, in place.
+MORPH_SIMD_INLINE void raise(int squarings, SimdDouble4& power)
+{
+  if (squarings == 0)
+  {
+    power = squareRoot(power);
+  }
+  for (int k = 1; k < squarings; ++k)
+  {
+    power *= power;
+  }
+}
+
+/// Makes `power` infinite where the cell is inverted or flat, and 0 where it is left out.
+MORPH_SIMD_INLINE void exclude(
+  const SimdDouble4& signedVolume, const SimdDouble4& unit, SimdDouble4& power)
+{
+  const SimdDouble4 zero = {}, infinity = zero + std::numeric_limits<double>::infinity();
+  power = signedVolume > 0. ? power : unit == 0. ? zero : infinity;
+}
+
+/// One corner of each cell.
 struct Corner
 {
   SimdMatrix edges, normals; ///< the normals of pairs of edges are the determinant's gradient
-  SimdDouble4 determinant, squares[3];
-  SimdDouble4 s; ///< over `least`, 1 where the corner is left out
+  SimdDouble4 byDeterminant, byProduct, squares[3]; ///< reciprocals, and squared lengths
+  SimdDouble4 power[1];                             ///< of 1 / s
 
-  MORPH_SIMD_INLINE Corner(const SimdVector (&x)[8], const int* corner, const SimdDouble4& scale)
+  MORPH_SIMD_INLINE Corner(
+    const SimdVector (&x)[8], const int* corner, const SimdDouble4& unit, int squarings)
   {
+    SimdDouble4 determinant;
     edgesOf(x, corner, this->edges);
     cofactor(this->edges, this->normals);
-    dot(this->edges[0], this->normals[0], this->determinant);
+    dot(this->edges[0], this->normals[0], determinant);
     for (int k = 0; k < 3; ++k)
     {
       dot(this->edges[k], this->edges[k], this->squares[k]);
     }
-    const SimdDouble4 zero = {}, one = zero + 1.;
-    const SimdDouble4 square = this->squares[0] * this->squares[1] * this->squares[2];
-    const auto some = square > 0.;
-    const SimdDouble4 quotient = scale * this->determinant / squareRoot(some ? square : one);
-    this->s = scale == 0. ? one : some ? quotient : zero;
-  }
-
-  /// Computes 1 / s, squared this often; infinite where s is not positive.
-  MORPH_SIMD_INLINE void power(int squarings, SimdDouble4& result) const
-  {
-    const SimdDouble4 infinity = SimdDouble4{} + std::numeric_limits<double>::infinity();
-    result = this->s > 0. ? 1. / this->s : infinity;
-    for (int k = 0; k < squarings; ++k)
-    {
-      result *= result;
-    }
+    const SimdDouble4 one = SimdDouble4{} + 1.;
+    const SimdDouble4 product = this->squares[0] * this->squares[1] * this->squares[2];
+    const SimdDouble4 both = determinant * product;
+    const SimdDouble4 inverse = 1. / (both == 0. ? one : both);
+    this->byDeterminant = inverse * product;
+    this->byProduct = inverse * determinant;
+    const SimdDouble4 ratio = unit * this->byDeterminant;
+    this->power[0] = ratio * ratio * product;
+    raise(squarings, this->power[0]);
+    exclude(unit * both, unit, this->power[0]);
   }
 };
 
-struct BatchValue
+/// The four corners of a tetrahedron, which have one determinant and share their edges.
+struct Tetrahedron
 {
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
-    const Points& points, double& sum)
-  {
-    SimdVector x[8];
-    cornersOf(batches, batch, points, x);
-    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
-    const WorstCornerNorm::Scales* scales =
-      corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
-    const SimdDouble4 zero = {};
-    SimdDouble4 all = {};
-    for (int t = 0; t < parts.count; ++t)
-    {
-      const SimdDouble4 scale = load(scales[t].factor);
-      SimdDouble4 power;
-      Corner(x, parts.tets[t].corner, scale).power(corners.squarings, power);
-      all += scale == 0. ? zero : power;
-    }
-    for (int lane = 0; lane < SimdWidth; ++lane)
-    {
-      sum += all[lane];
-    }
-  }
-};
+  static constexpr int Ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 2, 3 }, { 1, 3 }, { 1, 2 } };
+  SimdVector edges[6]; ///< edge k + 3 is opposite to edge k
+  SimdDouble4 squares[6], byDeterminant, power[4];
 
-struct BatchGradient
-{
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
-    const Points& points, Points& forces)
+  MORPH_SIMD_INLINE Tetrahedron(
+    const SimdVector (&x)[8], const SimdDouble4& unit, int squarings, SimdMatrix& normals)
   {
-    SimdVector x[8], sum[8] = {};
-    cornersOf(batches, batch, points, x);
-    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
-    const WorstCornerNorm::Scales* scales =
-      corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
-    const double mean = (1 << corners.squarings) / static_cast<double>(corners.count);
-    const SimdDouble4 zero = {}, one = zero + 1.;
-    for (int t = 0; t < parts.count; ++t)
+    for (int k = 0; k < 6; ++k)
     {
-      const SimdDouble4 scale = load(scales[t].factor);
-      const int* corner = parts.tets[t].corner;
-      const Corner own(x, corner, scale);
-      SimdDouble4 power;
-      own.power(corners.squarings, power);
-      const auto counts = (scale != 0.) & (own.s > 0.);
-      const SimdDouble4 factor = counts ? mean * power : zero;
-      const SimdDouble4 byDeterminant = factor / (counts ? own.determinant : one);
-      SimdVector all = {};
-      for (int k = 0; k < 3; ++k)
-      {
-        const SimdDouble4 byLength = factor / (counts ? own.squares[k] : one);
-        for (int i = 0; i < 3; ++i)
-        {
-          const SimdDouble4 force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
-          sum[corner[k + 1]][i] += force;
-          all[i] += force;
-        }
-      }
       for (int i = 0; i < 3; ++i)
       {
-        sum[corner[0]][i] -= all[i];
+        this->edges[k][i] = x[Ends[k][1]][i] - x[Ends[k][0]][i];
       }
+      dot(this->edges[k], this->edges[k], this->squares[k]);
     }
-    storeAtPlaces(batches, batch, sum, forces);
+    for (int k = 0; k < 3; ++k)
+    {
+      cross(this->edges[(k + 1) % 3], this->edges[(k + 2) % 3], normals[k]);
+    }
+    SimdDouble4 determinant;
+    dot(this->edges[0], normals[0], determinant);
+    const SimdDouble4 one = SimdDouble4{} + 1.;
+    this->byDeterminant = 1. / (determinant == 0. ? one : determinant);
+    const SimdDouble4 ratio = unit * this->byDeterminant, square = ratio * ratio;
+    const SimdDouble4* l = this->squares;
+    this->power[0] = square * (l[0] * l[1] * l[2]);
+    this->power[1] = square * (l[0] * l[4] * l[5]);
+    this->power[2] = square * (l[1] * l[3] * l[5]);
+    this->power[3] = square * (l[2] * l[3] * l[4]);
+    for (SimdDouble4& power : this->power)
+    {
+      raise(squarings, power);
+      exclude(unit * determinant, unit, power);
+    }
   }
 };
+
+MORPH_SIMD_INLINE const WorstCornerNorm::Scales* scalesOf(
+  const CellBatches& batches, Index batch, const Corners& corners)
+{
+  return corners.scales.data() + batches.firstPlace(batch) / SimdWidth;
+}
 
 Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>& orientation,
   double least, int squarings)
@@ -161,8 +157,8 @@ Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>
       {
         if (batches.moves(batch, lane, parts.tets[t].corner))
         {
-          scales[t].factor[lane] =
-            orientation[batches.cell(batch, lane)] * scaleOf(batches.shape(batch)) / least;
+          scales[t].unit[lane] =
+            orientation[batches.cell(batch, lane)] * least / scaleOf(batches.shape(batch));
           ++result.count;
         }
       }
@@ -172,28 +168,186 @@ Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>
 }
 }
 
+/// Powers of all corners, by lane. Doubles, as memory of a vector is aligned for no wider ones.
+struct WorstCornerNorm::Sum
+{
+  double lanes[SimdWidth] = {}, largest[SimdWidth] = {};
+
+  Sum& operator+=(const Sum& other)
+  {
+    for (int lane = 0; lane < SimdWidth; ++lane)
+    {
+      this->lanes[lane] += other.lanes[lane];
+      this->largest[lane] = std::max(this->largest[lane], other.largest[lane]);
+    }
+    return *this;
+  }
+
+  template <int Count>
+  MORPH_SIMD_INLINE void add(const SimdDouble4 (&powers)[Count])
+  {
+    SimdDouble4 sum = {}, most = load(this->largest);
+    for (const SimdDouble4& power : powers)
+    {
+      sum += power;
+      most = power > most ? power : most;
+    }
+    for (int lane = 0; lane < SimdWidth; ++lane)
+    {
+      this->lanes[lane] += sum[lane];
+      this->largest[lane] = most[lane];
+    }
+  }
+};
+
+struct WorstCornerNorm::BatchValue
+{
+  static MORPH_SIMD_INLINE void run(
+    Index batch, const CellBatches& batches, const Corners& corners, const Points& points, Sum& sum)
+  {
+    SimdVector x[8];
+    cornersOf(batches, batch, points, x);
+    const WorstCornerNorm::Scales* scales = scalesOf(batches, batch, corners);
+    if (batches.shape(batch) == Shape::Tet)
+    {
+      SimdMatrix normals;
+      const Tetrahedron own(x, load(scales->unit), corners.squarings, normals);
+      sum.add(own.power);
+      return;
+    }
+    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+    for (int t = 0; t < parts.count; ++t)
+    {
+      const Corner own(x, parts.tets[t].corner, load(scales[t].unit), corners.squarings);
+      sum.add(own.power);
+    }
+  }
+};
+
+/// The value, and the gradient at the corners, at their places in `forces`.
+struct WorstCornerNorm::BatchGradient
+{
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
+    const Points& points, Points& forces, Sum& value)
+  {
+    SimdVector x[8], sum[8] = {};
+    cornersOf(batches, batch, points, x);
+    const WorstCornerNorm::Scales* scales = scalesOf(batches, batch, corners);
+    const double mean = (1 << corners.squarings) / static_cast<double>(corners.count);
+    if (batches.shape(batch) == Shape::Tet)
+    {
+      addTetrahedron(x, load(scales->unit), corners.squarings, mean, sum, value);
+      storeAtPlaces(batches, batch, sum, forces);
+      return;
+    }
+    const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+    for (int t = 0; t < parts.count; ++t)
+    {
+      addCorner(x, parts.tets[t].corner, load(scales[t].unit), corners.squarings, mean, sum, value);
+    }
+    storeAtPlaces(batches, batch, sum, forces);
+  }
+
+private:
+  static MORPH_SIMD_INLINE void addTetrahedron(const SimdVector (&x)[8], const SimdDouble4& unit,
+    int squarings, double mean, SimdVector (&sum)[8], Sum& value)
+  {
+    SimdMatrix normals;
+    const Tetrahedron own(x, unit, squarings, normals);
+    const SimdDouble4 all = (own.power[0] + own.power[1]) + (own.power[2] + own.power[3]);
+    value.add(own.power);
+    const SimdDouble4 byVolume = mean * all * own.byDeterminant, one = SimdDouble4{} + 1.;
+    for (int k = 0; k < 3; ++k)
+    {
+      const SimdDouble4 both = own.squares[k] * own.squares[k + 3];
+      const SimdDouble4 inverse = mean / (both == 0. ? one : both);
+      const SimdDouble4 byLength[2] = { inverse * own.squares[k + 3], inverse * own.squares[k] };
+      for (int side = 0; side < 2; ++side)
+      {
+        const int edge = k + 3 * side;
+        const int from = Tetrahedron::Ends[edge][0], to = Tetrahedron::Ends[edge][1];
+        const SimdDouble4 factor = byLength[side] * (own.power[from] + own.power[to]);
+        for (int i = 0; i < 3; ++i)
+        {
+          const SimdDouble4 force = factor * own.edges[edge][i];
+          sum[to][i] += force;
+          sum[from][i] -= force;
+        }
+      }
+      for (int i = 0; i < 3; ++i)
+      {
+        const SimdDouble4 force = byVolume * normals[k][i];
+        sum[k + 1][i] -= force;
+        sum[0][i] += force;
+      }
+    }
+  }
+
+  static MORPH_SIMD_INLINE void addCorner(const SimdVector (&x)[8], const int* corner,
+    const SimdDouble4& unit, int squarings, double mean, SimdVector (&sum)[8], Sum& value)
+  {
+    const Corner own(x, corner, unit, squarings);
+    value.add(own.power);
+    const SimdDouble4 factor = mean * own.power[0];
+    const SimdDouble4 byDeterminant = factor * own.byDeterminant;
+    const SimdDouble4 byProduct = factor * own.byProduct;
+    SimdVector all = {};
+    for (int k = 0; k < 3; ++k)
+    {
+      const SimdDouble4 byLength = byProduct * own.squares[(k + 1) % 3] * own.squares[(k + 2) % 3];
+      for (int i = 0; i < 3; ++i)
+      {
+        const SimdDouble4 force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
+        sum[corner[k + 1]][i] += force;
+        all[i] += force;
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      sum[corner[0]][i] -= all[i];
+    }
+  }
+};
+
 WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
-  const Communicator& communicator)
+  double goal, const Communicator& communicator)
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_, cells)
   , corners_(scaledCorners(this->batches_, orientation, least, squarings))
 {
   this->share(communicator, this->free_);
   this->corners_.count = std::max<Index>(1, communicator.sum(this->corners_.count));
+  this->corners_.enough = std::pow(least / goal, 1 << squarings);
+}
+
+Objective::Value WorstCornerNorm::valueOf(const Sum& sum) const
+{
+  const double all =
+    this->communicator().sum((sum.lanes[0] + sum.lanes[1]) + (sum.lanes[2] + sum.lanes[3]));
+  const double largest =
+    this->communicator().maximum(*std::max_element(sum.largest, sum.largest + SimdWidth));
+  return { all / static_cast<double>(this->corners_.count), std::isfinite(all),
+    largest <= this->corners_.enough };
 }
 
 Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) const
 {
-  const double sum = this->communicator().sum(
-    sumOverBatches<BatchValue, double>(this->batches_, monitor, this->corners_, points));
-  return { sum / static_cast<double>(this->corners_.count), std::isfinite(sum) };
+  return this->valueOf(
+    sumOverBatches<BatchValue, Sum>(this->batches_, monitor, this->corners_, points));
 }
 
 void WorstCornerNorm::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  gatherFromBatches<BatchGradient>(
+  this->valueAndGradient(points, result, monitor);
+}
+
+Objective::Value WorstCornerNorm::valueAndGradient(
+  const Points& points, Points& result, Monitor& monitor) const
+{
+  const auto sum = sumAndGather<BatchGradient, Sum>(
     this->batches_, this->parts_, result, monitor, this->corners_, points);
   this->rows().add(result);
+  return this->valueOf(sum);
 }
 }

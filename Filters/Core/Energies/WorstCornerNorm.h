@@ -5,6 +5,7 @@
 #include "Optimization/Objective.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace morph
@@ -19,29 +20,38 @@ class WorstCornerNorm : public Objective
 public:
   /// `cells`: ids of volume cells; `orientation`: #cells of the mesh; `free`: ids of the nodes that
   /// move, ascending; `least`: reference value for s, above 0; `squarings`: the power p is 2 to
-  /// this, in [0, 9]. Cost: 50 bytes a corner.
+  /// this, in [0, 9]; `goal`: a minimum of s that is enough. Cost: 50 bytes a corner.
   WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
+    double goal = std::numeric_limits<double>::infinity(),
     const Communicator& communicator = Communicator::alone());
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
+  Value valueAndGradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// One corner in each cell of a batch: the factor that makes s 1 in the ideal cell, with the
-  /// cell's sign, over `least`; 0 if left out.
+  /// One corner in each cell of a batch: `least` over the factor that makes s 1 in the ideal cell,
+  /// with the cell's sign; 0 if left out. A tetrahedron's corners have the same.
   struct Scales
   {
-    double factor[SimdWidth];
+    double unit[SimdWidth];
   };
   struct Corners
   {
     std::vector<Scales> scales; ///< in the order of the batches' places, SimdWidth a corner
     int squarings = 0;
-    Index count = 0; ///< number of corners that are not left out, of all processes
+    double enough = 0; ///< of the largest power
+    Index count = 0;   ///< number of corners that are not left out, of all processes
   };
 
 private:
+  /// The powers of 1 / s over `least`, by lane.
+  struct Sum;
+  struct BatchValue;
+  struct BatchGradient;
+  Value valueOf(const Sum& sum) const;
+
   std::vector<Index> free_;
   CellBatches batches_;
   Corners corners_;

@@ -20,7 +20,7 @@ namespace morph
 /// (MinQualityAscent.h), up to what the boundary allows (MovableQuality.h). Inverted cells are
 /// first untangled by the energy of the cells near them. The energy of the whole mesh is minimised
 /// only where a cell stays inverted, or the minimum below that bound and three quarters of the
-/// undeformed mesh's.
+/// undeformed mesh's; where most cells are tetrahedra only in the first case.
 ///
 /// The energy (Garanzha et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069) is a mean over
 /// the averaged simplicial decompositions of all cells. So a valid minimum passes the scaled

@@ -175,9 +175,12 @@ MeshImprovement::Outcome MeshImprovement::run(
     {
       best = quality.measure(bestPoints, monitor);
     }
-    if (hasReached(best.minimum, goal) || best.minimum >= enough * this->options_.minimumAtRest)
+    // Tetrahedra aim for their undeformed shape, which costs much and rarely raises the minimum.
+    const bool isAtGoal = hasReached(best.minimum, goal);
+    if (isAtGoal || best.minimum >= enough * this->options_.minimumAtRest ||
+        mostlyTetrahedra(quality.mesh(), quality.communicator()))
     {
-      if (best.minimum < enough * this->options_.minimumAtRest)
+      if (isAtGoal && best.minimum < enough * this->options_.minimumAtRest)
       {
         raiseNextWorst(quality, raised, bestPoints, monitor);
       }

@@ -27,19 +27,21 @@ constexpr int LowSquarings = 2; // norms that often lower the minimum at first: 
 
 int stepsOf(int squarings)
 {
+
   return squarings <= LowSquarings ? 60 : 100;
 }
 
 // A power is of use if a minimum at the goal lowers a corner's share of the norm by this factor.
-constexpr double OfUse = 1.2;
+// In hexahedra low powers also lead to higher minima in the end.
+constexpr double OfUse = 1.2, OfUseInTetrahedra = 10;
 
-/// Returns the first power's number of squarings. Lower powers cannot tell the goal from the
+/// Returns the least number of squarings of use. Lower powers cannot tell the goal from the
 /// minimum: they move far nodes and lower the minimum as often as not.
-int firstSquarings(double minimum, double goal)
+int firstSquarings(double minimum, double goal, double ofUse)
 {
   int squarings = FirstSquarings;
   while (
-    squarings < LastSquarings && std::exp2(squarings) * std::log(goal / minimum) < std::log(OfUse))
+    squarings < LastSquarings && std::exp2(squarings) * std::log(goal / minimum) < std::log(ofUse))
   {
     ++squarings;
   }
@@ -48,15 +50,6 @@ int firstSquarings(double minimum, double goal)
 
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
-
-int ringsFor(const Mesh& mesh, const Communicator& communicator)
-{
-  const Index tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
-    [](std::uint8_t type) { return cellShape(type)->shape == Shape::Tet; });
-  return 2 * communicator.sum(tetrahedra) > communicator.sum(mesh.numberOfCells())
-           ? RingsOfTetrahedra
-           : Rings;
-}
 
 std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& quality)
 {
@@ -81,6 +74,7 @@ constexpr double FewCells = 0.01; // of all: where more are at the minimum, it i
 // Raising the next-worst cells may evaluate this part of what raising the minimum has, or as much
 // as these passes over the mesh.
 constexpr double OfSpent = 0.3, FewPasses = 20;
+constexpr double OfSpentOnTetrahedra = 0.1, FewPassesOfTetrahedra = 10;
 constexpr double LeastSteps = 10; // fewer are not worth the set-up
 
 /// Returns the cells at the minimum, within NearBound.
@@ -96,6 +90,13 @@ std::vector<Index> atMinimum(const MovableQuality::Result& quality)
   }
   return cells;
 }
+}
+
+bool mostlyTetrahedra(const Mesh& mesh, const Communicator& communicator)
+{
+  const Index tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
+    [](std::uint8_t type) { return cellShape(type)->shape == Shape::Tet; });
+  return 2 * communicator.sum(tetrahedra) > communicator.sum(mesh.numberOfCells());
 }
 
 double significantGain(double least)
@@ -130,9 +131,13 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     return;
   }
   const Adjacency around = nodeToCells(mesh);
-  const int rings = ringsFor(mesh, communicator);
+  const bool isOfTetrahedra = mostlyTetrahedra(mesh, communicator);
+  const int rings = isOfTetrahedra ? RingsOfTetrahedra : Rings;
+  // Minima of tetrahedra rise by every second power about as far, for half the work.
+  const int doublings = isOfTetrahedra ? 2 : 1;
   Points trial = points;
-  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal));
+  const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
+  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse));
   // Once a power's second round has gained little, those of higher powers do.
   bool repeats = true, isRepeated = false;
   const auto canGain = [&]
@@ -151,7 +156,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
       break;
     }
     const WorstCornerNorm norm(mesh, measured.orientation(), patch.cells, patch.nodes,
-      quality.minimum, squarings, communicator);
+      quality.minimum, squarings, goal * (1 - NearBound / 2), communicator);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
     MinimizerEffort steps;
@@ -178,7 +183,11 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     }
     if (!more)
     {
-      ++squarings;
+      squarings += doublings;
+    }
+    if (isOfTetrahedra)
+    {
+      squarings = std::max(squarings, firstSquarings(quality.minimum, goal, ofUse));
     }
   }
 }
@@ -199,9 +208,12 @@ AscentEffort raiseNextWorst(
   const Mesh& mesh = measured.mesh();
   const Communicator& communicator = measured.communicator();
   const auto cells = communicator.sum(static_cast<double>(mesh.numberOfCells()));
+  const bool isOfTetrahedra = mostlyTetrahedra(mesh, communicator);
+  const double part = isOfTetrahedra ? OfSpentOnTetrahedra : OfSpent;
+  const double passes = isOfTetrahedra ? FewPassesOfTetrahedra : FewPasses;
   // Its mesh is the best for the powers that are done.
   const Limits limits{ std::max(FirstSquarings, before.squarings),
-    std::max(OfSpent * before.cellEvaluations, FewPasses * cells) };
+    std::max(part * before.cellEvaluations, passes * cells) };
   AscentEffort effort;
   raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);

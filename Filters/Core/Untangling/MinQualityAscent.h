@@ -6,6 +6,9 @@
 
 namespace morph
 {
+/// Whether more than half of all processes' cells are tetrahedra.
+bool mostlyTetrahedra(const Mesh& mesh, const Communicator& communicator);
+
 /// Returns the increase of a mesh's minimum scaled Jacobian `least` that counts as a gain. It is
 /// the smaller of 0.1 % of `least` and 1 % of 1 - `least`, but 1e-6 or more. A smaller gain is not
 /// worth its cost to the other cells.
@@ -27,8 +30,9 @@ struct AscentEffort
 /// there, and stays so. Nodes within five rings of the worst cells (three in a mesh of tetrahedra)
 /// move to lower their WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners
 /// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a
-/// round gains little or has converged. It ends after the highest power, or at `goal`; a mesh that
-/// has reached that, see hasReached(), is left as it is. `points`: #nodes x 3, start and best
+/// round gains little or has converged, twice in a mesh of tetrahedra. A round ends as soon as its
+/// cells are at `goal`, and all end there or after the highest power. A mesh that has reached it,
+/// see hasReached(), is left as it is. `points`: #nodes x 3, start and best
 /// result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
 AscentEffort raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
@@ -38,7 +42,7 @@ AscentEffort raiseMinimumQuality(
 /// cells at the minimum stay, and the minimum over the others is raised, twice at most. That ends
 /// where more than 1 % of the cells are at the minimum. No minimum falls. `before`: of raising the
 /// minimum, from whose last power it goes on. Cost: 0.3 times that of `before`, or as much as 20
-/// passes over the cells.
+/// passes over the cells; 0.1 times, or 10 passes, in a mesh of tetrahedra.
 AscentEffort raiseNextWorst(
   const MovableQuality& quality, const AscentEffort& before, Points& points, Monitor& monitor);
 }
