@@ -59,7 +59,6 @@ morph::Index smoothAfterwards(const DistributedMesh& mesh, const morph::Points& 
   return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
 }
 }
-}
 
 class Morphing::Internals
 {
