@@ -180,6 +180,7 @@ Getters countsOf(vtkSmoothingMorph* f)
     { "NewtonSteps", [f] { return f->GetNewtonSteps(); } },
     { "BoundaryDeterminedCells", [f] { return f->GetBoundaryDeterminedCells(); } },
     { "SmoothingPatches", [f] { return f->GetSmoothingPatches(); } },
+    { "ConditionSteps", [f] { return f->GetConditionSteps(); } },
     { "NodesTakenBack", [f] { return f->GetNodesTakenBack(); } },
     { "LinearIterations", [f] { return f->GetLinearIterations(); } },
     { "EnergyEvaluations", [f] { return f->GetEnergyEvaluations(); } } };
