@@ -11,7 +11,6 @@ namespace soak
 {
 namespace
 {
-constexpr int First = 20;
 constexpr double Growth = 1.01;
 
 Process largest(const Process& a, const Process& b)
@@ -39,6 +38,7 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
   filter->SetInputData(world.grid());
   filter->HoldUnnamedBoundaryOff();
   Process start, end;
+  const int first = options.morphs / 2; // long enough for the largest arrays to have come up
   std::string firstError;
   int failures = 0;
   for (int k = 0; k < options.morphs; ++k)
@@ -55,13 +55,13 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
     listener.Errors.clear();
     Process now;
     measure(now);
-    (k < First ? start : end) = largest(k < First ? start : end, now);
+    (k < first ? start : end) = largest(k < first ? start : end, now);
   }
   const bool isRight = isFlat(start.resident, end.resident) && isFlat(start.heap, end.heap) &&
                        end.handles <= start.handles && end.threads <= start.threads &&
                        failures == 0;
   std::cout << method.name << ": " << options.morphs << " morphs of "
-            << world.grid()->GetNumberOfPoints() << " nodes, the first " << First
+            << world.grid()->GetNumberOfPoints() << " nodes, the first " << first
             << " against the others: resident " << static_cast<double>(start.resident) / 1e6
             << " MB, " << percent(start.resident, end.resident) << " %; heap "
             << static_cast<double>(start.heap) / 1e6 << " MB, " << percent(start.heap, end.heap)

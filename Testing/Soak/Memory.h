@@ -14,7 +14,7 @@ struct MemoryOptions
 };
 
 /// Morphs one mesh with ever new boundaries through one filter, every fifth time with other free
-/// nodes. Prints what the process holds. True if after the first 20 morphs the heap and the
+/// nodes. Prints what the process holds. True if in the second half of them the heap and the
 /// resident memory grow by less than 1 %, and handles and threads not at all.
 bool staysFlat(const Method& method, const MemoryOptions& options);
 }
