@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges of polyhedra against bisection, on random motions: their corners and tetrahedra with
 // centres whose weights are those at s = 0, found here by themselves; and against the measure.
+#include "Bisection.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Motions.h"
@@ -188,22 +189,7 @@ struct Case
   }
   double bisected(double sign) const
   {
-    constexpr double Step = 0.01, Far = 4;
-    for (double s = Step; s < Far; s += Step)
-    {
-      if (this->isValid(sign * s))
-      {
-        continue;
-      }
-      double low = s - Step, high = s;
-      while (high - low > 1e-10)
-      {
-        const double middle = (low + high) / 2;
-        (this->isValid(sign * middle) ? low : high) = middle;
-      }
-      return low;
-    }
-    return HUGE_VAL;
+    return bisectedEnd([this](double s) { return this->isValid(s); }, sign, 0.01, 4);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges against bisection with the measure of quality, on random motions.
+#include "Bisection.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -38,26 +39,9 @@ struct Case
     Monitor monitor;
     return invertedCells(this->mesh, this->at(s), this->orientation, monitor).empty();
   }
-  /// The end of the valid interval in the direction of `sign`, found by steps up to 5 and
-  /// bisection.
   double bisected(double sign) const
   {
-    constexpr double Step = 0.005, Far = 5;
-    for (double s = Step; s < Far; s += Step)
-    {
-      if (this->isValid(sign * s))
-      {
-        continue;
-      }
-      double low = s - Step, high = s;
-      while (high - low > 1e-10)
-      {
-        const double middle = (low + high) / 2;
-        (this->isValid(sign * middle) ? low : high) = middle;
-      }
-      return sign * low;
-    }
-    return sign * HUGE_VAL;
+    return sign * bisectedEnd([this](double s) { return this->isValid(s); }, sign, 0.005, 5);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
 #include "Private/Distributed/RankValidity.h"
+#include "Private/Morph/PostSmoothing.h"
 #include "Private/Morph/Series.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
@@ -50,10 +51,7 @@ morph::Index smoothAfterwards(const DistributedMesh& mesh, const morph::Points& 
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
   morph::Monitor& monitor)
 {
-  morph::SmoothingOptions options;
-  options.target = morph::SmoothingTarget::Initial;
-  options.iterationLimit = iterationLimit;
-  options.neverWorse = true;
+  const morph::SmoothingOptions options = postSmoothing(iterationLimit);
   const morph::SmoothingReport report =
     morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
   return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;

@@ -9,6 +9,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Morph/PolyhedralRepair.h"
+#include "Private/Morph/PostSmoothing.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/MovableQuality.h"
@@ -72,10 +73,7 @@ morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::in
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
   morph::Monitor& monitor)
 {
-  morph::SmoothingOptions options;
-  options.target = morph::SmoothingTarget::Initial;
-  options.iterationLimit = iterationLimit;
-  options.neverWorse = true;
+  const morph::SmoothingOptions options = postSmoothing(iterationLimit);
   morph::SmoothingReport report;
   if (morph::hasPolyhedra(rest))
   {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+/// Returns how far the interval around 0 in which `isValid(s)` holds reaches in the direction of
+/// `sign`. Finds its end by steps up to `far`, and by bisection to 1e-10; infinite if there is none.
+template <typename IsValid>
+double bisectedEnd(const IsValid& isValid, double sign, double step, double far)
+{
+  for (double s = step; s < far; s += step)
+  {
+    if (isValid(sign * s))
+    {
+      continue;
+    }
+    double low = s - step, high = s;
+    while (high - low > 1e-10)
+    {
+      const double middle = (low + high) / 2;
+      (isValid(sign * middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  return HUGE_VAL;
+}
