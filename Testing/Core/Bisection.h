@@ -4,7 +4,7 @@
 #include <cmath>
 
 /// Returns how far the interval around 0 in which `isValid(s)` holds reaches in the direction of
-/// `sign`. Finds its end by steps up to `far`, and by bisection to 1e-10; infinite if there is none.
+/// `sign`. Finds its end by steps up to `far` and by bisection to 1e-10; infinite without an end.
 template <typename IsValid>
 double bisectedEnd(const IsValid& isValid, double sign, double step, double far)
 {
