@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges of polyhedra against bisection, on random motions: their corners and tetrahedra with
 // centres whose weights are those at s = 0, found here by themselves; and against the measure.
-#include "Bisection.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Motions.h"
@@ -11,6 +10,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "ValidRangeCases.h"
 
 #include <gtest/gtest.h>
 
@@ -163,13 +163,7 @@ struct Case
   std::vector<std::int8_t> orientation;
   std::vector<Cell> cells;
 
-  Points positions(double s) const
-  {
-    return this->motion.second
-             ? Points(this->mesh.points + std::sin(s * this->motion.angle) * this->first +
-                      (1 - std::cos(s * this->motion.angle)) * this->second)
-             : Points(this->mesh.points + s * this->first);
-  }
+  Points positions(double s) const { return pointsAt(this->motion, s); }
   bool isMeasuredValid(double s) const
   {
     Monitor monitor;

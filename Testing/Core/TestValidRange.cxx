@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges against bisection with the measure of quality, on random motions.
-#include "Bisection.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -8,6 +7,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "ValidRangeCases.h"
 
 #include <gtest/gtest.h>
 
@@ -27,13 +27,7 @@ struct Case
   NodeMotion motion;
   std::vector<std::int8_t> orientation;
 
-  Points at(double s) const
-  {
-    return this->motion.second
-             ? Points(this->mesh.points + std::sin(s * this->motion.angle) * this->first +
-                      (1 - std::cos(s * this->motion.angle)) * this->second)
-             : Points(this->mesh.points + s * this->first);
-  }
+  Points at(double s) const { return pointsAt(this->motion, s); }
   bool isValid(double s) const
   {
     Monitor monitor;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Quality/ValidRange.h"
+
 #include <cmath>
 
 /// Returns how far the interval around 0 in which `isValid(s)` holds reaches in the direction of
@@ -23,4 +25,17 @@ double bisectedEnd(const IsValid& isValid, double sign, double step, double far)
     return low;
   }
   return HUGE_VAL;
+}
+
+/// Returns the points that a motion leads to at `s`, #nodes x 3.
+inline morph::Points pointsAt(const morph::NodeMotion& motion, double s)
+{
+  const morph::Points& base = *motion.base;
+  const morph::Points& first = *motion.first;
+  if (!motion.second)
+  {
+    return base + s * first;
+  }
+  return base + std::sin(s * motion.angle) * first +
+         (1 - std::cos(s * motion.angle)) * *motion.second;
 }
