@@ -140,10 +140,23 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
   filter->SetInputData(grid);
   filter->SetVector(1, 2, 3);
   grids::Listener listener(filter);
-  for (const int moving : { vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::MOVE_SELECTION })
+  struct Case
   {
-    filter->SetMoving(moving);
+    int Moving, Displacement;
+    const char* Advice;
+  };
+  for (const Case& one :
+    { Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_VECTOR, "Tick surfaces" },
+      Case{ vtkMorphMesh::MOVE_SELECTION, vtkMorphMesh::DISPLACEMENT_VECTOR, "Select points" },
+      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_TARGET, "Choose the Target" },
+      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" },
+      Case{ vtkMorphMesh::MOVE_EVERYTHING, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" } })
+  {
+    filter->SetMoving(one.Moving);
+    filter->SetDisplacement(one.Displacement);
     filter->Update();
+    EXPECT_NE(std::string(filter->GetAdvice()).find(one.Advice), std::string::npos)
+      << filter->GetAdvice();
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
     vtkUnstructuredGrid* output = filter->GetOutput();
@@ -168,6 +181,14 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
     EXPECT_EQ(filter->GetInvertedCells(), -1);
   }
   EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 6 + 12);
+
+  filter->AddHandle(0, 0, 4, 0, 0, 0.5, 0); // one handle translates everything
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_STREQ(filter->GetAdvice(), "None");
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  const morph::Points shifted = grids::points(grid).rowwise() + Row(0, 0, 0.5);
+  EXPECT_LT((grids::points(filter->GetOutput()) - shifted).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(MorphMesh, SurfacesAreListedBeforeTheFirstExecution)

@@ -52,7 +52,7 @@ def printed(filter_proxy, name):
 WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "PatchBounds", "PickedSurfaces",
-               "ValidWeights")
+               "ValidWeights", "Advice")
 
 
 def results(*sections):

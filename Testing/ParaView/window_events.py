@@ -46,6 +46,14 @@ def shot_name(step):
     return name
 
 
+def picture(step):
+    """Of the whole screen at once, where a test presses real keys."""
+    if SHOTS:
+        Path(SHOTS).mkdir(parents=True, exist_ok=True)
+        path = Path(SHOTS) / f"{shot_name(step)}.png"
+        subprocess.run(["import", "-window", "root", str(path)], check=False)
+
+
 class Events:
     """What a user does, in order, by the names of ParaView's widgets."""
 

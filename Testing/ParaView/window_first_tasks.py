@@ -199,7 +199,7 @@ class FirstTasks(unittest.TestCase):
         for name in NUMBERS:
             self.assertEqual(getattr(morph, name), getattr(again, name))
 
-    def test_a_state_is_saved(self):
+    def test_a_state_is_saved_and_loaded(self):
         mesh, names = self.names(BORE)
         morph = MorphMesh(Input=mesh, Surfaces=[TOP])
         morph.Transform.Translate = [0, 0, float(UP)]
@@ -212,7 +212,14 @@ class FirstTasks(unittest.TestCase):
         self.events.task("save a state")
         self.events.saves(self.folder / "state.pvsm")
         self.events.done()
-        self.play({"save a state": 3})
+        self.events.menu("menu_Edit", "actionDelete_All")
+        self.events.task("load a state")
+        self.events.loads(self.folder / "state.pvsm")
+        self.events.done()
+        self.events.select("/0:0/0:0/0:0")
+        self.events.shows(morph)
+        self.events.expect(f"{PANEL}MorphStatus/MorphStatus", "Valid")
+        self.play({"save a state": 3, "load a state": 4})
         least = morph.MinScaledJacobian
         simple.ResetSession()
         simple.LoadState(str(self.folder / "state.pvsm"))

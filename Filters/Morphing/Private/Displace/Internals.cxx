@@ -418,7 +418,8 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
   }
   this->Whole->Take(piece, monitor);
   const bool byHandles = filter->Motion == MOTION_HANDLES;
-  if (filter->Moving == MOVE_SELECTION || (byHandles && filter->SelectedHandles))
+  if (filter->Moving == MOVE_SELECTION ||
+      (filter->Moving != MOVE_NOTHING && byHandles && filter->SelectedHandles))
   {
     this->SelectOnRanks(piece, extras.Selection);
   }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StretchedColumns.h"
+
+#include <pqPropertyWidget.h>
+
+#include <QHeaderView>
+#include <QHelpEvent>
+#include <QTableView>
+#include <QToolTip>
+
+StretchedColumns::StretchedColumns(vtkPVXMLElement* hint, pqPropertyWidget* widget)
+  : Superclass(hint, widget)
+{
+  for (auto* const table : widget->findChildren<QTableView*>())
+  {
+    QHeaderView* const header = table->horizontalHeader();
+    header->setMinimumSectionSize(3 * header->fontMetrics().averageCharWidth());
+    header->setSectionResizeMode(QHeaderView::Stretch);
+    table->viewport()->installEventFilter(this);
+  }
+}
+
+StretchedColumns::~StretchedColumns() = default;
+
+bool StretchedColumns::eventFilter(QObject* object, QEvent* event)
+{
+  auto* const table = event->type() == QEvent::ToolTip && object->parent()
+                        ? qobject_cast<QTableView*>(object->parent())
+                        : nullptr;
+  const auto* const help = static_cast<QHelpEvent*>(event);
+  const QModelIndex index = table ? table->indexAt(help->pos()) : QModelIndex();
+  if (index.isValid())
+  {
+    QToolTip::showText(help->globalPos(), index.data().toString(), table->viewport());
+    return true;
+  }
+  return this->Superclass::eventFilter(object, event);
+}
