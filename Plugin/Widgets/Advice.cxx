@@ -7,7 +7,6 @@
 #include <vtkSMPropertyHelper.h>
 
 #include <QLabel>
-#include <QPalette>
 #include <QVBoxLayout>
 
 Advice::Advice(vtkSMProxy* filter, vtkSMProperty* text, QWidget* parent)
@@ -18,11 +17,9 @@ Advice::Advice(vtkSMProxy* filter, vtkSMProperty* text, QWidget* parent)
   this->setProperty(text);
   this->Text->setObjectName("Text");
   this->Text->setWordWrap(true);
-  // ParaView greys what cannot be edited.
-  QPalette colors = this->Text->palette();
-  colors.setColor(QPalette::Disabled, QPalette::WindowText,
-    colors.color(QPalette::Active, QPalette::WindowText));
-  this->Text->setPalette(colors);
+  // ParaView gives it the colors of a field that cannot be edited: a frame makes it a note.
+  this->Text->setFrameShape(QFrame::StyledPanel);
+  this->Text->setMargin(3);
   auto* const layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(this->Text);

@@ -8,14 +8,28 @@
 #include <QTableView>
 #include <QToolTip>
 
+namespace
+{
+/// Gives access to what is protected.
+struct LabelAccess : pqPropertyWidget
+{
+  using pqPropertyWidget::setShowLabel;
+};
+}
+
 StretchedColumns::StretchedColumns(vtkPVXMLElement* hint, pqPropertyWidget* widget)
   : Superclass(hint, widget)
 {
+  // A label at the left would leave the table little room; PanelLabel puts one above.
+  (widget->*&LabelAccess::setShowLabel)(false);
   for (auto* const table : widget->findChildren<QTableView*>())
   {
+    table->verticalHeader()->hide();
     QHeaderView* const header = table->horizontalHeader();
     header->setMinimumSectionSize(3 * header->fontMetrics().averageCharWidth());
+    header->setStretchLastSection(false);
     header->setSectionResizeMode(QHeaderView::Stretch);
+    table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table->viewport()->installEventFilter(this);
   }
 }

@@ -5,9 +5,10 @@
 #include <pqPropertyWidgetDecorator.h>
 
 /// Fits all columns of a property's table into the panel: ParaView leaves the last ones behind a
-/// scroll bar. A number that is cut off is the cell's tool tip.
+/// scroll bar. A number that is cut off is the cell's tool tip. With a label above:
 ///
 ///     <PropertyWidgetDecorator type="StretchedColumns"/>
+///     <PropertyWidgetDecorator type="PanelLabel" text="Handles"/>
 class StretchedColumns : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

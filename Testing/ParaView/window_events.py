@@ -131,7 +131,7 @@ class Events:
         """In the panel; name: of the property and its widget."""
         self.do(PANEL + name, command, value)
 
-    def prepare(self, folder, size="800 700", script=None, environment=None, arguments=()):
+    def prepare(self, folder, size="1270 990", script=None, environment=None, arguments=()):
         """Writes the events and ParaView's settings into `folder`; returns the arguments of
         subprocess.Popen that play them, after the Python script `script`, if any. `arguments`: of
         ParaView."""
