@@ -377,8 +377,8 @@ public:
   ///@}
 
   /**
-   * What to do where nothing moves yet, since no surface, selection, handle or target is given; else
-   * "None".
+   * What to do where nothing moves yet, since no surface, selection, handle or target is given.
+   * Else "None".
    */
   const char* GetAdvice() const;
 

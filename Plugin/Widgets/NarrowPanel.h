@@ -4,8 +4,8 @@
 
 #include <pqPropertyWidgetDecorator.h>
 
-/// Lets a filter's panel be as narrow as ParaView's dock. A list of choices is by default as wide as
-/// its longest entry, and all of the panel then needs a scroll bar. On one property of the filter:
+/// Lets a filter's panel be as narrow as ParaView's dock. By default a list of choices is as wide
+/// as its longest entry, and all of the panel then needs a scroll bar. On one property of the filter:
 ///
 ///     <PropertyWidgetDecorator type="NarrowPanel"/>
 class NarrowPanel : public pqPropertyWidgetDecorator

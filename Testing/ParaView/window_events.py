@@ -160,7 +160,7 @@ class Events:
         return {"args": command, "env": environment, "cwd": folder, "text": True,
                 "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
-    def play(self, folder, seconds=500, **options):
+    def play(self, folder, seconds=900, **options):
         """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
         messages. `options`: of prepare()."""
         how = self.prepare(folder, **options)
