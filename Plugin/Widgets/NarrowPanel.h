@@ -5,7 +5,7 @@
 #include <pqPropertyWidgetDecorator.h>
 
 /// Lets a filter's panel be as narrow as ParaView's dock. By default a list of choices is as wide
-/// as its longest entry, and all of the panel then needs a scroll bar. On one property of the filter:
+/// as its longest entry, and all of the panel then needs a scroll bar. On one property of a filter:
 ///
 ///     <PropertyWidgetDecorator type="NarrowPanel"/>
 class NarrowPanel : public pqPropertyWidgetDecorator
