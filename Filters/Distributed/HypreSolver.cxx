@@ -302,8 +302,7 @@ SolveReport HypreSolver::solve(
 }
 
 template <typename Action>
-Points HypreSolver::byColumns(
-  const Ranks& ranks, const Points& columns, const Action& action) const
+Points HypreSolver::byColumns(const Ranks& ranks, const Points& columns, const Action& action) const
 {
   Points result = Points::Zero(columns.rows(), 3);
   if (this->unknowns_ == 0)

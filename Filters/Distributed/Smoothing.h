@@ -33,7 +33,7 @@ protected:
 private:
   SmoothingOptions options_;
   std::unique_ptr<OwnCells> own_;
-  ConnectedComponents bodies_; ///< of own_
+  ConnectedComponents bodies_;       ///< of own_
   SharedHigherOrderNodes followers_; ///< of own_
 };
 }

@@ -158,8 +158,8 @@ private:
   }
 
   /// Takes the faces of the next layer.
-  void advance(const std::vector<std::pair<LayerFront, Index>>& fronts,
-    const std::vector<std::uint8_t>& isNew)
+  void advance(
+    const std::vector<std::pair<LayerFront, Index>>& fronts, const std::vector<std::uint8_t>& isNew)
   {
     this->faces_.clear();
     std::vector<FaceRecord> leaving;
@@ -198,8 +198,8 @@ private:
 
   const DistributedMesh& mesh_;
   const LayerCells cells_;
-  std::vector<std::int64_t> isInner_; ///< #nodes: 0 on the boundary
-  std::vector<std::int64_t> wall_;    ///< #nodes: of a column or the wall, or -1
+  std::vector<std::int64_t> isInner_;                    ///< #nodes: 0 on the boundary
+  std::vector<std::int64_t> wall_;                       ///< #nodes: of a column or the wall, or -1
   std::vector<std::pair<std::int64_t, Index>> ownCells_; ///< by id
   std::vector<Face> faces_;                              ///< of this rank, at the front
 };

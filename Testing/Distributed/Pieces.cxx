@@ -94,8 +94,7 @@ std::vector<morph::Index> localNodes(
   return nodes;
 }
 
-morph::Points gathered(
-  const morph::distributed::DistributedMesh& mesh, const morph::Points& moved)
+morph::Points gathered(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved)
 {
   struct Placed
   {

@@ -217,7 +217,8 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
   const bool isSeveral = ranks.count() > 1;
   const std::vector<std::pair<std::string, Configure>> cases = {
     { "Surface 77", [](vtkMorphMesh* filter) { filter->AddSurface("Surface 77"); } },
-    { "FixedSurfaces names", [](vtkMorphMesh* filter)
+    { "FixedSurfaces names",
+      [](vtkMorphMesh* filter)
       {
         filter->AddSurface("Surface 1");
         filter->AddFixedSurface("Surface 77");

@@ -68,16 +68,16 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const NodePartition& parti
   method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
   Points moved;
   Result result;
-  result.report = method->evaluate(
-    meshes::rows(target, mesh.idsOfNodes(prescribed)), moved, monitor);
+  result.report =
+    method->evaluate(meshes::rows(target, mesh.idsOfNodes(prescribed)), moved, monitor);
   result.moved = pieces::gathered(mesh, moved);
   result.warnings = monitor.warnings;
   for (const morph::Statistic& one : result.report.statistics)
   {
     EXPECT_EQ(ranks.minimum(one.value), ranks.maximum(one.value)) << one.name;
   }
-  EXPECT_TRUE(motions::identical(meshes::rows(result.moved, partition.prescribed),
-    meshes::rows(target, partition.prescribed)));
+  EXPECT_TRUE(motions::identical(
+    meshes::rows(result.moved, partition.prescribed), meshes::rows(target, partition.prescribed)));
   return result;
 }
 
@@ -109,15 +109,13 @@ SmoothingOptions toTarget(SmoothingTarget target)
 }
 
 /// The minimum on one process of the mesh with its nodes renumbered.
-double renumberedMinimum(
-  const Mesh& mesh, const Points& target, const SmoothingOptions& options)
+double renumberedMinimum(const Mesh& mesh, const Points& target, const SmoothingOptions& options)
 {
   const std::vector<Index> order = motions::shuffledNumbers(mesh.numberOfNodes());
   const Mesh other = meshes::renumbered(mesh, order);
   Points there(target.rows(), 3);
   there(order, morph::allColumns) = target;
-  return qualityOf(
-    other, serial(other, motions::outerPartition(other), there, options).moved)
+  return qualityOf(other, serial(other, motions::outerPartition(other), there, options).moved)
     .minimum;
 }
 
@@ -186,8 +184,8 @@ TEST(RankSmoothing, IsAsGoodAsOnOneRank)
             count(mine, "BoundaryDeterminedCells"), count(expected, "BoundaryDeterminedCells"));
           EXPECT_LT(below(here.minimum, there.minimum), 0.01);
           worst = std::max(worst, below(here.minimum, there.minimum));
-          worstRenumbered = std::max(worstRenumbered,
-            below(renumberedMinimum(mesh, target, options), there.minimum));
+          worstRenumbered = std::max(
+            worstRenumbered, below(renumberedMinimum(mesh, target, options), there.minimum));
         }
       }
     }
@@ -208,13 +206,13 @@ TEST(RankSmoothing, AffineMotionsComeOut)
       { motions::Map(motions::affine), motions::Map([](const motions::Row& x) { return x; }) })
     {
       const Points target = motions::mapped(mesh.points, map);
-      const Result mine = onRanks(ranks, mesh, motions::outerPartition(mesh), target,
-        toTarget(SmoothingTarget::Initial));
+      const Result mine = onRanks(
+        ranks, mesh, motions::outerPartition(mesh), target, toTarget(SmoothingTarget::Initial));
       EXPECT_LT(motions::difference(mine.moved, target), 1e-10 * meshes::size(target)) << name;
       EXPECT_TRUE(mine.warnings.empty()) << name;
     }
-    const Result still = onRanks(ranks, mesh, motions::outerPartition(mesh), mesh.points,
-      toTarget(SmoothingTarget::Initial));
+    const Result still = onRanks(
+      ranks, mesh, motions::outerPartition(mesh), mesh.points, toTarget(SmoothingTarget::Initial));
     EXPECT_TRUE(motions::identical(still.moved, mesh.points)) << name;
   }
 }
@@ -225,10 +223,9 @@ TEST(RankSmoothing, EveryBodyFollowsItsOwnBoundary)
   const Mesh mesh = twoBodies();
   // One stays, the other turns round.
   const Points target = motions::mapped(mesh.points,
-    [](const motions::Row& x)
-    { return x[0] < 5 ? x : motions::Row(30 - x[0], 3 - x[1], x[2]); });
-  const Result mine = onRanks(
-    ranks, mesh, motions::outerPartition(mesh), target, toTarget(SmoothingTarget::Initial));
+    [](const motions::Row& x) { return x[0] < 5 ? x : motions::Row(30 - x[0], 3 - x[1], x[2]); });
+  const Result mine =
+    onRanks(ranks, mesh, motions::outerPartition(mesh), target, toTarget(SmoothingTarget::Initial));
   EXPECT_LT(motions::difference(mine.moved, target), 1e-9);
 }
 
@@ -240,8 +237,8 @@ TEST(RankSmoothing, ABodyHeldByAPlaneOrALineStartsAsOnOneRank)
     mesh, [](const motions::Row& x) { return motions::Row(x + motions::Row(1e5, -1e5, 0)); });
   const Eigen::Matrix3d turn =
     Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Points target =
-    motions::mapped(mesh.points, [&](const motions::Row& x) -> motions::Row { return 2 * x * turn; });
+  const Points target = motions::mapped(
+    mesh.points, [&](const motions::Row& x) -> motions::Row { return 2 * x * turn; });
   for (const int planes : { 1, 2 })
   {
     std::vector<Index> ids;
@@ -302,8 +299,8 @@ TEST(RankSmoothing, ABodyWithoutAPrescribedNodeIsNamedOnAllRanks)
   const Ranks ranks = pieces::world();
   const Mesh mesh = twoBodies();
   NodePartition one = motions::outerPartition(mesh);
-  one.prescribed.erase(std::lower_bound(one.prescribed.begin(), one.prescribed.end(),
-                         mesh.numberOfNodes() / 2),
+  one.prescribed.erase(
+    std::lower_bound(one.prescribed.begin(), one.prescribed.end(), mesh.numberOfNodes() / 2),
     one.prescribed.end());
   const std::string message = pieces::messageOf(
     [&] { onRanks(ranks, mesh, morph::partitionNodes(mesh, one.prescribed), mesh.points, {}); });

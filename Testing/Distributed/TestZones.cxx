@@ -142,8 +142,9 @@ void compare(const Ranks& ranks, const std::string& name, const morph::Mesh& mes
     vtkDataArray* theirs = expected->GetFieldData()->GetArray(array);
     vtkDataArray* mine = output->GetFieldData()->GetArray(array);
     ASSERT_EQ(mine != nullptr, theirs != nullptr);
-    ASSERT_EQ(
-      mine ? mine->GetNumberOfTuples() : 0, theirs ? theirs->GetNumberOfTuples() : 0);
+    ASSERT_EQ(mine ? mine->GetNumberOfTuples() : 0, theirs ? theirs->GetNumberOfTuples() : 0);
+    EXPECT_EQ(mine != nullptr, filter->GetSlideRounds() > 0);
+    EXPECT_TRUE(!mine || mine->GetNumberOfTuples() > 0);
     for (vtkIdType i = 0; mine && i < mine->GetNumberOfTuples(); ++i)
     {
       EXPECT_NEAR(mine->GetComponent(i, 0), theirs->GetComponent(i, 0), 1e-6);
@@ -236,8 +237,8 @@ TEST(RankZones, SelectionsAreOfEachRanksPiece)
   const auto whole = gridOf(mesh);
   const auto select = [](vtkUnstructuredGrid* grid, bool byCells)
   {
-    vtkDataArray* marks = byCells ? grid->GetCellData()->GetArray("Foot")
-                                  : grid->GetPointData()->GetArray("Clamp");
+    vtkDataArray* marks =
+      byCells ? grid->GetCellData()->GetArray("Foot") : grid->GetPointData()->GetArray("Clamp");
     vtkNew<vtkIdTypeArray> ids;
     for (vtkIdType i = 0; marks && i < marks->GetNumberOfTuples(); ++i)
     {
@@ -287,8 +288,8 @@ TEST(RankZones, SelectionsAreOfEachRanksPiece)
 TEST(RankKeepLayers, AgreeWithTheSerialOnes)
 {
   const Ranks ranks = pieces::world();
-  const std::vector<Case> cases = {
-    { "one layer", [](vtkMorphMesh* filter) { filter->SetKeepLayers(1); } },
+  const std::vector<Case> cases = { { "one layer",
+                                      [](vtkMorphMesh* filter) { filter->SetKeepLayers(1); } },
     { "three layers", [](vtkMorphMesh* filter) { filter->SetKeepLayers(3); } },
     { "all layers", [](vtkMorphMesh* filter) { filter->SetKeepLayers(100); } },
     { "layers of some cells",
@@ -419,7 +420,8 @@ TEST(RankZones, OneErrorEndsAllRanks)
       [](vtkMorphMesh* filter) { filter->SetZoneRegionType(vtkMorphMesh::ZONE_FROZEN); } },
     { "There are no layers to keep", &tets,
       [](vtkMorphMesh* filter) { filter->SetKeepLayers(2); } },
-    { "LayersArray names 'Nowhere'", &hexes, [](vtkMorphMesh* filter)
+    { "LayersArray names 'Nowhere'", &hexes,
+      [](vtkMorphMesh* filter)
       {
         filter->SetKeepLayers(2);
         filter->SetLayersArray("Nowhere");

@@ -33,8 +33,8 @@ int cornerAbove(const CellShape& shape, const FaceShape& face, int corner)
 }
 }
 
-LayerCells::LayerCells(const Mesh& mesh, const std::vector<Index>& outerNodes,
-  const std::vector<std::uint8_t>& isLayer)
+LayerCells::LayerCells(
+  const Mesh& mesh, const std::vector<Index>& outerNodes, const std::vector<std::uint8_t>& isLayer)
   : mesh_(mesh)
   , around_(nodeToCells(mesh))
   , isLayer_(isLayer)
@@ -60,8 +60,7 @@ bool LayerCells::makeFront(Index cell, const Index* nodes, Index size, LayerFron
   {
     const FaceShape& face = shape.faces[f];
     const auto isOne = [&](int k) {
-      return std::find(nodes, nodes + size, ids[shape.cornerNode[face.corner[k]]]) !=
-             nodes + size;
+      return std::find(nodes, nodes + size, ids[shape.cornerNode[face.corner[k]]]) != nodes + size;
     };
     if (face.size != size || !isOne(0) || !isOne(1) || !isOne(2) || !isOne(size - 1))
     {

@@ -123,8 +123,7 @@ private:
         [&](const Corner& corner, Eigen::Map<Sum>& sum)
         {
           const Row u = this->displacement_.row(corner.row);
-          sum.head<3>() +=
-            this->rest_.points.row(corner.node) - this->motions_[corner.body].centre;
+          sum.head<3>() += this->rest_.points.row(corner.node) - this->motions_[corner.body].centre;
           sum.segment<3>(3) += u;
           sum[6] += 1;
           sum[7] += (u.array() == 0).all() ? 0 : 1;
@@ -190,8 +189,8 @@ private:
     for (std::size_t b = 0; b < sides.size(); ++b)
     {
       const Eigen::SelfAdjointEigenSolver<Matrix> axes(sides[b]);
-      complete(this->motions_[b].gradient, ranks[b], longest[b],
-        axes.eigenvectors().col(2).transpose());
+      complete(
+        this->motions_[b].gradient, ranks[b], longest[b], axes.eigenvectors().col(2).transpose());
     }
   }
 

@@ -15,8 +15,7 @@ class SharedHigherOrderNodes
 {
 public:
   /// `rest`: with the cells of this process.
-  void prepare(
-    const Mesh& rest, const NodePartition& partition, const Communicator& communicator);
+  void prepare(const Mesh& rest, const NodePartition& partition, const Communicator& communicator);
   /// Whether no process has such nodes.
   bool empty() const { return !this->rows_; }
   /// Fills the higher-order nodes' rows of `displacement` (#nodes x 3) from the corners' rows.

@@ -102,8 +102,8 @@ MotionSmoothing::Outcome MotionSmoothing::run(
   return outcome;
 }
 
-EvaluateReport reportSmoothing(const MotionSmoothing::Outcome& outcome,
-  const std::vector<Index>& determined, Monitor& monitor)
+EvaluateReport reportSmoothing(
+  const MotionSmoothing::Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor)
 {
   if (!determined.empty())
   {

@@ -57,6 +57,6 @@ private:
 
 /// Warns of what stays inverted, and returns the counts of Smoothing. `determined`: cells that the
 /// boundary itself inverts, ascending. Ids are those of the whole mesh.
-EvaluateReport reportSmoothing(const MotionSmoothing::Outcome& outcome,
-  const std::vector<Index>& determined, Monitor& monitor);
+EvaluateReport reportSmoothing(
+  const MotionSmoothing::Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor);
 }

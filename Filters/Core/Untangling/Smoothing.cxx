@@ -17,10 +17,9 @@ void Smoothing::doPrepare(const Mesh& rest, Monitor&)
 EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
   Points points;
-  const MotionSmoothing::Outcome outcome =
-    MotionSmoothing(this->mesh_, this->bodies_, this->orientation_, this->partition(),
-      this->followers_, this->options_)
-      .run(prescribed, points, monitor);
+  const MotionSmoothing::Outcome outcome = MotionSmoothing(this->mesh_, this->bodies_,
+    this->orientation_, this->partition(), this->followers_, this->options_)
+                                             .run(prescribed, points, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = this->partition().free[i];

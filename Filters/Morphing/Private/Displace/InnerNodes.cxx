@@ -80,11 +80,11 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
 
 [[noreturn]] void throwNoLayers(const std::string& array)
 {
-  throw Error("There are no layers to keep: no hexahedra, nor wedges on triangles, lie on the "
-              "faces that move" +
-              (array.empty() ? std::string(".")
-                             : " where the cell array '" + array + "' is not zero.") +
-              " Set KeepLayers to 0, or let whole faces of the wall move.");
+  throw Error(
+    "There are no layers to keep: no hexahedra, nor wedges on triangles, lie on the "
+    "faces that move" +
+    (array.empty() ? std::string(".") : " where the cell array '" + array + "' is not zero.") +
+    " Set KeepLayers to 0, or let whole faces of the wall move.");
 }
 
 /// Where nodes move, in the order of their ids.
@@ -462,10 +462,10 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
   // Three nodes that are not on a line tell the motion.
   const bool isTold =
     morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
-  const WholeVolume::Moved by =
-    isTold ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
-               result.Moved(outer, morph::allColumns) }
-           : this->Guess(zone, model, result, monitor);
+  const WholeVolume::Moved by = isTold
+                                  ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
+                                      result.Moved(outer, morph::allColumns) }
+                                  : this->Guess(zone, model, result, monitor);
   const morph::RigidMotion motion = morph::fitRigidMotion(by.From, by.To);
   const bool stays = (by.To - by.From).isZero(0);
   for (const Index node : zone.Nodes)
@@ -528,8 +528,8 @@ WholeVolume::Moved InnerNodes::Guess(const Zone& zone, const BoundaryModel& mode
     volume.RequireNoPolyhedra("A rigid zone whose motion its boundary does not tell");
     const bool hasEdge =
       Ranks::Count(std::count(zone.IsEdge.begin(), zone.IsEdge.end(), 1) > 0) > 0;
-    return volume.Warp(this->PrescribedOnRanks(model, result, {}),
-      hasEdge ? zone.IsEdge : zone.IsNode, monitor);
+    return volume.Warp(
+      this->PrescribedOnRanks(model, result, {}), hasEdge ? zone.IsEdge : zone.IsNode, monitor);
   }
   const morph::Mesh& mesh = model.Mesh();
   const std::vector<Index> prescribed = Prescribed(model, result);

@@ -75,12 +75,11 @@ public:
 private:
   struct Zone
   {
-    std::vector<morph::Index> Nodes; ///< ascending, in no zone before
-    std::vector<morph::Index> Edge;  ///< those with a cell outside the zone; not on ranks
+    std::vector<morph::Index> Nodes;   ///< ascending, in no zone before
+    std::vector<morph::Index> Edge;    ///< those with a cell outside the zone; not on ranks
     WholeVolume::Flags IsNode, IsEdge; ///< the same of the piece's points, on ranks
   };
-  void FindOnRanks(
-    vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options);
+  void FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options);
   /// The nodes here of those of the whole mesh that the piece's flags tell. Collective.
   std::vector<morph::Index> NodesOf(const BoundaryModel& model, const WholeVolume::Flags& ofPiece);
   Eigen::RowVector3d RestOf(const BoundaryModel& model, morph::Index node) const;
@@ -93,7 +92,7 @@ private:
     const Choice::Result& choice, const Options& options, Surroundings::Result& result);
   void MoveLayers(const morph::Points& rest, const BoundaryModel& model,
     const Choice::Result& choice, Surroundings::Result& result) const;
-  /// Makes room for the points that were added, at rest.
+  /// Makes room for the points that were added, undeformed.
   void Extend(const BoundaryModel& model, Surroundings::Result& result) const;
   void MoveRigidly(const Zone& zone, const BoundaryModel& model, Surroundings::Result& result,
     morph::Monitor& monitor);
@@ -104,7 +103,7 @@ private:
   const WholeSurface* Whole = nullptr;
   std::vector<morph::Index> PointOf; ///< on ranks: of the piece, of each node behind the model's
   std::map<morph::Index, morph::Index> NumberOf; ///< in PointOf, of those points
-  Surroundings Around;               ///< of what Place() moves
+  Surroundings Around;                           ///< of what Place() moves
   std::vector<morph::Index> FrozenNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;

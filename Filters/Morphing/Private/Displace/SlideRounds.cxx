@@ -170,8 +170,8 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
     const WholeVolume volume(*whole);
     volume.RequireNoPolyhedra("SlideRounds of vtkBoundaryDisplacement");
     morph::Points places = before(nodes, morph::allColumns);
-    this->Rounds = volume.Slide(inner.PrescribedOnRanks(model, result, nodes), nodes, along(nodes),
-      rounds, places, monitor);
+    this->Rounds = volume.Slide(
+      inner.PrescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
     result.Moved(nodes, morph::allColumns) = places;
   }
   else

@@ -136,8 +136,7 @@ void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part
 
 bool isNowhere(const Part& part)
 {
-  return std::none_of(
-    part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; });
+  return std::none_of(part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; });
 }
 
 [[noreturn]] void throwNowhere(const Part& part)
@@ -179,8 +178,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
     take("ZoneSelection",
       [&](Part& part)
       {
-        if (options.IsPart &&
-            !(options.Selection && options.Selection->GetNumberOfNodes() > 0))
+        if (options.IsPart && !(options.Selection && options.Selection->GetNumberOfNodes() > 0))
         {
           takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
           return;
@@ -197,8 +195,7 @@ std::vector<Part> FindOnRanks(
   Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume, Options options)
 {
   // A selection that is nowhere is an error, as on one process.
-  const bool isSelected =
-    options.Selection && options.Selection->GetNumberOfNodes() > 0;
+  const bool isSelected = options.Selection && options.Selection->GetNumberOfNodes() > 0;
   options.IsPart = Ranks::Count(isSelected) > 0 || options.SelectionKind != kind;
   std::vector<Part> parts;
   Ranks::Together(

@@ -345,8 +345,7 @@ void WholeSurface::MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const
   const vtkIdType first = surface->GetNumberOfPoints() - count;
   vtkIdType point = 0;
   translate(surface->GetPointData(), Surface::IdName, surface->GetNumberOfPoints(),
-    [&](vtkIdType id)
-    { return point++ < first ? id : static_cast<vtkIdType>(whole.nodeId(id)); });
+    [&](vtkIdType id) { return point++ < first ? id : static_cast<vtkIdType>(whole.nodeId(id)); });
 }
 
 vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData* surface) const

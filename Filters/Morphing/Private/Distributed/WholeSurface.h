@@ -91,7 +91,7 @@ public:
   /// points on them; a cell without MorphCellId belongs where its first point does. MorphPointId
   /// and MorphCellId, nodes and cells of Grid() before, become global ids.
   void KeepOwn(vtkPolyData* surface) const;
-  /// Makes the last points of a surface's array MorphPointId, points of the piece before, global ids.
+  /// Replaces points of the piece in MorphPointId by global ids, for the last `count` points.
   void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const;
   /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
   /// of this process's piece.

@@ -107,8 +107,7 @@ WholeVolume::Columns WholeVolume::FindLayers(
   for (std::size_t f = 0; f < own.cells.size(); ++f)
   {
     const Side side(mesh.cellId(own.cells[f]), own.sides[f]);
-    isOwnWall.push_back(
-      isWall[std::lower_bound(sides.begin(), sides.end(), side) - sides.begin()]);
+    isOwnWall.push_back(isWall[std::lower_bound(sides.begin(), sides.end(), side) - sides.begin()]);
   }
   const std::vector<std::int64_t> wallOf =
     morph::distributed::findWallLayers(mesh, isOwnWall, most, isLayer);
@@ -194,8 +193,8 @@ WholeVolume::Moved WholeVolume::Warp(
     }
   }
   records = mesh.ranks().gather(records);
-  std::sort(records.begin(), records.end(),
-    [](const Record& a, const Record& b) { return a.id < b.id; });
+  std::sort(
+    records.begin(), records.end(), [](const Record& a, const Record& b) { return a.id < b.id; });
   Moved result;
   result.From.resize(static_cast<Index>(records.size()), 3);
   result.To.resize(result.From.rows(), 3);
@@ -233,11 +232,10 @@ std::vector<morph::NodeSliding::Round> WholeVolume::Slide(const Prescribed& give
   }
   morph::distributed::SlidingWarp method;
   method.prepare(mesh, partitionOf(mesh, prescribed), monitor);
-  const morph::NodeSliding::Surfaces ofLocal = {
-    [&](Index i, const morph::NodeSliding::Row& x)
+  const morph::NodeSliding::Surfaces ofLocal = { [&](Index i, const morph::NodeSliding::Row& x)
     { return surfaces.directions(local[i].second, x); },
-    [&](Index i, const morph::NodeSliding::Row& x) { return surfaces.closest(local[i].second, x); }
-  };
+    [&](Index i, const morph::NodeSliding::Row& x)
+    { return surfaces.closest(local[i].second, x); } };
   const auto done = method.slide(nodes, ofLocal, rounds, moved, monitor);
   struct Place
   {
