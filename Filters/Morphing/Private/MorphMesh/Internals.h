@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkPolyData;
 
 class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
@@ -96,8 +97,10 @@ private:
   bool HasHandles(bool anySelection) const;
   /// What to do where nothing moves.
   std::string Advice() const;
-  void ConfigureMorph(morph::Monitor& monitor);
+  /// `soft`: SoftCells().
+  void ConfigureMorph(vtkDataArray* soft, morph::Monitor& monitor);
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
+  /// Collective.
   vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
