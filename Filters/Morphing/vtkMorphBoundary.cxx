@@ -4,6 +4,7 @@
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
+#include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/Geometry.h"
@@ -398,9 +399,13 @@ void vtkMorphBoundary::vtkInternals::Run(
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
-  if (this->Filter->SurfaceMethod == SURFACE_METHOD_SMOOTHING)
+  if (how.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
   {
     morph::smoothSurfaces(faces, geometry, place.get(), motion, monitor);
+  }
+  if (how.method == morph::SurfaceMorphOptions::Method::MeshSmoothing)
+  {
+    morph::smoothSurfaceMeshes(faces, geometry, place.get(), motion, monitor);
   }
   monitor.SetRange(0.9, 1);
 

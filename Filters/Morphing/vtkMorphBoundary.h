@@ -99,6 +99,7 @@ public:
   {
     SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
     SURFACE_METHOD_SMOOTHING = 1,
+    SURFACE_METHOD_MESH_SMOOTHING = 2,
     // The old names, until version 0.2.
     WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
     SMOOTHING = SURFACE_METHOD_SMOOTHING
@@ -109,13 +110,15 @@ public:
    * Jacobian below 0.2, and below half of the undeformed value) by moving nodes along the surface.
    * Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
-  vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
+  vtkSetClampMacro(
+    SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_MESH_SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);
   void SetSurfaceMethodToWeightedResidual()
   {
     this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
   }
   void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
+  void SetSurfaceMethodToMeshSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_MESH_SMOOTHING); }
   ///@}
 
   ///@{

@@ -40,6 +40,7 @@ struct Corner
   Index node[3];               ///< the corner, the next node, the one before
   Eigen::Matrix2d restInverse; ///< of the two edges in the undeformed face's plane
   double area;                 ///< twice the undeformed triangle's
+  double weight;
 };
 
 class Improvement
@@ -116,9 +117,13 @@ private:
       const Plane plane = tangents(area.normalized());
       for (Index k = 0; k < size; ++k)
       {
-        Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0 };
+        Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0,
+          0 };
         const Eigen::Matrix2d D = edges(corner, this->motion_.rest, plane);
         corner.area = D.determinant();
+        // Corners overlap: those of a triangle cover it three times, those of a quadrilateral twice.
+        // With these weights forces of an affine motion cancel between both, too.
+        corner.weight = corner.area / (size == 3 ? 3. : 2.);
         if (corner.area > 0)
         {
           corner.restInverse = D.inverse();
@@ -205,10 +210,10 @@ private:
         return sum;
       }
       const double square = J.squaredNorm();
-      sum.value += corner.area * square / (2 * chi);
+      sum.value += corner.weight * square / (2 * chi);
       Eigen::Matrix2d cofactor;
       cofactor << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
-      const Eigen::Matrix2d force = corner.area * (J / chi - square / (2 * chi * root) * cofactor) *
+      const Eigen::Matrix2d force = corner.weight * (J / chi - square / (2 * chi * root) * cofactor) *
                                     corner.restInverse.transpose();
       sum.gradient += node == corner.node[1]   ? Eigen::Vector2d(force.col(0))
                       : node == corner.node[2] ? Eigen::Vector2d(force.col(1))
