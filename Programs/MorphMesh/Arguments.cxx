@@ -149,8 +149,8 @@ std::string surfaceMethod(const std::string& text)
 {
   if (text != "WeightedResidual" && text != "Smoothing" && text != "MeshSmoothing")
   {
-    throw UsageError("--surface-method needs WeightedResidual, Smoothing or MeshSmoothing, not '" +
-                     text + "'.");
+    throw UsageError(
+      "--surface-method needs WeightedResidual, Smoothing or MeshSmoothing, not '" + text + "'.");
   }
   return text;
 }

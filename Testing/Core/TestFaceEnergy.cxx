@@ -140,10 +140,9 @@ struct Surface
         Matrix edges;
         for (int e = 0; e < 2; ++e)
         {
-          edges.col(e) =
-            (this->points.row(corner.node[e + 1]) - this->points.row(corner.node[0]))
-              .head<2>()
-              .transpose();
+          edges.col(e) = (this->points.row(corner.node[e + 1]) - this->points.row(corner.node[0]))
+                           .head<2>()
+                           .transpose();
         }
         corner.inverse = edges.inverse();
         corner.weight = edges.determinant() / (n == 3 ? 3. : 2.);

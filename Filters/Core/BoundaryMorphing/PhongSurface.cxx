@@ -41,8 +41,7 @@ PhongSurface::PhongSurface(
   }
   std::sort(this->nodes_.begin(), this->nodes_.end());
   this->nodes_.erase(std::unique(this->nodes_.begin(), this->nodes_.end()), this->nodes_.end());
-  const auto local = [this](Index node)
-  {
+  const auto local = [this](Index node) {
     return std::lower_bound(this->nodes_.begin(), this->nodes_.end(), node) - this->nodes_.begin();
   };
   this->points_ = points(this->nodes_, allColumns);
@@ -51,9 +50,8 @@ PhongSurface::PhongSurface(
     const auto corner = first(f);
     const Index size = faces.offsets[f + 1] - faces.offsets[f];
     // A quadrilateral is cut along its shorter diagonal.
-    const bool turn =
-      size == 4 && (points.row(corner[1]) - points.row(corner[3])).squaredNorm() <
-                     (points.row(corner[0]) - points.row(corner[2])).squaredNorm();
+    const bool turn = size == 4 && (points.row(corner[1]) - points.row(corner[3])).squaredNorm() <
+                                     (points.row(corner[0]) - points.row(corner[2])).squaredNorm();
     for (Index k = 2; k < size; ++k)
     {
       const auto at = [&](Index i) { return local(corner[(i + turn) % size]); };
@@ -70,8 +68,8 @@ PhongSurface::PhongSurface(
   for (const Triangle& t : this->triangles_)
   {
     const Row a = this->points_.row(t.node[0]);
-    const Row area = (Row(this->points_.row(t.node[1])) - a)
-                       .cross(Row(this->points_.row(t.node[2])) - a);
+    const Row area =
+      (Row(this->points_.row(t.node[1])) - a).cross(Row(this->points_.row(t.node[2])) - a);
     this->planeNormal_ += area;
     for (const Index node : t.node)
     {

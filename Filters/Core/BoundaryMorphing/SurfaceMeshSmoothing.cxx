@@ -3,396 +3,185 @@
 
 #include "Boundary/FaceQuality.h"
 #include "Boundary/FoldedFaces.h"
+#include "BoundaryMorphing/MidNodes.h"
 #include "BoundaryMorphing/MotionFit.h"
-#include "BoundaryMorphing/PhongSurface.h"
-#include "Energies/FaceEnergy.h"
-#include "Optimization/Minimizers.h"
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include "BoundaryMorphing/SurfaceMeshSmoother.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
+#include <cstdint>
 #include <limits>
-#include <memory>
-#include <optional>
 
 namespace morph
 {
 namespace
 {
-constexpr double StopMove = 1e-3;      // of the mean edge
-constexpr double LeastDecrease = 1e-6; // of the energy in a round, relative
-constexpr int Rounds = 20;
-constexpr int StepsInRound = 3;
-constexpr int MostHalvings = 6;
-constexpr int UntangleStages = 40;
-constexpr int StagesWithoutGain = 6;
+constexpr double Rounding = 1e-10; // of the largest displacement
+constexpr int Layers = 30;
 
-double knob(const char* name, double value)
+std::vector<std::uint8_t> foldedMask(const Points& rest, const Points& moved,
+  const BoundaryFaces& faces, const Classification& geometry)
 {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
+  std::vector<std::uint8_t> isFolded(faces.cells.size(), 0);
+  for (const Index f : foldedFaces(rest, moved, faces, geometry))
+  {
+    isFolded[f] = 1;
+  }
+  return isFolded;
 }
 
-using Row = Eigen::RowVector3d;
-
-class Smoother
+/// Returns the faces' scaled Jacobians; negative on folded faces alone, not where a surface bends.
+std::vector<double> measure(const Points& rest, const Points& moved, const BoundaryFaces& faces,
+  const Classification& geometry)
 {
-public:
-  Smoother(const BoundaryFaces& faces, const Classification& geometry, Index surface,
-    const ProjectionTarget* target, const BoundaryMotion& motion, const Points& start,
-    const FaceQuality& quality, const std::vector<std::uint8_t>& isFolded, Monitor& monitor)
-    : faces_(faces)
-    , geometry_(geometry)
-    , surface_(surface)
-    , nodes_(geometry.surfaces[surface].nodes)
-    , target_(target && target->holds(surface) ? target : nullptr)
-    , motion_(motion)
-    , quality_(quality)
-    , isFolded_(isFolded)
-    , monitor_(monitor)
-    , points_(start(nodes_, allColumns))
+  std::vector<double> value = faceQuality(rest, moved, faces, geometry).scaledJacobian;
+  const std::vector<std::uint8_t> isFolded = foldedMask(rest, moved, faces, geometry);
+  for (std::size_t f = 0; f < value.size(); ++f)
   {
-    if (!this->target_)
-    {
-      this->shape_.emplace(start, faces, geometry.surfaces[surface].faces);
-    }
-    this->makeCorners();
+    value[f] = isFolded[f] ? value[f] : std::abs(value[f]);
   }
+  return value;
+}
 
-  bool hasFree() const { return !this->free_.empty(); }
-  const std::vector<Index>& nodes() const { return this->nodes_; }
-  const Points& points() const { return this->points_; }
-  const MinimizerEffort& effort() const { return this->effort_; }
+/// The quality of one surface's faces.
+struct Summary
+{
+  Index folded = 0;
+  double minimum = std::numeric_limits<double>::infinity();
+  double sum = 0;
 
-  void run()
+  Summary(const GeometrySurface& surface, const std::vector<double>& quality)
   {
-    FaceEnergy energy(this->corners_, this->free_, this->points_.rows());
-    this->setPlanes(energy, this->points_);
-    energy.setDensity({});
-    const FaceEnergy::State s0 = energy.evaluate(this->points_, this->monitor_);
-    if (s0.inverted > 0)
+    for (const Index f : surface.faces)
     {
-      this->untangle(energy);
-    }
-    energy.setDensity({});
-    FaceEnergy::State s1 = energy.evaluate(this->points_, this->monitor_);
-    if (s1.inverted == 0)
-    {
-      FaceDensity density;
-      this->improve(energy, density);
-      density.power = static_cast<int>(knob("P", 1));
-      if (density.power > 1)
+      if (!std::isnan(quality[f]))
       {
-        this->improve(energy, density);
+        this->folded += quality[f] <= 0;
+        this->minimum = std::min(this->minimum, quality[f]);
+        this->sum += quality[f];
       }
     }
-    if (std::getenv("TRACE"))
+  }
+
+  bool hasWorseFaces(const Summary& other) const
+  {
+    return this->folded != other.folded ? this->folded > other.folded
+                                        : this->minimum < other.minimum;
+  }
+  bool isWorse(const Summary& other) const
+  {
+    return this->hasWorseFaces(other) || (this->folded == other.folded &&
+                                           this->minimum == other.minimum && this->sum < other.sum);
+  }
+};
+
+/// Returns nodes to the start where a surface would be worse than there.
+class KeepBetter
+{
+public:
+  KeepBetter(const BoundaryFaces& faces, const Classification& geometry,
+    const BoundaryMotion& motion, const Points& start)
+    : faces_(faces)
+    , geometry_(geometry)
+    , motion_(motion)
+    , start_(start)
+    , isBack_(motion.state.size(), 0)
+  {
+  }
+
+  /// Moves the surfaces that return wholly from `report.smoothed` to `report.kept`.
+  void run(SurfaceMeshSmoothing& report, Points& points)
+  {
+    const std::vector<double> before = this->measured(this->start_);
+    std::vector<Index> open = report.smoothed;
+    for (int layer = 0; !open.empty(); ++layer)
     {
-      energy.setDensity({});
-      const FaceEnergy::State s2 = energy.evaluate(this->points_, this->monitor_);
-      std::fprintf(stderr, "surface %d: free %d corners %d plane %d; E %g inv %d | untangled %g inv %d | %g inv %d; steps %d cg %d ev %d\n",
-        int(surface_), int(free_.size()), int(corners_.size()), shape_ && shape_->isPlane(), s0.energy, int(s0.inverted), s1.energy, int(s1.inverted), s2.energy, int(s2.inverted),
-        int(effort_.steps), int(effort_.linearIterations), int(effort_.evaluations));
+      const std::vector<double> now = this->measured(points);
+      std::vector<Index> next;
+      for (const Index s : open)
+      {
+        const GeometrySurface& surface = this->geometry_.surfaces[s];
+        const Summary first(surface, before), here(surface, now);
+        // Only a start without folds has a minimum to keep.
+        const bool mends = here.hasWorseFaces(first) && first.folded == 0 && layer < Layers &&
+                           this->takeBackBelow(first.minimum, now, surface, points);
+        if (mends)
+        {
+          next.push_back(s);
+        }
+        else if (here.isWorse(first))
+        {
+          this->takeBack(surface.nodes, points);
+          report.kept.push_back(s);
+        }
+      }
+      open = next;
     }
+    std::sort(report.kept.begin(), report.kept.end());
+    const auto isKept = [&](Index s)
+    { return std::binary_search(report.kept.begin(), report.kept.end(), s); };
+    report.smoothed.erase(std::remove_if(report.smoothed.begin(), report.smoothed.end(), isKept),
+      report.smoothed.end());
   }
 
 private:
-  Index local(Index node) const
+  std::vector<double> measured(const Points& points) const
   {
-    return std::lower_bound(this->nodes_.begin(), this->nodes_.end(), node) - this->nodes_.begin();
+    return measure(this->motion_.rest, points, this->faces_, this->geometry_);
   }
 
-  void makeCorners()
+  /// The result tells whether a node returned that had not before.
+  template <typename Nodes>
+  bool takeBack(const Nodes& nodes, Points& points)
   {
-    const GeometrySurface& surface = this->geometry_.surfaces[this->surface_];
-    std::vector<Index> fixed;
-    for (const Index node : this->nodes_)
+    bool any = false;
+    for (const Index node : nodes)
     {
-      if (this->motion_.state[node] != BoundaryMotion::OnSurface)
+      if (!this->isBack_[node] && this->motion_.state[node] == BoundaryMotion::OnSurface)
       {
-        fixed.push_back(node);
+        this->isBack_[node] = 1;
+        points.row(node) = this->start_.row(node);
+        any = true;
       }
     }
-    Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
-    if (knob("AFFINE", 1) > 0)
-    {
-      map += affineFit(this->motion_, fixed).gradient();
-    }
-    std::vector<std::uint8_t> isCorner(this->nodes_.size(), 0);
-    double all = 0;
+    return any;
+  }
+
+  bool takeBackBelow(
+    double minimum, const std::vector<double>& now, const GeometrySurface& surface, Points& points)
+  {
+    std::vector<Index> nodes;
     for (const Index f : surface.faces)
     {
-      const Index first = this->faces_.offsets[f], size = this->faces_.offsets[f + 1] - first;
-      const Index* node = this->faces_.connectivity.data() + first;
-      if (size != 3 && size != 4)
+      if (now[f] < minimum)
       {
-        continue;
-      }
-      const Row area = vectorArea(this->motion_.rest, node, size);
-      for (Index k = 0; k < size; ++k)
-      {
-        const Index own = node[k], next = node[(k + 1) % size], last = node[(k + size - 1) % size];
-        const Row a = this->motion_.rest.row(next) - this->motion_.rest.row(own);
-        const Row b = this->motion_.rest.row(last) - this->motion_.rest.row(own);
-        isCorner[this->local(own)] = 1;
-        if (!(a.cross(b).dot(area) > 0))
-        {
-          continue;
-        }
-        const Row p = a * map, q = b * map;
-        const double length = p.norm(), height = length > 0 ? p.cross(q).norm() / length : 0;
-        if (!(height > 1e-6 * q.norm() && length > 1e-6 * q.norm()))
-        {
-          continue; // TODO fall back
-        }
-        Eigen::Matrix2d edges;
-        edges << length, p.dot(q) / length, 0, height;
-        // All corners together count a face once: on quadrilaterals of both diagonals.
-        const double weight = edges.determinant() / (size == 3 ? 3. : 2.);
-        this->corners_.push_back({ { this->local(own), this->local(next), this->local(last) },
-          edges.inverse(), weight });
-        this->faceOf_.push_back(f);
-        all += weight;
+        nodes.insert(nodes.end(), this->faces_.connectivity.begin() + this->faces_.offsets[f],
+          this->faces_.connectivity.begin() + this->faces_.offsets[f + 1]);
       }
     }
-    std::vector<std::uint8_t> isFree(this->nodes_.size(), 0);
-    for (std::size_t i = 0; i < this->nodes_.size(); ++i)
-    {
-      if (isCorner[i] && this->motion_.state[this->nodes_[i]] == BoundaryMotion::OnSurface)
-      {
-        isFree[i] = 1;
-        this->free_.push_back(static_cast<Index>(i));
-      }
-    }
-    std::size_t kept = 0;
-    for (std::size_t c = 0; c < this->corners_.size(); ++c)
-    {
-      const Index* node = this->corners_[c].node;
-      this->corners_[c].weight /= all;
-      if (isFree[node[0]] || isFree[node[1]] || isFree[node[2]])
-      {
-        this->corners_[kept] = this->corners_[c];
-        this->faceOf_[kept++] = this->faceOf_[c];
-      }
-    }
-    this->corners_.resize(kept);
-    this->faceOf_.resize(kept);
-    if (this->shape_)
-    {
-      for (const Index i : this->free_)
-      {
-        this->triangle_.push_back(this->shape_->triangleAt(this->nodes_[i]));
-      }
-    }
-  }
-
-  /// The side of a face's area that is up.
-  Row upOf(Index f, const Points& points) const
-  {
-    if (this->isFolded_[f])
-    {
-      return this->quality_.normal.row(f);
-    }
-    const Index first = this->faces_.offsets[f], size = this->faces_.offsets[f + 1] - first;
-    Row sum = Row::Zero();
-    const auto at = [&](Index k)
-    { return Row(points.row(this->local(this->faces_.connectivity[first + k]))); };
-    for (Index k = 2; k < size; ++k)
-    {
-      sum += (at(k - 1) - at(0)).cross(at(k) - at(0));
-    }
-    return sum;
-  }
-
-  void setPlanes(FaceEnergy& energy, const Points& points)
-  {
-    const Index n = static_cast<Index>(this->corners_.size());
-    Points normals(n, 3), ofNode = Points::Zero(static_cast<Index>(this->nodes_.size()), 3);
-    const bool isPlane = this->shape_ && this->shape_->isPlane();
-    Row plane = Row::Zero();
-    if (isPlane)
-    {
-      plane = this->shape_->planeNormal();
-      double side = 0;
-      for (const Index f : this->geometry_.surfaces[this->surface_].faces)
-      {
-        side += plane.dot(this->quality_.normal.row(f));
-      }
-      plane = side < 0 ? Row(-plane) : plane;
-    }
-    for (Index c = 0; c < n; ++c)
-    {
-      if (isPlane)
-      {
-        normals.row(c) = plane;
-        continue;
-      }
-      const Index* node = this->corners_[c].node;
-      const Row up = this->upOf(this->faceOf_[c], points);
-      const Row area = Row(points.row(node[1]) - points.row(node[0]))
-                         .cross(Row(points.row(node[2]) - points.row(node[0])));
-      const bool isUp = area.dot(up) > 0;
-      normals.row(c) = isUp ? area.normalized() : up.normalized();
-      for (int k = 0; k < 3; ++k)
-      {
-        ofNode.row(node[k]) += isUp ? area : Row(-area);
-      }
-    }
-    Points ofFree(static_cast<Index>(this->free_.size()), 3);
-    for (std::size_t i = 0; i < this->free_.size(); ++i)
-    {
-      ofFree.row(static_cast<Index>(i)) =
-        isPlane ? plane : Row(ofNode.row(this->free_[i]).normalized());
-    }
-    this->normals_ = ofFree;
-    energy.setPlanes(normals, ofFree);
-  }
-
-  /// Puts free nodes back on the surface. Returns false if one has no place there.
-  bool project(Points& points)
-  {
-    for (std::size_t i = 0; i < this->free_.size(); ++i)
-    {
-      const Index node = this->free_[i];
-      const Row x = points.row(node);
-      Row y;
-      if (this->target_)
-      {
-        if (!this->target_->closestOnSurface(this->surface_, x,
-              Row(this->normals_.row(static_cast<Index>(i))), y))
-        {
-          return false;
-        }
-      }
-      else
-      {
-        y = this->shape_->closest(x, this->triangle_[i]);
-      }
-      points.row(node) = y;
-    }
-    return true;
-  }
-
-  double meanEdge(const Points& points) const
-  {
-    double sum = 0;
-    for (const FaceCorner& corner : this->corners_)
-    {
-      sum += (points.row(corner.node[1]) - points.row(corner.node[0])).norm();
-    }
-    return sum / static_cast<double>(this->corners_.size());
-  }
-
-  void untangle(FaceEnergy& energy)
-  {
-    FaceDensity density;
-    FaceEnergy::State state = energy.evaluate(this->points_, this->monitor_);
-    double best = state.minimumDeterminant;
-    Index fewest = state.inverted;
-    int idle = 0;
-    for (int stage = 0; stage < UntangleStages && idle < StagesWithoutGain; ++stage)
-    {
-      const double d = std::min(0., state.minimumDeterminant);
-      density.epsilon = std::sqrt(1e-12 + 0.04 * d * d);
-      energy.setDensity(density);
-      MinimizerLimits limits;
-      limits.steps = static_cast<int>(knob("USTEPS", 10));
-      Points trial = this->points_;
-      newton(energy, trial, limits, this->matrix_, this->effort_, this->monitor_);
-      if (!this->project(trial))
-      {
-        return;
-      }
-      this->points_ = trial;
-      this->setPlanes(energy, this->points_);
-      state = energy.evaluate(this->points_, this->monitor_);
-      if (std::getenv("TRACE"))
-      {
-        std::fprintf(stderr, "  stage %d eps %g min %g inv %d E %g\n", stage, density.epsilon, state.minimumDeterminant, int(state.inverted), state.energy);
-      }
-      if (state.inverted == 0)
-      {
-        return;
-      }
-      const bool gains = state.inverted < fewest || state.minimumDeterminant > 0.9 * best;
-      idle = gains ? 0 : idle + 1;
-      best = std::max(best, state.minimumDeterminant);
-      fewest = std::min(fewest, state.inverted);
-    }
-  }
-
-  void improve(FaceEnergy& energy, const FaceDensity& density)
-  {
-    energy.setDensity(density);
-    this->setPlanes(energy, this->points_);
-    double now = energy.evaluate(this->points_, this->monitor_).energy;
-    const bool isPlane = this->shape_ && this->shape_->isPlane();
-    for (int round = 0; round < Rounds; ++round)
-    {
-      this->monitor_.check();
-      const Points before = this->points_;
-      Points trial = before;
-      MinimizerLimits limits;
-      limits.steps = isPlane ? 10 : StepsInRound;
-      newton(energy, trial, limits, this->matrix_, this->effort_, this->monitor_);
-      const Points way = trial - before;
-      double next = now;
-      bool found = false;
-      for (int halving = 0; halving <= MostHalvings && !found; ++halving)
-      {
-        trial = before + std::ldexp(1., -halving) * way;
-        if (!this->project(trial) ||
-            energy.evaluate(trial, this->monitor_).inverted > 0)
-        {
-          continue;
-        }
-        this->setPlanes(energy, trial);
-        next = energy.evaluate(trial, this->monitor_).energy;
-        found = next < now;
-        if (!found)
-        {
-          this->setPlanes(energy, before);
-        }
-      }
-      if (!found)
-      {
-        break;
-      }
-      this->points_ = trial;
-      const bool settled = now - next < LeastDecrease * next ||
-                           (trial - before).rowwise().norm().maxCoeff() <
-                             StopMove * this->meanEdge(trial);
-      now = next;
-      if (settled)
-      {
-        break;
-      }
-    }
+    return this->takeBack(nodes, points);
   }
 
   const BoundaryFaces& faces_;
   const Classification& geometry_;
-  const Index surface_;
-  const std::vector<Index>& nodes_;
-  const ProjectionTarget* target_;
   const BoundaryMotion& motion_;
-  const FaceQuality& quality_;
-  const std::vector<std::uint8_t>& isFolded_;
-  Monitor& monitor_;
-  Points points_;                  ///< of nodes_
-  std::optional<PhongSurface> shape_; ///< without a target
-  std::vector<FaceCorner> corners_; ///< with numbers in nodes_
-  std::vector<Index> faceOf_;       ///< of each corner
-  std::vector<Index> free_;         ///< numbers in nodes_
-  std::vector<Index> triangle_;     ///< of the shape, of each free node
-  Points normals_;                  ///< of free nodes
-  BlockCsr3f matrix_;
-  MinimizerEffort effort_;
+  const Points& start_;
+  std::vector<std::uint8_t> isBack_; ///< #nodes
 };
+
+/// Whether the surface's nodes move by one affine map, up to rounding.
+bool movesAffinely(const std::vector<Index>& nodes, const BoundaryMotion& motion)
+{
+  const AffineFit fit = affineFit(motion, nodes);
+  double most = 0, off = 0;
+  for (const Index node : nodes)
+  {
+    const Eigen::RowVector3d own = motion.displacement.row(node);
+    most = std::max(most, own.norm());
+    off = std::max(off, (own - fit.displacement(motion.rest.row(node))).norm());
+  }
+  return off <= Rounding * most;
+}
 }
 
 SurfaceMeshSmoothing smoothSurfaceMeshes(const BoundaryFaces& faces, const Classification& geometry,
@@ -401,51 +190,42 @@ SurfaceMeshSmoothing smoothSurfaceMeshes(const BoundaryFaces& faces, const Class
   SurfaceMeshSmoothing report;
   const Points start = motion.moved();
   const FaceQuality quality = faceQuality(motion.rest, start, faces, geometry);
-  std::vector<std::uint8_t> isFolded(faces.cells.size(), 0);
-  for (const Index f : foldedFaces(motion.rest, start, faces, geometry))
-  {
-    isFolded[f] = 1;
-  }
+  const std::vector<std::uint8_t> isFolded = foldedMask(motion.rest, start, faces, geometry);
   Points result = start;
+  const double count = static_cast<double>(geometry.surfaces.size());
   for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
   {
     const std::vector<Index>& nodes = geometry.surfaces[s].nodes;
-    if (std::none_of(nodes.begin(), nodes.end(),
-          [&](Index node) { return !motion.displacement.row(node).isZero(0); }))
+    if (movesAffinely(nodes, motion))
     {
       continue;
     }
-    Smoother smoother(faces, geometry, static_cast<Index>(s), target, motion, start, quality,
-      isFolded, monitor);
-    if (!smoother.hasFree())
+    SurfaceMeshSmoother smoother(
+      faces, geometry, static_cast<Index>(s), target, motion, start, quality, isFolded, monitor);
+    if (smoother.free().empty())
     {
       continue;
     }
     smoother.run();
     report.steps += smoother.effort().steps;
-    report.evaluations += smoother.effort().evaluations;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const Index i : smoother.free())
     {
-      if (motion.state[nodes[i]] == BoundaryMotion::OnSurface)
-      {
-        result.row(nodes[i]) = smoother.points().row(static_cast<Index>(i));
-      }
+      result.row(nodes[i]) = smoother.points().row(i);
     }
     report.smoothed.push_back(static_cast<Index>(s));
+    monitor.progress(static_cast<double>(s + 1) / count);
   }
-  if (std::getenv("TRACE"))
-  {
-    const FaceQuality after = faceQuality(motion.rest, result, faces, geometry);
-    std::fprintf(stderr, "start: min %g mean %g folded %d; result: min %g mean %g folded %d\n",
-      quality.minimum, quality.mean, int(quality.folded.size()), after.minimum, after.mean, int(after.folded.size()));
-  }
+  KeepBetter(faces, geometry, motion, start).run(report, result);
   for (const Index node : faces.nodes)
   {
-    if (motion.state[node] == BoundaryMotion::OnSurface && result.row(node) != start.row(node))
+    if (result.row(node) != start.row(node))
     {
       motion.displacement.row(node) = result.row(node) - motion.rest.row(node);
     }
   }
+  const bool projects = target && !faces.between.values.empty();
+  carryMidNodes(faces, geometry, target,
+    projects ? surfaceNodeNormals(motion.rest, start, faces, geometry) : Points(), start, motion);
   return report;
 }
 }

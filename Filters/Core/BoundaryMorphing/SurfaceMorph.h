@@ -14,7 +14,7 @@ struct SurfaceMorphOptions
 {
   enum class Method : std::uint8_t
   {
-    WeightedResidual, ///< the paper's choice: SurfaceResidual.h
+    WeightedResidual,  ///< the paper's choice: SurfaceResidual.h
     HarmonicExtension, ///< SurfaceHarmonicExtension.h
     MeshSmoothing      ///< the same; then call smoothSurfaceMeshes()
   };

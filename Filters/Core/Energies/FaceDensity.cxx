@@ -108,8 +108,7 @@ FaceDensity::Hessian FaceDensity::hessian(const Eigen::Matrix2d& J) const
   Eigen::Matrix2d A;
   A(0, 0) = 2 * weight.value + 4 * s0 * s1 * weight.first + s1 * s1 * square * weight.second;
   A(1, 1) = 2 * weight.value + 4 * s0 * s1 * weight.first + s0 * s0 * square * weight.second;
-  A(0, 1) = A(1, 0) =
-    2 * square * weight.first + byDeterminant + s0 * s1 * square * weight.second;
+  A(0, 1) = A(1, 0) = 2 * square * weight.first + byDeterminant + s0 * s1 * square * weight.second;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(A);
   const Eigen::Matrix2d& axes = eigen.eigenvectors();
 

@@ -44,8 +44,7 @@ struct Sum
 };
 }
 
-FaceEnergy::FaceEnergy(
-  std::vector<FaceCorner> corners, const std::vector<Index>& free, Index nodes)
+FaceEnergy::FaceEnergy(std::vector<FaceCorner> corners, const std::vector<Index>& free, Index nodes)
   : corners_(std::move(corners))
   , free_(free)
   , row_(inverseIndex(free, nodes))
@@ -223,13 +222,12 @@ void FaceEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
             {
               for (int b = 0; b < 2; ++b)
               {
-                sum += EdgeOfNode[own][a] * EdgeOfNode[other][b] *
-                       ofEdges[c].block<2, 2>(2 * a, 2 * b);
+                sum +=
+                  EdgeOfNode[own][a] * EdgeOfNode[other][b] * ofEdges[c].block<2, 2>(2 * a, 2 * b);
               }
             }
             const Plane right = tangential(this->rowAt(3 * c + other), this->planes_[c]);
-            Eigen::Map<Eigen::Matrix3f> block(
-              result.blocks(row) + 9 * static_cast<Index>(*place));
+            Eigen::Map<Eigen::Matrix3f> block(result.blocks(row) + 9 * static_cast<Index>(*place));
             block += (left * sum * right.transpose()).cast<float>();
           }
         }

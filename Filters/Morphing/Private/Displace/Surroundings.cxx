@@ -429,8 +429,7 @@ void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<In
     const Index here = static_cast<Index>(i);
     if (result.Roles[local.Nodes()[i]] == Follows)
     {
-      motion.displacement.row(here) =
-        result.Moved.row(local.Nodes()[i]) - local.Points().row(here);
+      motion.displacement.row(here) = result.Moved.row(local.Nodes()[i]) - local.Points().row(here);
     }
   }
   std::vector<const SurfaceShape*> shapes(model.Geometry().surfaces.size(), nullptr);
