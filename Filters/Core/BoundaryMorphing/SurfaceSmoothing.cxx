@@ -122,8 +122,8 @@ private:
           0 };
         const Eigen::Matrix2d D = edges(corner, this->motion_.rest, plane);
         corner.area = D.determinant();
-        // Corners overlap: those of a triangle cover it three times, those of a quadrilateral twice.
-        // With these weights forces of an affine motion cancel between both, too.
+        // The corners of a triangle cover it three times, those of a quadrilateral twice. With
+        // these weights forces of an affine motion cancel between both, too.
         corner.weight = corner.area / (size == 3 ? 3. : 2.);
         if (corner.area > 0)
         {

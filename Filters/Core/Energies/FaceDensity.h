@@ -12,8 +12,8 @@ namespace morph
 /// It is 1 for a similarity and does not depend on the size of J. In two dimensions it also is the
 /// condition number |J| |J^-1| / 2, as |J^-1| = |J| / det J. With epsilon > 0 it is finite for
 /// inverted maps, and steep enough to remove inversions; with 0 it is a barrier at det J = 0. A
-/// power above 1 pays more for the worst faces. Sources: J. M. Escobar et al., Comput. Methods Appl.
-/// Mech. Engrg. 192 (2003) 2775-2787; P. M. Knupp, SIAM J. Sci. Comput. 23 (2001) 193-218.
+/// power above 1 pays more for the worst faces. Sources: J. M. Escobar et al., CMAME 192 (2003)
+/// 2775-2787; P. M. Knupp, SIAM J. Sci. Comput. 23 (2001) 193-218.
 struct FaceDensity
 {
   using Hessian = Eigen::Matrix4d; ///< of the entries of J, by columns

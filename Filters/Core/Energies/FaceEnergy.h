@@ -30,8 +30,8 @@ public:
   /// node are constant: leave them out.
   FaceEnergy(std::vector<FaceCorner> corners, const std::vector<Index>& free, Index nodes);
 
-  /// Sets each corner's plane, by its unit normal (#corners x 3), and each free node's tangent plane,
-  /// by its unit normal (#free x 3). Right-handed with its normal, a corner has a positive
+  /// Sets each corner's plane, by its unit normal (#corners x 3), and each free node's tangent
+  /// plane, by its unit normal (#free x 3). Right-handed with its normal, a corner has a positive
   /// determinant.
   void setPlanes(const Points& cornerNormals, const Points& nodeNormals);
   void setDensity(const FaceDensity& density) { this->density_ = density; }
