@@ -36,7 +36,8 @@
  * normal, which follows the motion: 1 is the ideal triangle or quad, and a face at or below 0 is
  * folded. (A face of a quadratic cell is measured by its corners, and all its polygons have its
  * value.) Field data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints,
- * UnprojectedPoints, SmoothedSurfaces, KeptSurfaces. No motion gives the undeformed positions bit for bit.
+ * UnprojectedPoints, SmoothedSurfaces, KeptSurfaces. No motion gives the undeformed positions bit
+ * for bit.
  *
  * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime. If one reader
  * feeds both ports, it is updated from within RequestData, for the reason that vtkMorphAlgorithm
