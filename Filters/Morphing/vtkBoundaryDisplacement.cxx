@@ -286,7 +286,6 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   list("SlidingPatches", this->Internals->SlidingPatches);
   list("FreePatches", this->Internals->FreePatches);
   os << indent << "Motion: " << this->Motion << "\n";
-  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
   os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";

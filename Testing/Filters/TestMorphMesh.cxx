@@ -105,6 +105,42 @@ std::string statusOf(vtkDataObject* data)
 }
 }
 
+TEST(MorphMesh, SurfacesFollowByTheSurfaceMethod)
+{
+  auto grid = box();
+  std::vector<morph::Points> results;
+  for (int method = 0; method < 3; ++method)
+  {
+    const double rotation[] = { 0, 0, 40 }, scale[] = { 1.5, 0.8, 1 };
+    auto filter = make(grid);
+    filter->SetDisplacementToPlacement();
+    filter->SetRotation(rotation);
+    filter->SetScale(scale);
+    filter->SetSurroundingsToFollowAll();
+    filter->SetSurfaceMethod(method);
+    grids::Listener silence(filter);
+    filter->Update();
+
+    auto displace = displaced::make(grid);
+    displace->SetMovingToPatches();
+    displace->AddPatch(topSurface(grid).c_str());
+    displace->SetMotionToPlacement();
+    displace->SetRotation(rotation);
+    displace->SetScale(scale);
+    displace->SetSurroundingsToFollowAll();
+    displace->SetSurfaceMethod(method);
+    vtkNew<vtkFEMWarpMorph> morph;
+    morph->SetInputData(grid);
+    morph->SetBoundaryConnection(displace->GetOutputPort());
+    morph->SetValidityToRepair();
+    grids::Listener silent(morph);
+    morph->Update();
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(morph->GetOutput()));
+    results.push_back(grids::points(filter->GetOutput()));
+  }
+  EXPECT_NE(results[0], results[1]);
+}
+
 TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
 {
   auto grid = box();
