@@ -26,8 +26,12 @@ public:
     const ConstPoints& coordinates, Monitor& monitor);
 
   /// As SpdSolver::solve(), for all rows. The tolerance is that of the remaining system.
+  ///@{
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  SolveReport solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const;
+  ///@}
 
   /// The solver of the remaining rows: all, in the order of `matrix`, where none was eliminated.
   const SpdSolver& remaining() const { return this->solver_; }
@@ -42,6 +46,7 @@ private:
     std::vector<int> kept, removed; ///< rows of the stage's matrix, ascending
     Eigen::ArrayXd inverse;         ///< D^-1
     CsrMatrix coupling;             ///< A_rk, #removed x #kept
+    CsrMatrix transposed;           ///< A_kr
   };
   /// Chooses the rows to remove; empty where there are none.
   static std::vector<int> choose(const CsrMatrix& matrix, const std::vector<bool>& removable);
