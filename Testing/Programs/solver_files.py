@@ -327,12 +327,12 @@ class SolverFiles(unittest.TestCase):
                array.format("Int64", "connectivity", 1, "0 1 2 3") +
                array.format("Int64", "offsets", 1, "4") + array.format("UInt8", "types", 1, "9") +
                "</Cells></Piece></UnstructuredGrid></VTKFile>")
-        (self.folder / "piece.vtu").write_text(vtu)
+        (self.folder / "m_0.vtu").write_text(vtu)
         pieces = ('<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><PPoints>'
                   '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
-                  '<Piece Source="piece.vtu"/></PUnstructuredGrid></VTKFile>')
+                  '<Piece Source="m_0.vtu"/></PUnstructuredGrid></VTKFile>')
         blocks = ('<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet>'
-                  '<DataSet index="0" file="piece.vtu"/></vtkMultiBlockDataSet></VTKFile>')
+                  '<DataSet index="0" file="m_0.vtu"/></vtkMultiBlockDataSet></VTKFile>')
         inp = "*NODE\n" + numbered + "*ELEMENT, TYPE={}\n1, 1, 2, 3, 4\n"
         bdf = "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(places))
         none = "is a volume cell"

@@ -55,8 +55,8 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
 
 AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 {
-  const bool hasFourth = std::any_of(prescribed.begin(), prescribed.end(),
-    [](const MultiVectorRow& row) { return row[3] != 0; });
+  const bool hasFourth = std::any_of(
+    prescribed.begin(), prescribed.end(), [](const MultiVectorRow& row) { return row[3] != 0; });
   Fits result;
   result.three_.reserve(this->coupled_.size());
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
@@ -102,6 +102,7 @@ void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
   const CsrMatrix& coupling, const MultiVector& prescribed, const Fits& fits, MultiVector& rhs,
   MultiVector& x, MultiVector& fitted, Monitor& monitor) const
 {
+  rhs.resize(x.size());
   fitted.assign(x.size(), MultiVectorRow::Zero());
   fitted.swap(x);
   monitor.parallelFor(coupling.rows(), Grain,
@@ -114,8 +115,8 @@ void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
         for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
         {
           const Index node = partition.prescribed[entry.col()];
-          sum -=
-            entry.value() * (prescribed[entry.col()] - fits.displacement(component, points.row(node)));
+          sum -= entry.value() *
+                 (prescribed[entry.col()] - fits.displacement(component, points.row(node)));
         }
         rhs[i] = sum;
       }
@@ -232,8 +233,8 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
             add(entry.value(), partition.prescribed[entry.col()]);
           }
           const double scale = size.tail<3>().maxCoeff();
-          const double missed = std::max(std::abs(sum[0]) / size[0],
-            scale > 0 ? sum.tail<3>().abs().maxCoeff() / scale : 0.);
+          const double missed = std::max(
+            std::abs(sum[0]) / size[0], scale > 0 ? sum.tail<3>().abs().maxCoeff() / scale : 0.);
           part[p] = std::isfinite(missed) ? std::max(part[p], missed)
                                           : std::numeric_limits<double>::infinity();
         }

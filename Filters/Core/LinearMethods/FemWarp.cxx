@@ -48,8 +48,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
-  this->affineResidual_ = affineResidual(
-    rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
+  this->affineResidual_ =
+    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
   try
   {
     ProgressRange last(monitor, 0.6, 1);
@@ -74,8 +74,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 
-EvaluateReport FemWarp::solve(
-  const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
+EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
   const AffineGuess::Fits fits = this->guess_.fits(prescribed);
   firstGuess(this->restPoints(), this->rows_, this->guess_, fits, x, monitor);

@@ -75,8 +75,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
-  this->affineResidual_ = affineResidual(
-    rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
+  this->affineResidual_ =
+    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(system.interior, coordinates, last);
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);

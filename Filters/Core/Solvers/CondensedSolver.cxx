@@ -13,6 +13,8 @@ namespace
 {
 constexpr int MostStages = 4;
 constexpr Index MostNeighbors = 16;
+// Pairs of entries that a row may add: it takes vectors of the iteration along, which cost as much.
+constexpr std::size_t MostAdded = 8;
 constexpr Index Grain = 4096;
 constexpr Index LeastPart = 8; // of the rows: fewer are not worth a pass
 
@@ -24,11 +26,11 @@ bool couples(const CsrMatrix& matrix, int i, int j)
     columns + matrix.outerIndexPtr()[i], columns + matrix.outerIndexPtr()[i + 1], j);
 }
 
-/// Whether the matrix has no more entries without the row. `neighbors`: the columns of its other
-/// entries.
+/// Whether the matrix has hardly more entries without the row. `neighbors`: the columns of its
+/// other entries.
 bool staysSparse(const CsrMatrix& matrix, const std::vector<int>& neighbors)
 {
-  const std::size_t most = neighbors.size(); // of 2 n + 1 entries that go, in pairs
+  const std::size_t most = neighbors.size() + MostAdded; // 2 n + 1 entries go, in pairs
   std::size_t missing = 0;
   for (std::size_t a = 0; a < neighbors.size() && missing <= most; ++a)
   {
@@ -237,8 +239,8 @@ SolveReport CondensedSolver::solve(
   return report;
 }
 
-SolveReport CondensedSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
-  int maxIterations, Monitor& monitor) const
+SolveReport CondensedSolver::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   if (this->stages_.empty())
   {
@@ -307,10 +309,10 @@ std::size_t CondensedSolver::memory() const
   std::size_t bytes = this->solver_.memory() + sizeof(int) * this->components_.ofRow.size();
   for (const Stage& stage : this->stages_)
   {
-    bytes += sizeof(int) * (stage.kept.size() + 2 * stage.removed.size()) +
-             sizeof(double) * stage.removed.size() +
-             2 * (sizeof(int) + sizeof(double)) *
-               static_cast<std::size_t>(stage.coupling.nonZeros());
+    bytes +=
+      sizeof(int) * (stage.kept.size() + 2 * stage.removed.size()) +
+      sizeof(double) * stage.removed.size() +
+      2 * (sizeof(int) + sizeof(double)) * static_cast<std::size_t>(stage.coupling.nonZeros());
   }
   return bytes;
 }

@@ -13,8 +13,8 @@ namespace morph
 ///
 /// Rows are eliminated in stages. No two rows of a stage are coupled, so that their block of A is
 /// diagonal, D. The others keep A_kk - A_kr D^-1 A_rk. A row is eliminated if it couples at most 16
-/// others, and adds no more entries than it removes. A stage has
-/// an eighth of the rows or more.
+/// others, and adds at most 16 entries more than it removes. A stage has an eighth of the rows or
+/// more.
 class CondensedSolver
 {
 public:

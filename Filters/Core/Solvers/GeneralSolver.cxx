@@ -301,13 +301,13 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
   }
 }
 
-GeneralSolver::Report GeneralSolver::System::solve(const MultiVector& b, MultiVector& x,
-  double tolerance, int maxIterations, Monitor& monitor) const
+GeneralSolver::Report GeneralSolver::System::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
-  const Row bNorm2 = reproducibleSum(
-    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(b[i].cwiseAbs2()); });
+  const Row bNorm2 =
+    reproducibleSum(n, monitor, Row(Row::Zero()), [&](Index i) { return Row(b[i].cwiseAbs2()); });
   const auto start = [&]
   {
     work->solution = x;
@@ -476,8 +476,8 @@ GeneralSolver::Report GeneralSolver::solve(
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }
 
-GeneralSolver::Report GeneralSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
-  int maxIterations, Monitor& monitor) const
+GeneralSolver::Report GeneralSolver::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }

@@ -406,8 +406,8 @@ Points SpdSolver::product(const Points& x, Monitor& monitor) const
   return result;
 }
 
-SolveReport SpdSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
-  int maxIterations, Monitor& monitor) const
+SolveReport SpdSolver::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
   const SolveReport report =

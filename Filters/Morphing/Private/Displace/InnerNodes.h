@@ -74,8 +74,8 @@ private:
   morph::Points Guess(
     const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor);
 
-  Surroundings Around;               ///< of what Place() moves
-  bool HasMovedOuter = false;        ///< Place() has put outer nodes elsewhere
+  Surroundings Around;        ///< of what Place() moves
+  bool HasMovedOuter = false; ///< Place() has put outer nodes elsewhere
   std::vector<morph::Index> FrozenNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;

@@ -21,6 +21,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -359,14 +360,22 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   {
     filters::InnerNodes::Append(grid, this->Model, result, output);
   }
-  const auto count = [&result](filters::Surroundings::Role role)
-  { return std::count(result.Roles.begin(), result.Roles.end(), role); };
-  filter->MovingPoints = count(filters::Surroundings::Moves);
-  filter->HeldPoints = count(filters::Surroundings::IsHeld);
-  filter->FollowingPoints = count(filters::Surroundings::Follows);
-  filter->FreePoints = count(filters::Surroundings::IsFree);
-  filter->ZonePoints = count(filters::Surroundings::IsZone);
-  filter->LayerPoints = count(filters::Surroundings::IsLayer);
+  // Without inner nodes, those of the boundary alone: all others stay.
+  std::array<vtkIdType, filters::Surroundings::IsLayer + 1> count = {};
+  for (std::size_t i = 0; hasInner && i < result.Roles.size(); ++i)
+  {
+    ++count[result.Roles[i]];
+  }
+  for (std::size_t i = 0; !hasInner && i < this->Model.Faces().nodes.size(); ++i)
+  {
+    ++count[result.Roles[this->Model.Faces().nodes[i]]];
+  }
+  filter->MovingPoints = count[filters::Surroundings::Moves];
+  filter->HeldPoints = count[filters::Surroundings::IsHeld];
+  filter->FollowingPoints = count[filters::Surroundings::Follows];
+  filter->FreePoints = count[filters::Surroundings::IsFree];
+  filter->ZonePoints = count[filters::Surroundings::IsZone];
+  filter->LayerPoints = count[filters::Surroundings::IsLayer];
 }
 
 /// A selection's ids are those of a process's piece, so each process evaluates its own.
