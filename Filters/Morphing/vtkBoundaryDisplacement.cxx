@@ -3,9 +3,9 @@
 
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/Pick.h"
+#include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
@@ -212,7 +212,7 @@ int vtkBoundaryDisplacement::RequestData(
   vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::CrewMonitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
