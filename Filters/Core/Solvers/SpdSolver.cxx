@@ -81,6 +81,7 @@ struct SpdSolver::Implementation
   CsrMatrix A;
   RowComponents components;
   Multigrid preconditioner;
+  double unit = 1; ///< the preconditioner is that of A over this
 
   // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
   // has no effect.
@@ -141,8 +142,9 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
     throw SingularRows(notPositive);
   }
   fresh->components = rowComponents(fresh->A);
+  fresh->unit = diagonal.maxCoeff();
   fresh->preconditioner.prepare(
-    fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
+    fresh->A, Multigrid::Symmetry::Symmetric, fresh->unit, coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
@@ -386,6 +388,38 @@ SolveReport SpdSolver::solveConstrained(const Points& b, const RowConstraints& c
     b, constraints, solution, tolerance, maxIterations, monitor);
   fromRows(solution, x, monitor);
   return report;
+}
+
+void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
+{
+  const Index n = from.rows();
+  std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
+  // Single precision: scales the numbers to about 1.
+  const double norm2 =
+    reproducibleSum(n, monitor, 0., [&](Index i) { return from.row(i).squaredNorm(); });
+  const double unscale = norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) : 1;
+  // The hierarchy is that of A over its largest diagonal entry.
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>();
+      }
+    });
+  this->implementation_->preconditioner.apply(
+    work->residual32, work->step32, work->multigrid, monitor);
+  const double factor = unscale / this->implementation_->unit;
+  to.resize(n, 3);
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        to.row(i) = factor * work->step32[i].head<3>().cast<double>();
+      }
+    });
+  this->implementation_->giveBack(std::move(work));
 }
 
 Points SpdSolver::product(const Points& x, Monitor& monitor) const

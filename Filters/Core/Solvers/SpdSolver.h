@@ -59,6 +59,9 @@ public:
   /// the number of cells across the mesh.
   SolveReport solveConstrained(const Points& b, const RowConstraints& constraints, Points& x,
     double tolerance, int maxIterations, Monitor& monitor) const;
+  /// Computes `to` = B `from`, #rows x 3, with the multigrid cycle B. It is symmetric and positive
+  /// definite, and near A^-1; single precision.
+  void precondition(const Points& from, Points& to, Monitor& monitor) const;
   /// Returns A x, #rows x 3.
   Points product(const Points& x, Monitor& monitor) const;
 

@@ -8,6 +8,7 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "Morpher/Morpher.h"
 #include "Untangling/MeshImprovement.h"
+#include "Untangling/WarpPreconditioner.h"
 
 #include <memory>
 #include <utility>
@@ -127,6 +128,7 @@ private:
   double minimumAtRest_ = 0; ///< of the scaled Jacobian
   FemWarp femWarp_;
   bool hasFemWarp_ = false; ///< a tangled mesh may leave a node without a cell that has volume
+  std::unique_ptr<WarpPreconditioner> preconditioner_; ///< null: not of the energy's rows
   SimplexLinear simplexLinear_;
   bool hasSimplexLinear_ = false; ///< a flat boundary has no tessellation, for instance
   std::unique_ptr<Morpher> method_;
