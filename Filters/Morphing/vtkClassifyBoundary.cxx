@@ -126,11 +126,7 @@ int vtkClassifyBoundary::RequestData(
     if (mesh.IsDistributed)
     {
       filters::Ranks::Together(
-        [&]
-        {
-          filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
-          grid = filters::Input::RequireGrid(mesh.Data, "The input");
-        });
+        [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
       this->Internals->ClassifyOnRanks(this, grid, outputVector, monitor);
       return;
     }

@@ -11,15 +11,12 @@
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
 #include <vtkClassifyBoundary.h>
-#include <vtkCompareMorphMethods.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMorphBoundary.h>
-#include <vtkMorphMesh.h>
 #include <vtkMorphShapes.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -539,17 +536,6 @@ TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
     "vtkFEMWarpMorph of a mesh with polyhedra needs one MPI rank");
   expect(vtkNew<vtkMorphShapes>(), polyhedra, grids::boundary(polyhedra, grids::affine),
     "vtkMorphShapes of a mesh with polyhedra needs one MPI rank");
-
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, piece);
-  const std::string composite = "Composite data on several MPI ranks: ";
-  expect(vtkNew<vtkCompareMorphMethods>(), blocks, moved, composite + "vtkCompareMorphMethods");
-  expect(vtkNew<vtkMorphShapes>(), blocks, moved, composite + "vtkMorphShapes");
-  expect(vtkNew<vtkFEMWarpMorph>(), blocks, moved, composite + "vtkFEMWarpMorph");
-  expect(vtkNew<vtkMorphBoundary>(), blocks, moved, composite + "vtkMorphBoundary");
-  expect(vtkNew<vtkMorphMesh>(), blocks, nullptr, composite + "vtkMorphMesh");
-  expect(vtkNew<vtkBoundaryDisplacement>(), blocks, nullptr, composite + "vtkBoundaryDisplacement");
-  expect(vtkNew<vtkClassifyBoundary>(), blocks, nullptr, composite + "vtkClassifyBoundary");
 }
 
 TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)

@@ -4,9 +4,9 @@
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
 #include "Distributed/Patches.h"
+#include "Distributed/PolyhedralMethod.h"
 #include "Distributed/SmoothMesh.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Gradient.h"
 #include "Private/Distributed/OnRanks.h"
@@ -131,11 +131,19 @@ void Morphing::Internals::Take(
   }
   this->Mesh.RequireVolumeCells();
   const auto& ranks = this->Mesh.Ranks();
-  if (ranks.sum(morph::Index(morph::hasPolyhedra(this->Mesh.Piece()))) > 0)
+  if (this->Mesh.HasPolyhedra())
   {
-    throw morph::Error(options.Method +
-                       " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
-                       "over several. Run on one.");
+    const bool repairs = options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR;
+    const bool isInversionFree =
+      dynamic_cast<const morph::distributed::InversionFree*>(sample.get()) != nullptr;
+    if (isInversionFree || repairs || options.PostSmooth)
+    {
+      throw morph::Error((isInversionFree ? options.Method
+                             : repairs    ? "Validity's Repair"
+                                          : "PostSmooth") +
+                         std::string(" of a mesh with polyhedra needs one MPI rank, and the mesh "
+                                     "is distributed over several. Run on one."));
+    }
   }
   const morph::Index mirrored = this->Mesh.Whole().mirroredBodies();
   this->Results.SetInteger("MirroredBodies", mirrored);
@@ -174,6 +182,10 @@ std::unique_ptr<Method> Morphing::Internals::Make(const Session::Options& option
   const std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
   options.SetEvaluateOptions(*settings);
   std::unique_ptr<Method> method = morph::distributed::makeMethod(options.CreateMorpher());
+  if (this->Mesh.HasPolyhedra())
+  {
+    method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
+  }
   method->takeEvaluateOptions(*settings);
   return method;
 }
