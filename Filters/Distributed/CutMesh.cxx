@@ -200,14 +200,20 @@ void CutMesh::agreeOnFaces(const std::vector<Index>& rows, const PolyhedronPiece
         }
       }
     });
-  const std::int64_t offset =
-    firstId + ranks.sumBefore(static_cast<Index>(faces.size()));
+  const std::int64_t offset = firstId + ranks.sumBefore(static_cast<Index>(faces.size()));
+  for (std::vector<std::int64_t>& answer : answers)
+  {
+    for (std::int64_t& number : answer)
+    {
+      number += offset;
+    }
+  }
   const auto answered = ranks.exchange(answers);
   for (int r = 0; r < ranks.count(); ++r)
   {
     for (std::size_t i = 0; i < asked[r].size(); ++i)
     {
-      idOfRow[asked[r][i]] = offset + answered[r][i];
+      idOfRow[asked[r][i]] = answered[r][i];
     }
   }
 }
@@ -221,6 +227,19 @@ Points CutMesh::extend(const Points& points) const
   all.middleRows(plain, this->means_.rows()) = this->means_ * points;
   pieces.halo().update(pieces.ranks(), all);
   return all;
+}
+
+Points CutMesh::reduce(const Points& all) const
+{
+  const DistributedMesh& whole = *this->whole_;
+  Points result = whole.mesh().points;
+  for (std::size_t n = 0; n < this->wholeNode_.size(); ++n)
+  {
+    result.row(this->wholeNode_[n]) = all.row(static_cast<Index>(n));
+  }
+  whole.halo().update(whole.ranks(), result);
+  whole.copyToDoubles(result);
+  return result;
 }
 
 Points CutMesh::extendTranspose(const Points& all) const

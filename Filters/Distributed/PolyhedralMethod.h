@@ -21,6 +21,9 @@ public:
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override;
 
+  /// The method that works on the pieces.
+  const Method& method() const { return *this->method_; }
+
 protected:
   void doPrepare(Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;

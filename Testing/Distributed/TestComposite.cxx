@@ -11,6 +11,7 @@
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkDataObjectTreeIterator.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkFieldData.h>
@@ -68,7 +69,7 @@ vtkSmartPointer<vtkPolyData> wallOf(vtkUnstructuredGrid* whole)
 {
   vtkNew<vtkExtractMorphBoundary> extract;
   extract->SetInputData(whole);
-  extract->Update();
+  rank_grids::alone([&] { extract->Update(); });
   vtkPolyData* all = extract->GetOutput();
   const morph::Points x = grids::points(all);
   const double most = x.leftCols(2).rowwise().norm().maxCoeff();
@@ -76,6 +77,11 @@ vtkSmartPointer<vtkPolyData> wallOf(vtkUnstructuredGrid* whole)
   vtkNew<vtkCellArray> faces;
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("Cell");
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName("Number");
+  std::map<vtkIdType, vtkIdType> place;
   for (vtkIdType c = 0; c < all->GetNumberOfCells(); ++c)
   {
     all->GetCellPoints(c, corners);
@@ -83,15 +89,26 @@ vtkSmartPointer<vtkPolyData> wallOf(vtkUnstructuredGrid* whole)
       [&](vtkIdType p) { return x.row(p).head(2).norm() > 0.99 * most; });
     if (isWall)
     {
+      for (vtkIdType& p : *corners)
+      {
+        const auto [known, isNew] = place.try_emplace(p, points->GetNumberOfPoints());
+        if (isNew)
+        {
+          points->InsertNextPoint(all->GetPoint(p));
+          numbers->InsertNextValue(static_cast<vtkIdType>(
+            all->GetPointData()->GetArray("Number")->GetComponent(p, 0)));
+        }
+        p = known->second;
+      }
       faces->InsertNextCell(corners);
       cells->InsertNextValue(
         static_cast<vtkIdType>(all->GetCellData()->GetArray("MorphCellId")->GetComponent(c, 0)));
     }
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->SetPoints(all->GetPoints());
+  result->SetPoints(points);
   result->SetPolys(faces);
-  result->GetPointData()->AddArray(all->GetPointData()->GetArray("Number"));
+  result->GetPointData()->AddArray(numbers);
   result->GetCellData()->AddArray(cells);
   return result;
 }
@@ -217,6 +234,7 @@ TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)
   const auto configured = [](vtkDataObject* data)
   {
     auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+    filter->SetSurroundings(0);
     vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
     filter->SetInputDataObject(data);
     filter->AddSurface("wall");
@@ -364,7 +382,6 @@ TEST(RankComposite, WhatCoincidesIsOneNodeAsTheUserSays)
 
 TEST(RankComposite, CellsThatTwoRanksHaveCountOnce)
 {
-  const Ranks ranks = pieces::world();
   const auto whole = ring();
   const Tree tree = blocksOf(whole, Kind::MultiBlock, true);
   vtkNew<vtkScaledJacobian> serial, filter;
