@@ -28,6 +28,8 @@ vtkSmartPointer<vtkPolyData> polygonsOf(vtkUnstructuredGrid* grid)
   return result;
 }
 
+}
+
 vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids)
 {
   if (ids->GetNumberOfIds() == 0)
@@ -51,7 +53,6 @@ vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids)
     return polygonsOf(copy);
   }
   return copy;
-}
 }
 
 vtkSmartPointer<vtkDataObjectTree> part(

@@ -78,10 +78,9 @@ def read(case, part):
 
 def morphed(case, part):
     reader = read(case, part)
-    morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=[case["wall"]],
-                      Displacement="Vector", Vector=[0.05, 0.02, -0.03], Validity="Report")
-    morph.MethodFilter.Tolerance = 1e-12
-    return morph
+    boundary = BoundaryDisplacement(Input=reader, Moving="Patches", Patches=[case["wall"]],
+                                    Motion="Vector", Vector=[0.05, 0.02, -0.03])
+    return MorphFEMWARP(Input=reader, Boundary=boundary, Tolerance=1e-12)
 
 
 def job(folder):
@@ -158,7 +157,7 @@ class Decomposed(unittest.TestCase):
                 simple.UpdatePipeline(proxy=serial)
                 self.assertEqual(status, serial.MorphStatus)
                 self.assertEqual(status, "Valid")
-                self.assertEqual(int(prescribed), serial.PrescribedPoints)
+                self.assertEqual(float(prescribed), serial.PrescribedPoints)
                 self.assertAlmostEqual(float(minimum), serial.MinScaledJacobian, delta=1e-6)
                 self.compare(case, serial)
 

@@ -107,7 +107,8 @@ SharedNodes numberNodes(
   for (const Part& part : parts)
   {
     merged.All[part.Place].Nodes = nodes.Add(
-      { part.Mesh.points, idsOf(part, options), isStructured(part.Data), part.Group });
+      { part.Mesh.points, idsOf(part, options), options.Merges && isStructured(part.Data),
+        part.Group });
   }
   return nodes;
 }
