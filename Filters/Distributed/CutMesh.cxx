@@ -86,8 +86,7 @@ Piece CutMesh::ownPieces(const PolyhedronPieces& cut)
     this->cellOf_.push_back(cell);
     piece.cellIds.push_back(p < whole.mesh().numberOfCells() ? whole.cellId(cell) : -1 - others++);
   }
-  const std::int64_t first =
-    whole.ranks().maximum(highest) + 1 + whole.ranks().sumBefore(others);
+  const std::int64_t first = whole.ranks().maximum(highest) + 1 + whole.ranks().sumBefore(others);
   for (std::int64_t& id : piece.cellIds)
   {
     id = id < 0 ? first - 1 - id : id;

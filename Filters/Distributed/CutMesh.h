@@ -35,8 +35,8 @@ public:
   /// Returns the rows of the nodes without the centres, ghosts as their owners have them: #local
   /// nodes x 3 of the whole mesh. Nodes of no cell get their undeformed positions. Collective.
   Points reduce(const Points& all) const;
-  /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the result are to
-  /// be added to their owners'. Not collective.
+  /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the
+  /// result are to be added to their owners'. Not collective.
   Points extendTranspose(const Points& all) const;
   /// Of the local nodes; with the owner's choice at ghosts.
   NodePartition extend(const NodePartition& partition) const;

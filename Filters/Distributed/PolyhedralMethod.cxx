@@ -31,8 +31,7 @@ void PolyhedralMethod::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& whole = this->mesh();
   requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
-  this->cut_ =
-    std::make_unique<CutMesh>(whole, this->method_->layers(), monitor, this->cutsAll_);
+  this->cut_ = std::make_unique<CutMesh>(whole, this->method_->layers(), monitor, this->cutsAll_);
   if (whole.ranks().sum(static_cast<Index>(this->reference_.rows())) > 0)
   {
     this->method_->setReference(this->cut_->extend(this->reference_));

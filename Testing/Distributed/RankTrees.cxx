@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RankTrees.h"
 
-#include <vtkDataSet.h>
+#include <vtkCellData.h>
 #include <vtkDataObjectTreeIterator.h>
+#include <vtkDataSet.h>
 #include <vtkExtractCells.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkPolyData.h>
 #include <vtkPointData.h>
-#include <vtkCellData.h>
+#include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <random>
@@ -61,8 +61,7 @@ vtkSmartPointer<vtkDataObjectTree> part(
   const auto result = vtkSmartPointer<vtkDataObjectTree>::Take(whole->NewInstance());
   result->ShallowCopy(whole);
   std::mt19937 random(seed);
-  const auto item =
-    vtkSmartPointer<vtkDataObjectTreeIterator>::Take(whole->NewTreeIterator());
+  const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(whole->NewTreeIterator());
   for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
   {
     auto* data = vtkDataSet::SafeDownCast(item->GetCurrentDataObject());

@@ -18,6 +18,6 @@ vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids);
 /// This rank's part of `whole`: of each leaf the cells that a random partition gives it, with their
 /// points and all arrays. Leaves without cells here are null. `ofSets`: the rank that gets the
 /// leaves of polygons whole, or -1 for a random partition of these, too.
-vtkSmartPointer<vtkDataObjectTree> part(const morph::distributed::Ranks& ranks,
-  vtkDataObjectTree* whole, unsigned seed, int ofSets = -1);
+vtkSmartPointer<vtkDataObjectTree> part(
+  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole, unsigned seed, int ofSets = -1);
 }

@@ -95,8 +95,8 @@ vtkSmartPointer<vtkPolyData> wallOf(vtkUnstructuredGrid* whole)
         if (isNew)
         {
           points->InsertNextPoint(all->GetPoint(p));
-          numbers->InsertNextValue(static_cast<vtkIdType>(
-            all->GetPointData()->GetArray("Number")->GetComponent(p, 0)));
+          numbers->InsertNextValue(
+            static_cast<vtkIdType>(all->GetPointData()->GetArray("Number")->GetComponent(p, 0)));
         }
         p = known->second;
       }
@@ -294,8 +294,7 @@ TEST(RankComposite, ASetAloneOnARankMovesWithTheMeshOnAnother)
   // The mesh on the first rank, the set on the last one.
   const Tree part = Tree::Take(tree->NewInstance());
   part->ShallowCopy(tree);
-  const auto item =
-    vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
   for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
   {
     const bool isSet = vtkPolyData::SafeDownCast(item->GetCurrentDataObject());
@@ -312,8 +311,8 @@ TEST(RankComposite, ASetAloneOnARankMovesWithTheMeshOnAnother)
   vtkDataObject* output = filter->GetOutputDataObject(0);
   vtkDataObject* expected = serial->GetOutputDataObject(0);
   EXPECT_LT(distance(ranks, output, blocks::pointsByNumber(expected)), 1e-8);
-  EXPECT_EQ(wrongCells(output, blocks::cellsByNumber(expected, "ScaledJacobian"), "ScaledJacobian"),
-    0);
+  EXPECT_EQ(
+    wrongCells(output, blocks::cellsByNumber(expected, "ScaledJacobian"), "ScaledJacobian"), 0);
 }
 
 TEST(RankComposite, WhatCoincidesIsOneNodeAsTheUserSays)
@@ -406,8 +405,7 @@ TEST(RankComposite, ABoundaryAndAGradientMayBeCompositeToo)
   {
     auto copy = Tree::Take(data->NewInstance());
     copy->ShallowCopy(data);
-    const auto item =
-      vtkSmartPointer<vtkDataObjectTreeIterator>::Take(data->NewTreeIterator());
+    const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(data->NewTreeIterator());
     for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
     {
       auto* set = vtkPointSet::SafeDownCast(item->GetCurrentDataObject());
@@ -477,9 +475,7 @@ TEST(RankComposite, OneRanksBadBlockEndsAllWithOneErrorThatNamesIt)
     return listener.Errors.empty() ? std::string() : listener.Errors.front();
   };
   const auto expectOnOneRank = [&](const std::string& error, const std::string& text)
-  {
-    EXPECT_EQ(ranks.sum(static_cast<Index>(error.find(text) != std::string::npos)), 1) << error;
-  };
+  { EXPECT_EQ(ranks.sum(static_cast<Index>(error.find(text) != std::string::npos)), 1) << error; };
   const Tree broken = rank_trees::part(ranks, tree, meshes::seed() + 1);
   const Tree sound = rank_trees::part(ranks, tree, meshes::seed() + 1);
   if (ranks.rank() == ranks.count() - 1)
@@ -487,7 +483,8 @@ TEST(RankComposite, OneRanksBadBlockEndsAllWithOneErrorThatNamesIt)
     const auto block = grids::copy(blocks::grid(broken, 1));
     block->GetPoints()->SetPoint(0, NAN, 0, 0);
     vtkMultiBlockDataSet::SafeDownCast(
-      vtkMultiBlockDataSet::SafeDownCast(broken.Get())->GetBlock(0))->SetBlock(2, block);
+      vtkMultiBlockDataSet::SafeDownCast(broken.Get())->GetBlock(0))
+      ->SetBlock(2, block);
   }
   vtkNew<vtkExtractMorphBoundary> extract;
   expectOnOneRank(errorOf(extract, broken), "Block 'Solid/B': ");
@@ -504,8 +501,8 @@ TEST(RankComposite, OneRanksBadBlockEndsAllWithOneErrorThatNamesIt)
   }
   if (ranks.count() > 1)
   {
-    expectOnOneRank(errorOf(vtkNew<vtkExtractMorphBoundary>(), mixed),
-      "composite data on some MPI ranks");
+    expectOnOneRank(
+      errorOf(vtkNew<vtkExtractMorphBoundary>(), mixed), "composite data on some MPI ranks");
     vtkNew<vtkSmoothingMorph> smoothing;
     smoothing->SetBoundaryData(moved(sound, wave));
     expectOnOneRank(errorOf(smoothing, sound), "vtkSmoothingMorph needs");

@@ -169,8 +169,8 @@ TEST(DistributedPolyhedra, HaveTheAdjointOfOneRank)
         {
           const Index id = mine.Mesh.nodeId(mine.Prescribed[k]);
           const Index row = std::lower_bound(outer.begin(), outer.end(), id) - outer.begin();
-          EXPECT_LT((found.row(static_cast<Index>(k)) - expected.row(row)).norm(),
-            1e-9 * expected.norm());
+          EXPECT_LT(
+            (found.row(static_cast<Index>(k)) - expected.row(row)).norm(), 1e-9 * expected.norm());
         }
       }
     }

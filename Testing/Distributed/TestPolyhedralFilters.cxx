@@ -113,9 +113,7 @@ TEST(RankPolyhedra, LinearMethodsMoveThemAsOnOneRank)
       mine->Update();
       const morph::Points expected = grids::mapped(grids::points(part), grids::affine);
       const double most =
-        expected.rows() == 0
-          ? 0
-          : (grids::points(outputOf(mine)) - expected).cwiseAbs().maxCoeff();
+        expected.rows() == 0 ? 0 : (grids::points(outputOf(mine)) - expected).cwiseAbs().maxCoeff();
       EXPECT_LT(ranks.maximum(most), 1e-10 * size);
     }
     vtkNew<vtkScaledJacobian> serial, mine;
@@ -267,8 +265,8 @@ TEST(RankPolyhedra, InversionFreeRepairAndSmoothingAreAsValidAsOnOneRank)
           EXPECT_GT(mine->GetMinScaledJacobian(),
             what == "repair" ? 0 : 0.99 * serial->GetMinScaledJacobian());
         }
-        EXPECT_EQ(ranks.minimum(mine->GetMinScaledJacobian()),
-          ranks.maximum(mine->GetMinScaledJacobian()));
+        EXPECT_EQ(
+          ranks.minimum(mine->GetMinScaledJacobian()), ranks.maximum(mine->GetMinScaledJacobian()));
         const bool fails = mine->GetInvertedCells() > 0 && what == "repair";
         EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), fails ? 1 : 0);
       }

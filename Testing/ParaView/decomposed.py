@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decomposed files of solvers on two MPI ranks: each rank reads its part, as composite data, and the
-mesh moves as the same file in one part does on one rank.
+"""Decomposed files of solvers on two MPI ranks: each rank reads its part, as composite data.
+
+The mesh has to move as the same file in one part does on one rank.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython decomposed.py
 The same file is the job that the ranks run: mpiexec -n 2 pvbatch decomposed.py FOLDER

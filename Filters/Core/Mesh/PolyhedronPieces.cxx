@@ -294,8 +294,7 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
 
 Index PolyhedronPieces::cellOf(Index piece) const
 {
-  const Index cells =
-    this->pieces_.numberOfCells() - static_cast<Index>(this->cellOfOther_.size());
+  const Index cells = this->pieces_.numberOfCells() - static_cast<Index>(this->cellOfOther_.size());
   return piece < cells ? piece : this->cellOfOther_[piece - cells];
 }
 

@@ -221,8 +221,7 @@ void Write(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t blo
   }
   if (!behind.empty() || (quality && !part.Behind.empty()))
   {
-    writeQualityBehind(
-      behind.empty() ? worstBehind(quality, part) : behind, data->GetCellData());
+    writeQualityBehind(behind.empty() ? worstBehind(quality, part) : behind, data->GetCellData());
   }
   Leaves::Replace(leaf, data);
 }
@@ -272,8 +271,7 @@ void WriteFaces(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_
   std::vector<Index> behind;
   for (const Index face : chosen)
   {
-    behind.push_back(
-      static_cast<Index>(owners->GetComponent(static_cast<vtkIdType>(face), 0)));
+    behind.push_back(static_cast<Index>(owners->GetComponent(static_cast<vtkIdType>(face), 0)));
   }
   addIds(behind, merged.CellIds, "MorphCellId", faces->GetCellData());
   if (vtkDataArray* scalars = result->GetCellData()->GetScalars())

@@ -196,8 +196,7 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
   std::vector<std::vector<double>> behind;
   if (this->Kept.WorstBehind) // all processes have one, and have to call it
   {
-    behind = this->Kept.WorstBehind(
-      result ? BlockOutput::NewQuality(this->Kept, result) : nullptr);
+    behind = this->Kept.WorstBehind(result ? BlockOutput::NewQuality(this->Kept, result) : nullptr);
   }
   if (!output || !result)
   {
@@ -219,8 +218,8 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
           BlockOutput::WriteFaces(leaves[i], this->Kept, i, result);
           continue;
         }
-        BlockOutput::Write(leaves[i], this->Kept, i, result,
-          behind.empty() ? std::vector<double>() : behind[i]);
+        BlockOutput::Write(
+          leaves[i], this->Kept, i, result, behind.empty() ? std::vector<double>() : behind[i]);
       }
     }
   }

@@ -62,8 +62,7 @@ struct Inner
   std::string Name, Label, Path;
 };
 
-void add(
-  vtkDataObjectTree* tree, const Inner& node, unsigned int& index, std::vector<Leaf>& leaves)
+void add(vtkDataObjectTree* tree, const Inner& node, unsigned int& index, std::vector<Leaf>& leaves)
 {
   const bool isPartitions = vtkPartitionedDataSet::SafeDownCast(tree) != nullptr;
   const std::vector<Child> children = childrenOf(tree);

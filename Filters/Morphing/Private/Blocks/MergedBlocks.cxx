@@ -95,9 +95,8 @@ double sizeOf(const std::vector<Part>& parts)
 
 std::vector<Index> idsOf(const Part& part, const MergedBlocks::Options& options)
 {
-  return options.ByIds
-           ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
-           : std::vector<Index>();
+  return options.ByIds ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
+                       : std::vector<Index>();
 }
 
 SharedNodes numberNodes(
@@ -106,9 +105,8 @@ SharedNodes numberNodes(
   SharedNodes nodes;
   for (const Part& part : parts)
   {
-    merged.All[part.Place].Nodes = nodes.Add(
-      { part.Mesh.points, idsOf(part, options), options.Merges && isStructured(part.Data),
-        part.Group });
+    merged.All[part.Place].Nodes = nodes.Add({ part.Mesh.points, idsOf(part, options),
+      options.Merges && isStructured(part.Data), part.Group });
   }
   return nodes;
 }

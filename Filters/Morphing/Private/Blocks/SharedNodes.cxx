@@ -52,9 +52,7 @@ Index SharedNodes::NewNode(const Place& place, List& list, Index group, Index id
 Index SharedNodes::Sharable(List& list, const Points& block, bool needsFree)
 {
   const auto isFree = [&](Index node)
-  {
-    return this->Nodes[node].Group == block.Group && !(needsFree && this->Nodes[node].Id >= 0);
-  };
+  { return this->Nodes[node].Group == block.Group && !(needsFree && this->Nodes[node].Id >= 0); };
   if (block.MergesWithin)
   {
     // Its own node, as at a seam, or another block's.

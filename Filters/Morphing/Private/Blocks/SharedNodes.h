@@ -61,7 +61,7 @@ private:
   };
   struct Node
   {
-    Index Id = -1;    ///< or -1
+    Index Id = -1; ///< or -1
     Index Group = 0;
     Index Block = -1; ///< the last one that has it
     Index Next = -1;  ///< at the same place

@@ -58,8 +58,7 @@ vtkSmartPointer<vtkDataArray> ofOwned(vtkDataArray* gradient, const DistributedM
   }
   const auto copy = vtkSmartPointer<vtkDataArray>::Take(gradient->NewInstance());
   copy->DeepCopy(gradient);
-  const morph::Index count =
-    std::min<morph::Index>(copy->GetNumberOfTuples(), mesh.pieceNodes());
+  const morph::Index count = std::min<morph::Index>(copy->GetNumberOfTuples(), mesh.pieceNodes());
   for (morph::Index n = 0; n < count; ++n)
   {
     for (int j = 0; !mesh.owns(n) && j < copy->GetNumberOfComponents(); ++j)
@@ -185,8 +184,7 @@ BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double
   return match;
 }
 
-std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(
-  const Session::Options& options) const
+std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Options& options) const
 {
   std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
   options.SetEvaluateOptions(*settings);
@@ -295,10 +293,9 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     });
   if (options.PostSmooth)
   {
-    result.Statistics.push_back(
-      { "PostSmoothSteps", RankPolyhedra::Smooth(whole, this->Mesh.Whole().mesh().points, partition,
-                             this->Mesh.HasPolyhedra(), options.PostSmoothIterations, result.Moved,
-                             evaluating) });
+    result.Statistics.push_back({ "PostSmoothSteps",
+      RankPolyhedra::Smooth(whole, this->Mesh.Whole().mesh().points, partition,
+        this->Mesh.HasPolyhedra(), options.PostSmoothIterations, result.Moved, evaluating) });
   }
   double seconds = secondsSince(start);
   if (options.MeasureAll)

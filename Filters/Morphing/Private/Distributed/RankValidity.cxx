@@ -179,8 +179,7 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
       return this->Remaining(moved,
         "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would "
         "have " +
-          std::to_string(report.tooLarge) + " cells of " +
-          std::to_string(report.cells) +
+          std::to_string(report.tooLarge) + " cells of " + std::to_string(report.cells) +
           "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
           "or run on one rank.",
         monitor);

@@ -21,8 +21,8 @@ namespace
 using morph::Index;
 
 /// The ids of the nodes of a set's cell; empty where a point is on no node.
-std::vector<std::int64_t> idsOf(vtkIdList* points, const MergedBlocks::Block& block,
-  const std::vector<Index>& nodeIds)
+std::vector<std::int64_t> idsOf(
+  vtkIdList* points, const MergedBlocks::Block& block, const std::vector<Index>& nodeIds)
 {
   std::vector<std::int64_t> ids;
   for (const vtkIdType point : *points)
@@ -111,7 +111,8 @@ RankBehind::RankBehind(const morph::distributed::Ranks& ranks,
       if (isHere)
       {
         merged.Grid->GetCellNeighbors(-1, corners, cells);
-        std::copy_if(cells->begin(), cells->end(), std::back_inserter(behind), [&](vtkIdType c)
+        std::copy_if(cells->begin(), cells->end(), std::back_inserter(behind),
+          [&](vtkIdType c)
           { return !ghosts || !(ghosts->GetValue(c) & vtkDataSetAttributes::DUPLICATECELL); });
       }
     }

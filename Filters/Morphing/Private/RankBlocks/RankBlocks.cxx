@@ -131,8 +131,8 @@ std::vector<SharedPlaces::Node> nodesOf(
 }
 
 /// Makes `ids` the global ids of the grid. The given array stays where all processes have these.
-void setIds(const Ranks& ranks, const std::vector<Index>& ids, const char* name,
-  vtkDataSetAttributes* data)
+void setIds(
+  const Ranks& ranks, const std::vector<Index>& ids, const char* name, vtkDataSetAttributes* data)
 {
   const std::vector<Index> given = BlockCells::GlobalIds(data, static_cast<vtkIdType>(ids.size()));
   if (ranks.sum(Index(given != ids)) == 0)

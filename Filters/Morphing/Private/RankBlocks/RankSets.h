@@ -35,9 +35,8 @@ private:
   {
     std::vector<morph::Index> Missing, Points;
   };
-  Counts FindNodes(const std::vector<morph::distributed::SharedPlaces::Place>& places,
-    MergedBlocks& merged) const;
-  void Warn(
-    Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const;
+  Counts FindNodes(
+    const std::vector<morph::distributed::SharedPlaces::Place>& places, MergedBlocks& merged) const;
+  void Warn(Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const;
 };
 }

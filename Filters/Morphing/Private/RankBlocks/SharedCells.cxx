@@ -92,8 +92,8 @@ void MarkGhosts(const Ranks& ranks, const std::vector<std::int64_t>& ids,
     }
     std::sort(nodes.begin(), nodes.end());
     std::vector<std::int64_t>& stream = to[rankOf(nodes.front(), ranks)];
-    stream.insert(stream.end(),
-      { static_cast<std::int64_t>(nodes.size()), c, grid->GetCellType(c) });
+    stream.insert(
+      stream.end(), { static_cast<std::int64_t>(nodes.size()), c, grid->GetCellType(c) });
     stream.insert(stream.end(), nodes.begin(), nodes.end());
   }
   std::map<std::vector<std::int64_t>, int> keeper;
