@@ -177,6 +177,29 @@ TEST(DistributedPolyhedra, HaveTheAdjointOfOneRank)
   }
 }
 
+TEST(DistributedPolyhedra, MoveWhereARankHasNoCells)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  const Mesh whole = meshes::honeycomb(4);
+  const std::vector<Index> outer = outerNodes(whole);
+  const std::vector<int> owners =
+    pieces::randomOwners(whole, std::max(1, ranks.count() - 1), meshes::seed() + 300);
+  const DistributedMesh mesh(ranks, pieces::pieceOf(whole, owners, ranks.rank()), 1, monitor);
+  const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
+  for (const auto& [name, make] : methods())
+  {
+    SCOPED_TRACE(name);
+    morph::distributed::PolyhedralMethod method(morph::distributed::makeMethod(make()));
+    method.prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+    const Points target = affine(mesh.mesh().points);
+    Points moved;
+    method.evaluate(target(prescribed, morph::allColumns), moved, monitor);
+    const double largest = moved.rows() == 0 ? 0 : (moved - target).cwiseAbs().maxCoeff();
+    EXPECT_LT(ranks.maximum(largest), 1e-10 * meshes::size(whole.points));
+  }
+}
+
 TEST(DistributedPolyhedra, AreCutIntoThePiecesOfOneRank)
 {
   const Ranks ranks = pieces::world();
