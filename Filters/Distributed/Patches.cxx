@@ -387,6 +387,7 @@ RepairReport repairInverted(const DistributedMesh& mesh, const Points& reference
   };
   RepairReport result;
   result.bad = count(moved);
+  result.cells = mesh.volumeCells();
   for (const int rings : { 6, 12, 24 })
   {
     if (result.bad == 0)

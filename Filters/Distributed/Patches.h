@@ -40,6 +40,7 @@ struct RepairReport
 {
   Index bad = 0;      ///< inverted or degenerate cells that are left, of all ranks
   Index tooLarge = 0; ///< cells of patches beyond the limits, or 0
+  Index cells = 0;    ///< that the mesh has
 };
 
 /// Repairs the inverted and degenerate cells of `moved` by repairPatches(), with 6, 12 and then 24

@@ -24,6 +24,7 @@ public:
   const HypreSolver& solver() const { return this->solver_; }
   /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
+  const CellStiffness& stiffness() const { return this->stiffness_; }
 
 protected:
   explicit SystemMethod(HypreSolver::Kind kind)

@@ -221,10 +221,6 @@ int vtkBoundaryDisplacement::RequestData(
     vtkPolyData* target = nullptr;
     const auto check = [&]
     {
-      if (mesh.IsDistributed)
-      {
-        filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
-      }
       input =
         filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
       const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;

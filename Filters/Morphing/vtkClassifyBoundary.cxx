@@ -125,12 +125,7 @@ int vtkClassifyBoundary::RequestData(
     vtkUnstructuredGrid* grid = nullptr;
     if (mesh.IsDistributed)
     {
-      filters::Ranks::Together(
-        [&]
-        {
-          filters::Input::RequireNoBlocks(this->Internals->Blocks, this->GetClassName());
-          grid = filters::Input::RequireGrid(mesh.Data, "The input");
-        });
+      filters::Ranks::Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
       this->Internals->ClassifyOnRanks(this, grid, outputVector, monitor);
       return;
     }

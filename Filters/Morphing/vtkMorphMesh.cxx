@@ -273,10 +273,6 @@ int vtkMorphMesh::RequestData(
     filters::Ranks::Together(
       [&]
       {
-        if (mesh.IsDistributed)
-        {
-          filters::Input::RequireNoBlocks(own.Blocks, this->GetClassName());
-        }
         auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
         if (!grid)
         {

@@ -214,6 +214,19 @@ TEST(CompositeBlocks, BodiesInContactAreKeptApart)
   EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE_BY_POSITION), 40);
 }
 
+TEST(CompositeBlocks, PartitionsOfOneBlockAreNeverKeptApart)
+{
+  // A block of a decomposed file has a partition for each part.
+  auto data = blocks::collection({ box(2, 2, 2), box(2, 2, 2, Row(2, 0, 0)) });
+  EXPECT_EQ(data->GetNumberOfPartitionedDataSets(), 1u);
+  EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_KEEP_APART), 40);
+  // The third piece is another block.
+  data =
+    blocks::collection({ box(2, 2, 2), box(2, 2, 2, Row(2, 0, 0)), box(2, 2, 2, Row(4, 0, 0)) });
+  EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_KEEP_APART), 64);
+  EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE), 56);
+}
+
 TEST(CompositeBlocks, ContradictoryIdsAreToldAndPositionsCount)
 {
   auto data = touching();

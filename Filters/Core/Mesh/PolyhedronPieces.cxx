@@ -336,6 +336,12 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
   this->pieces_.points = this->extend(ConstPoints(mesh.points));
 }
 
+Index PolyhedronPieces::cellOf(Index piece) const
+{
+  const Index cells = this->pieces_.numberOfCells() - static_cast<Index>(this->cellOfOther_.size());
+  return piece < cells ? piece : this->cellOfOther_[piece - cells];
+}
+
 Points PolyhedronPieces::extend(const ConstPoints& points) const
 {
   Points all(this->nodes_ + this->means_.rows(), 3);

@@ -44,6 +44,14 @@ public:
   /// Returns `values`, one a cell, for each piece: that of the cell it is cut from.
   std::vector<double> extend(const std::vector<double>& values) const;
 
+  /// For the parts of a distributed mesh: the cell that a piece is cut from, the number of centres
+  /// of faces, which come before those of cells, and the weights of the nodes in all centres.
+  ///@{
+  Index cellOf(Index piece) const;
+  Index faceCenters() const { return this->faceCenters_; }
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, Index>& means() const { return this->means_; }
+  ///@}
+
 private:
   Mesh pieces_;
   std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells

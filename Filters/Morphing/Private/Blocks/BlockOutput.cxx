@@ -22,6 +22,7 @@
 #include <vtkStructuredGrid.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -31,6 +32,8 @@ namespace morph::filters::BlockOutput
 namespace
 {
 using morph::Index;
+
+constexpr const char* QualityName = "ScaledJacobian";
 
 /// Its points and cells as data that hold points of their own; itself where it does.
 vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
@@ -134,42 +137,56 @@ void activate(
   }
 }
 
-void addIds(const std::vector<Index>& ids, const char* name, vtkDataSetAttributes* leaf)
+/// `of`: empty, or the id of each number in `ids`.
+void addIds(const std::vector<Index>& ids, const std::vector<Index>& of, const char* name,
+  vtkDataSetAttributes* leaf)
 {
   vtkNew<vtkIdTypeArray> array;
   array->SetName(name);
   array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(ids[i]));
+    const Index id = ids[i] < 0 || of.empty() ? ids[i] : of[ids[i]];
+    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(id));
   }
   leaf->AddArray(array);
 }
 
-/// Gives the cells of a set the scaled Jacobian of the mesh's worst cell behind each, so that they
-/// have a colour too; NaN where there is none.
-void writeQualityBehind(
-  vtkDataArray* quality, const MergedBlocks::Block& set, vtkDataSetAttributes* leaf)
+/// The value of the mesh's worst cell behind each cell of a set; NaN where there is none.
+std::vector<double> worstBehind(vtkDataArray* quality, const MergedBlocks::Block& set)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(quality->GetName());
-  array->SetNumberOfValues(static_cast<vtkIdType>(set.Behind.size()));
-  for (std::size_t i = 0; i < set.Behind.size(); ++i)
+  std::vector<double> worst(set.Behind.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < worst.size(); ++i)
   {
-    double worst = std::numeric_limits<double>::quiet_NaN();
     for (const Index cell : set.Behind[i])
     {
-      worst = std::fmin(worst, quality->GetComponent(cell, 0)); // a NaN loses
+      worst[i] = std::fmin(worst[i], quality->GetComponent(cell, 0)); // a NaN loses
     }
-    array->SetValue(static_cast<vtkIdType>(i), worst);
   }
-  leaf->AddArray(array);
-  leaf->SetActiveScalars(quality->GetName());
+  return worst;
 }
+
+/// Gives the cells of a set the scaled Jacobian of what is behind each, so that they have a colour
+/// too.
+void writeQualityBehind(const std::vector<double>& values, vtkDataSetAttributes* leaf)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(QualityName);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  leaf->AddArray(array);
+  leaf->SetActiveScalars(QualityName);
+}
+}
+
+vtkDataArray* NewQuality(const MergedBlocks& merged, vtkUnstructuredGrid* result)
+{
+  vtkDataArray* quality = result->GetCellData()->GetArray(QualityName);
+  return quality && !hasArray(merged.Grid->GetCellData(), quality) ? quality : nullptr;
 }
 
 void Write(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t block,
-  vtkUnstructuredGrid* result)
+  vtkUnstructuredGrid* result, const std::vector<double>& behind)
 {
   const MergedBlocks::Block& part = merged.All[block];
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(leaf.Data);
@@ -181,8 +198,8 @@ void Write(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t blo
     movePoints(result->GetPoints(), part.Nodes, set);
     data = set;
   }
-  vtkAbstractArray* quality = result->GetCellData()->GetAbstractArray("ScaledJacobian");
-  if (isMoved || (quality && !hasArray(before->GetCellData(), quality)))
+  vtkDataArray* quality = NewQuality(merged, result);
+  if (isMoved || quality || !behind.empty())
   {
     Quality::Remove(data); // that of an input, which this block alone may have
   }
@@ -195,17 +212,16 @@ void Write(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_t blo
   if (isNew)
   {
     activate(result->GetPointData(), before->GetPointData(), data->GetPointData());
-    addIds(part.Nodes, "MorphPointId", data->GetPointData());
+    addIds(part.Nodes, merged.NodeIds, "MorphPointId", data->GetPointData());
   }
   if (isNew && part.IsMesh)
   {
     activate(result->GetCellData(), before->GetCellData(), data->GetCellData());
-    addIds(part.Cells, "MorphCellId", data->GetCellData());
+    addIds(part.Cells, merged.CellIds, "MorphCellId", data->GetCellData());
   }
-  auto* numbers = vtkDataArray::SafeDownCast(quality);
-  if (numbers && !part.Behind.empty() && !hasArray(before->GetCellData(), quality))
+  if (!behind.empty() || (quality && !part.Behind.empty()))
   {
-    writeQualityBehind(numbers, part, data->GetCellData());
+    writeQualityBehind(behind.empty() ? worstBehind(quality, part) : behind, data->GetCellData());
   }
   Leaves::Replace(leaf, data);
 }
@@ -252,6 +268,12 @@ void WriteFaces(const Leaves::Leaf& leaf, const MergedBlocks& merged, std::size_
     BlockArrays::Spread(
       result->GetCellData()->GetAbstractArray(i), chosen, "", faces->GetCellData());
   }
+  std::vector<Index> behind;
+  for (const Index face : chosen)
+  {
+    behind.push_back(static_cast<Index>(owners->GetComponent(static_cast<vtkIdType>(face), 0)));
+  }
+  addIds(behind, merged.CellIds, "MorphCellId", faces->GetCellData());
   if (vtkDataArray* scalars = result->GetCellData()->GetScalars())
   {
     faces->GetCellData()->SetActiveScalars(scalars->GetName());

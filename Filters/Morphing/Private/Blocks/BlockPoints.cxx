@@ -44,10 +44,16 @@ bool isCopy(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks* mesh)
   {
     return false;
   }
+  const bool isAnyMesh = std::any_of(mesh->All.begin(), mesh->All.end(),
+    [](const MergedBlocks::Block& block) { return block.IsMesh; });
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
     auto* set = vtkPointSet::SafeDownCast(leaves[i].Data);
     const MergedBlocks::Block& block = mesh->All[i];
+    if (!isAnyMesh && set && set->GetPointData()->HasArray("MorphPointId"))
+    {
+      return false; // an MPI process with sets alone: pieces of a boundary say what they are
+    }
     if (block.IsMesh &&
         (!set || set->GetNumberOfPoints() != static_cast<vtkIdType>(block.Nodes.size())))
     {
@@ -164,6 +170,10 @@ vtkSmartPointer<vtkPolyData> Make(
   }
   const double tolerance = copied ? 1e-6 * sizeOf(sources) : 0;
   morph::Points positions(number, 3);
+  for (Index i = 0; copied && i < number; ++i)
+  {
+    copied->Grid->GetPoint(static_cast<vtkIdType>(i), positions.row(i).data());
+  }
   std::vector<std::uint8_t> isKnown(number, 0);
   std::vector<Index> torn;
   std::vector<vtkSmartPointer<vtkIdList>> lists;

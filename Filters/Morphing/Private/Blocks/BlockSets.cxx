@@ -11,8 +11,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <map>
-#include <string>
+#include <algorithm>
+#include <iterator>
 
 namespace morph::filters::BlockSets
 {
@@ -40,7 +40,7 @@ vtkSmartPointer<vtkStringArray> knownNames(vtkFieldData* data)
 
 void Name(const std::vector<Leaves::Leaf>& leaves, MergedBlocks& merged)
 {
-  std::map<std::string, vtkSmartPointer<vtkUnsignedCharArray>> marks; // partitions share one
+  Marks marks;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
     const std::string& label = leaves[i].Label;
@@ -49,36 +49,37 @@ void Name(const std::vector<Leaves::Leaf>& leaves, MergedBlocks& merged)
     {
       continue;
     }
-    vtkSmartPointer<vtkUnsignedCharArray>& array = marks[label];
-    if (!array)
-    {
-      array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-      array->SetName(label.c_str());
-      array->SetNumberOfValues(merged.Grid->GetNumberOfPoints());
-      array->FillValue(0);
-    }
-    for (const Index node : merged.All[i].Nodes)
-    {
-      if (node >= 0)
-      {
-        array->SetValue(node, 1);
-      }
-    }
+    std::vector<Index>& nodes = marks[label];
+    std::copy_if(merged.All[i].Nodes.begin(), merged.All[i].Nodes.end(), std::back_inserter(nodes),
+      [](Index node) { return node >= 0; });
   }
+  AddMarks(marks, merged.Grid);
+}
+
+void AddMarks(const Marks& marks, vtkUnstructuredGrid* grid)
+{
   if (marks.empty())
   {
     return;
   }
-  const vtkSmartPointer<vtkStringArray> names = knownNames(merged.Grid->GetFieldData());
-  for (const auto& [label, array] : marks)
+  const vtkSmartPointer<vtkStringArray> names = knownNames(grid->GetFieldData());
+  for (const auto& [label, nodes] : marks)
   {
-    merged.Grid->GetPointData()->AddArray(array);
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(label.c_str());
+    array->SetNumberOfValues(grid->GetNumberOfPoints());
+    array->FillValue(0);
+    for (const Index node : nodes)
+    {
+      array->SetValue(static_cast<vtkIdType>(node), 1);
+    }
+    grid->GetPointData()->AddArray(array);
     if (names->LookupValue(label) < 0)
     {
       names->InsertNextValue(label);
     }
   }
-  merged.Grid->GetFieldData()->AddArray(names);
+  grid->GetFieldData()->AddArray(names);
 }
 
 void FindBehind(const std::vector<Leaves::Leaf>& leaves, MergedBlocks& merged)

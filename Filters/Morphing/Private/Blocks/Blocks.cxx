@@ -21,6 +21,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace morph::filters
 {
@@ -46,10 +47,25 @@ void Blocks::MakeOutput(vtkInformationVector** inputVector, vtkInformationVector
   }
 }
 
-Blocks::Key Blocks::KeyOf(vtkDataObjectTree* tree, int coincident, GridMesh::UnknownCells unknown)
+MergedBlocks::Options Blocks::OptionsOf(int coincident, GridMesh::UnknownCells unknown)
+{
+  MergedBlocks::Options options;
+  options.Merges = coincident != KeepApart;
+  options.ByIds = coincident == Merge;
+  options.Unknown = unknown;
+  return options;
+}
+
+Blocks::Key Blocks::KeyOf(
+  vtkDataObjectTree* tree, int coincident, GridMesh::UnknownCells unknown, bool areOnRanks)
 {
   // Arrays, not data sets: a pipeline makes shallow copies of these.
-  Key key = { { nullptr, static_cast<vtkMTimeType>(3 * static_cast<int>(unknown) + coincident) } };
+  Key key = { { nullptr, static_cast<vtkMTimeType>(3 * static_cast<int>(unknown) + coincident) },
+    { nullptr, areOnRanks } };
+  if (!tree)
+  {
+    return key;
+  }
   const auto add = [&key](vtkObject* object)
   { key.emplace_back(object, object ? object->GetMTime() : 0); };
   const auto addArrays = [&](vtkFieldData* data)
@@ -104,18 +120,44 @@ vtkDataObject* Blocks::Gather(
   vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown, morph::Monitor& monitor)
 {
   this->Input = Leaves::TreeOf(input);
+  if (this->Kept.WorstBehind)
+  {
+    this->Forget(); // what was made together with other processes
+  }
   if (!this->Input)
   {
     return input;
   }
-  Key key = KeyOf(this->Input, coincident, unknown);
+  Key key = KeyOf(this->Input, coincident, unknown, false);
   if (!this->Kept.Grid || key != this->MadeFrom)
   {
     this->Kept = {};
-    this->Kept =
-      MergedBlocks::Make(this->Input, { coincident != KeepApart, coincident == Merge, unknown });
+    this->Kept = MergedBlocks::Make(this->Input, OptionsOf(coincident, unknown));
     this->MadeFrom = std::move(key);
   }
+  return this->Tell(monitor);
+}
+
+bool Blocks::IsKept(vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown)
+{
+  this->Input = Leaves::TreeOf(input);
+  this->Asked = KeyOf(this->Input, coincident, unknown, true);
+  return this->Kept.Grid && this->Asked == this->MadeFrom;
+}
+
+void Blocks::Forget()
+{
+  this->Kept = {};
+}
+
+void Blocks::Keep(MergedBlocks merged)
+{
+  this->Kept = std::move(merged);
+  this->MadeFrom = this->Asked;
+}
+
+vtkDataObject* Blocks::Tell(morph::Monitor& monitor) const
+{
   for (const std::string& warning : this->Kept.Warnings)
   {
     monitor.warn(warning);
@@ -151,6 +193,11 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
   vtkDataObjectTree* output = treeOf(outputVector);
   const vtkSmartPointer<vtkUnstructuredGrid> result = this->Scratch;
   this->Scratch = nullptr;
+  std::vector<std::vector<double>> behind;
+  if (this->Kept.WorstBehind) // all processes have one, and have to call it
+  {
+    behind = this->Kept.WorstBehind(result ? BlockOutput::NewQuality(this->Kept, result) : nullptr);
+  }
   if (!output || !result)
   {
     return;
@@ -166,7 +213,13 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
     {
       if (!this->Kept.All[i].Nodes.empty())
       {
-        (areFaces ? BlockOutput::WriteFaces : BlockOutput::Write)(leaves[i], this->Kept, i, result);
+        if (areFaces)
+        {
+          BlockOutput::WriteFaces(leaves[i], this->Kept, i, result);
+          continue;
+        }
+        BlockOutput::Write(
+          leaves[i], this->Kept, i, result, behind.empty() ? std::vector<double>() : behind[i]);
       }
     }
   }

@@ -42,6 +42,9 @@ public:
     KeepApart
   };
 
+  /// What MergedBlocks calls them. `coincident`: CoincidentPoints.
+  static MergedBlocks::Options OptionsOf(int coincident, GridMesh::UnknownCells unknown);
+
   /// For REQUEST_DATA_OBJECT: output 0 becomes composite data of the input's class, or an
   /// unstructured grid.
   static void MakeOutput(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
@@ -51,6 +54,16 @@ public:
   /// does. Warns of blocks that pass unchanged. Cost: one pass over the blocks.
   vtkDataObject* Gather(
     vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
+  /// Gather() in steps, for blocks on several MPI processes; see RankBlocks. All of these call
+  /// Scatter(), too.
+  ///@{
+  /// Takes `input`, perhaps no tree, and returns whether its merged blocks are kept.
+  bool IsKept(vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown);
+  void Forget();
+  void Keep(MergedBlocks merged);
+  /// Warns, and returns the merged blocks.
+  vtkDataObject* Tell(morph::Monitor& monitor) const;
+  ///@}
   /// The blocks of the last input; null where it was not composite.
   const MergedBlocks* Merged() const;
   vtkDataObjectTree* Tree() const;
@@ -63,11 +76,12 @@ public:
 
 private:
   using Key = std::vector<std::pair<const void*, vtkMTimeType>>;
-  static Key KeyOf(vtkDataObjectTree* tree, int coincident, GridMesh::UnknownCells unknown);
+  static Key KeyOf(
+    vtkDataObjectTree* tree, int coincident, GridMesh::UnknownCells unknown, bool areOnRanks);
 
   vtkSmartPointer<vtkDataObjectTree> Input;
   vtkSmartPointer<vtkUnstructuredGrid> Scratch;
-  Key MadeFrom;
+  Key MadeFrom, Asked;
   MergedBlocks Kept;
 };
 }

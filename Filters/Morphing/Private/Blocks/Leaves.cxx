@@ -50,8 +50,19 @@ std::vector<Child> childrenOf(vtkDataObjectTree* tree)
   return children;
 }
 
-void add(vtkDataObjectTree* tree, const std::string& path, const std::string& label,
-  unsigned int& index, std::vector<Leaf>& leaves)
+/// With leading zeros: paths sort as the blocks do.
+std::string placeText(std::size_t place)
+{
+  const std::string digits = std::to_string(place);
+  return "/" + std::string(digits.size() < 10 ? 10 - digits.size() : 0, '0') + digits;
+}
+
+struct Inner
+{
+  std::string Name, Label, Path;
+};
+
+void add(vtkDataObjectTree* tree, const Inner& node, unsigned int& index, std::vector<Leaf>& leaves)
 {
   const bool isPartitions = vtkPartitionedDataSet::SafeDownCast(tree) != nullptr;
   const std::vector<Child> children = childrenOf(tree);
@@ -62,25 +73,26 @@ void add(vtkDataObjectTree* tree, const std::string& path, const std::string& la
     const char* given = child.MetaData && child.MetaData->Has(vtkCompositeDataSet::NAME())
                           ? child.MetaData->Get(vtkCompositeDataSet::NAME())
                           : nullptr;
-    std::string name = path;
+    std::string name = node.Name;
     if (given && *given)
     {
-      name += (path.empty() ? "" : "/") + std::string(given);
+      name += (node.Name.empty() ? "" : "/") + std::string(given);
     }
-    const std::string own = given && *given ? given : isPartitions ? label : std::string();
+    const std::string own = given && *given ? given : isPartitions ? node.Label : std::string();
+    const std::string path = isPartitions ? node.Path : node.Path + placeText(i);
     if (auto* inner = TreeOf(child.Data))
     {
-      add(inner, name, own, index, leaves);
+      add(inner, { name, own, path }, index, leaves);
     }
     else if (child.Data)
     {
-      if (name == path && children.size() > 1 && !path.empty())
+      if (name == node.Name && children.size() > 1 && !name.empty())
       {
         name += "/" + std::to_string(i);
       }
       leaves.push_back({ child.Data, index,
         name.empty() ? "Block " + std::to_string(index) : "Block '" + name + "'", tree,
-        static_cast<unsigned int>(i), own });
+        static_cast<unsigned int>(i), own, path });
     }
   }
 }
@@ -95,7 +107,7 @@ std::vector<Leaf> Of(vtkDataObjectTree* tree)
 {
   std::vector<Leaf> leaves;
   unsigned int index = 0;
-  add(tree, {}, {}, index, leaves);
+  add(tree, {}, index, leaves);
   return leaves;
 }
 

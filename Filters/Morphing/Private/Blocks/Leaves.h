@@ -20,6 +20,7 @@ struct Leaf
   vtkDataObjectTree* Parent; ///< a multi-block or a partitioned data set
   unsigned int Place;        ///< among the parent's children
   std::string Label;         ///< the name that the file gives, of a partition that of all; or empty
+  std::string Path;          ///< the places from the root; partitions have that of all of them
 };
 
 /// `data` as a tree of blocks, or null where it is none. Levels of adaptive refinement are none:

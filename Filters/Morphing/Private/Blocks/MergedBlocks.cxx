@@ -5,6 +5,7 @@
 #include "Private/Blocks/BlockArrays.h"
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Blocks/BlockSets.h"
+#include "Private/Blocks/BlockWarnings.h"
 #include "Private/Blocks/Leaves.h"
 #include "Private/Blocks/SharedNodes.h"
 #include "Private/Blocks/SplitNodes.h"
@@ -47,6 +48,7 @@ struct Part
   std::size_t Place; ///< among all blocks
   vtkDataSet* Data;
   unsigned int FlatIndex;
+  Index Group; ///< in which nodes are shared
   morph::Mesh Mesh;
 };
 
@@ -91,16 +93,20 @@ double sizeOf(const std::vector<Part>& parts)
   return (high - low).norm();
 }
 
+std::vector<Index> idsOf(const Part& part, const MergedBlocks::Options& options)
+{
+  return options.ByIds ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
+                       : std::vector<Index>();
+}
+
 SharedNodes numberNodes(
   const std::vector<Part>& parts, const MergedBlocks::Options& options, MergedBlocks& merged)
 {
-  SharedNodes nodes(options.Merges);
+  SharedNodes nodes;
   for (const Part& part : parts)
   {
-    const std::vector<Index> ids =
-      options.ByIds ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
-                    : std::vector<Index>();
-    merged.All[part.Place].Nodes = nodes.Add({ part.Mesh.points, ids, isStructured(part.Data) });
+    merged.All[part.Place].Nodes = nodes.Add({ part.Mesh.points, idsOf(part, options),
+      options.Merges && isStructured(part.Data), part.Group });
   }
   return nodes;
 }
@@ -365,9 +371,7 @@ bool follow(
   }
   if (missing > 0)
   {
-    merged.Warnings.push_back(block.Name + ": " + std::to_string(missing) + " of its " +
-                              std::to_string(points.rows()) +
-                              " points are on no node of the mesh, and stay where they are.");
+    merged.Warnings.push_back(BlockWarnings::Missing(block.Name, missing, points.rows()));
   }
   return true;
 }
@@ -378,72 +382,10 @@ bool isEmpty(vtkDataObject* data)
   return set && set->GetNumberOfPoints() == 0;
 }
 
-void warnOfUnchanged(const std::vector<std::string>& names, MergedBlocks& merged)
+/// Finds the nodes of all blocks that are no part of the mesh.
+void followAll(const std::vector<Leaves::Leaf>& leaves, const SharedNodes& nodes, bool byIds,
+  MergedBlocks& merged)
 {
-  if (names.empty())
-  {
-    return;
-  }
-  constexpr std::size_t Most = 5;
-  std::string text = std::to_string(names.size()) +
-                     (names.size() == 1 ? " block has no point" : " blocks have no point") +
-                     " on a node of the mesh, and pass unchanged: ";
-  for (std::size_t i = 0; i < std::min(names.size(), Most); ++i)
-  {
-    text += (i > 0 ? ", " : "") + names[i];
-  }
-  merged.Warnings.push_back(text + (names.size() > Most ? ", ..." : "."));
-}
-}
-
-MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
-{
-  MergedBlocks merged;
-  merged.Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  merged.Grid->GetFieldData()->ShallowCopy(tree->GetFieldData());
-  const std::vector<Leaves::Leaf> leaves = Leaves::Of(tree);
-  std::vector<int> dimensions;
-  int highest = 0;
-  for (const Leaves::Leaf& leaf : leaves)
-  {
-    auto* data = vtkDataSet::SafeDownCast(leaf.Data);
-    dimensions.push_back(data ? BlockCells::Dimension(data) : -1);
-    highest = std::max(highest, dimensions.back());
-  }
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-  {
-    merged.All.push_back({ leaves[i].Name, {}, {}, dimensions[i] == highest, {} });
-    if (dimensions[i] == highest)
-    {
-      auto* data = vtkDataSet::SafeDownCast(leaves[i].Data);
-      parts.push_back(
-        { i, data, leaves[i].FlatIndex, BlockCells::Read(data, leaves[i].Name, options.Unknown) });
-    }
-  }
-  if (parts.empty())
-  {
-    return merged;
-  }
-
-  SharedNodes nodes = numberNodes(parts, options, merged);
-  bool byIds = options.ByIds;
-  if (const auto id = nodes.Contradiction(1e-6 * sizeOf(parts)))
-  {
-    byIds = false;
-    merged.Warnings.push_back(
-      "The blocks' global ids do not number one mesh: points with the id " + std::to_string(*id) +
-      " are at different positions. Points of blocks are one node where their positions are "
-      "equal.");
-    nodes = numberNodes(parts, { options.Merges, false, options.Unknown }, merged);
-  }
-  if (nodes.Coinciding() > 0)
-  {
-    merged.Warnings.push_back(std::to_string(nodes.Coinciding()) +
-                              " points are at the place of another block's, with other global ids, "
-                              "and stay apart from them as bodies in contact do. If the blocks are "
-                              "one body, set CoincidentPoints to merge by position.");
-  }
   std::vector<std::string> unchanged;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
@@ -454,21 +396,114 @@ MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
       unchanged.push_back(block.Name);
     }
   }
-  warnOfUnchanged(unchanged, merged);
-  const Index number = joinSplitNodes(parts, nodes, merged);
-  if (const std::vector<Index> order = nodes.Order(); !order.empty())
+  if (const std::string text = BlockWarnings::Unchanged(unchanged); !text.empty())
   {
-    std::vector<Index> rank(order.size());
-    std::iota(rank.begin(), rank.end(), Index(0));
-    reorder(order, rank);
-    for (Block& block : merged.All)
+    merged.Warnings.push_back(text);
+  }
+}
+
+/// Renumbers the nodes in ascending order of their ids, if all have one.
+void orderNodes(const SharedNodes& nodes, MergedBlocks& merged)
+{
+  const std::vector<Index> order = nodes.Order();
+  if (order.empty())
+  {
+    return;
+  }
+  std::vector<Index> rank(order.size());
+  std::iota(rank.begin(), rank.end(), Index(0));
+  reorder(order, rank);
+  for (Block& block : merged.All)
+  {
+    for (Index& node : block.Nodes)
     {
-      for (Index& node : block.Nodes)
-      {
-        node = node < 0 ? node : rank[node];
-      }
+      node = node < 0 ? node : rank[node];
     }
   }
+}
+
+/// The parts of the mesh: the blocks with cells of the highest dimension.
+std::vector<Part> readParts(const std::vector<Leaves::Leaf>& leaves,
+  const MergedBlocks::Options& options, MergedBlocks& merged)
+{
+  std::vector<int> dimensions;
+  int highest = options.Dimension;
+  for (const Leaves::Leaf& leaf : leaves)
+  {
+    auto* data = vtkDataSet::SafeDownCast(leaf.Data);
+    dimensions.push_back(data ? BlockCells::Dimension(data) : -1);
+    highest = std::max(highest, dimensions.back());
+  }
+  std::vector<Part> parts;
+  std::map<std::string, Index> groups;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    merged.All.push_back({ leaves[i].Name, {}, {}, dimensions[i] == highest, {} });
+    if (dimensions[i] == highest)
+    {
+      auto* data = vtkDataSet::SafeDownCast(leaves[i].Data);
+      const Index group =
+        options.Merges
+          ? 0
+          : groups.try_emplace(leaves[i].Path, static_cast<Index>(groups.size())).first->second;
+      parts.push_back({ i, data, leaves[i].FlatIndex, group,
+        BlockCells::Read(data, leaves[i].Name, options.Unknown) });
+    }
+  }
+  return parts;
+}
+
+void noteIds(
+  const std::vector<Part>& parts, const MergedBlocks::Options& options, MergedBlocks& merged)
+{
+  merged.NodeIds.assign(merged.Grid->GetNumberOfPoints(), -1);
+  for (const Part& part : parts)
+  {
+    const std::vector<Index> ids = idsOf(part, options);
+    const std::vector<Index>& nodes = merged.All[part.Place].Nodes;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      merged.NodeIds[nodes[i]] = ids[i];
+    }
+  }
+}
+}
+
+MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
+{
+  MergedBlocks merged;
+  merged.Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  merged.Grid->GetFieldData()->ShallowCopy(tree->GetFieldData());
+  const std::vector<Leaves::Leaf> leaves = Leaves::Of(tree);
+  const std::vector<Part> parts = readParts(leaves, options, merged);
+  if (parts.empty())
+  {
+    return merged;
+  }
+
+  SharedNodes nodes = numberNodes(parts, options, merged);
+  Options chosen = options;
+  merged.Contradiction = nodes.Contradiction(1e-6 * sizeOf(parts));
+  if (merged.Contradiction)
+  {
+    if (options.AreOnRanks)
+    {
+      return merged; // all processes have to choose alike
+    }
+    merged.Warnings.push_back(BlockWarnings::Contradiction(*merged.Contradiction));
+    chosen.ByIds = false;
+    nodes = numberNodes(parts, chosen, merged);
+  }
+  if (!options.AreOnRanks)
+  {
+    if (nodes.Coinciding() > 0)
+    {
+      merged.Warnings.push_back(BlockWarnings::Coinciding(nodes.Coinciding()));
+    }
+    followAll(leaves, nodes, chosen.ByIds, merged);
+  }
+  const Index number = joinSplitNodes(parts, nodes, merged);
+  orderNodes(nodes, merged);
   Cells cells = numberCells(parts, merged, number);
   orderCells(parts, cells);
   writeNodes(parts, number, merged);
@@ -477,6 +512,11 @@ MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
     merged.All[parts[p].Place].Cells = std::move(cells.OfPart[p]);
+  }
+  if (options.AreOnRanks)
+  {
+    noteIds(parts, chosen, merged);
+    return merged;
   }
   BlockSets::Name(leaves, merged);
   BlockSets::FindBehind(leaves, merged);

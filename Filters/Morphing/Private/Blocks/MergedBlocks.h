@@ -6,9 +6,12 @@
 
 #include <vtkSmartPointer.h>
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObjectTree;
 class vtkUnstructuredGrid;
 
@@ -30,9 +33,12 @@ struct MergedBlocks
   };
   struct Options
   {
-    bool Merges = true; ///< coincident points of blocks are one node
+    bool Merges = true; ///< coincident points of blocks are one node; of partitions they always are
     bool ByIds = true;  ///< where blocks have global ids, these tell which points coincide
     GridMesh::UnknownCells Unknown = GridMesh::UnknownCells::Refuse;
+    /// Set where other MPI processes have blocks of the same mesh; see RankBlocks.
+    bool AreOnRanks = false;
+    int Dimension = 0; ///< cells of the mesh have it at least
   };
 
   /// The nodes and cells, with the arrays that all blocks have and the cell array MorphBlockId, the
@@ -43,8 +49,19 @@ struct MergedBlocks
   std::vector<morph::Index> BlockOfCell; ///< #cells of Grid, places in All
   std::vector<std::string> Warnings;
 
+  /// Of blocks on several MPI processes, else empty: the ids of nodes and cells, the same for all
+  /// processes.
+  std::vector<morph::Index> NodeIds, CellIds;
+  /// Of blocks on several MPI processes: for each block, as Behind, the lowest of the values of the
+  /// mesh's cells behind each of its cells. `values`: of Grid's cells, or null. Collective.
+  std::function<std::vector<std::vector<double>>(vtkDataArray* values)> WorstBehind;
+  /// A global id of points at different places, where Options::ByIds. On ranks the rest is not
+  /// made then.
+  std::optional<morph::Index> Contradiction;
+
   /// Throws morph::Error, which names the block, for data that cannot be read. Cost: one pass over
-  /// the blocks.
+  /// the blocks. On ranks only the mesh is made, without warnings; other blocks have no nodes yet,
+  /// and NodeIds are the points' global ids, or -1.
   static MergedBlocks Make(vtkDataObjectTree* tree, const Options& options);
 };
 }

@@ -32,10 +32,10 @@ SharedNodes::Place SharedNodes::PlaceOf(const morph::Points& points, Index row)
   return { { points(row, 0) + 0., points(row, 1) + 0., points(row, 2) + 0. } };
 }
 
-Index SharedNodes::NewNode(const Place& place, List& list, Index id)
+Index SharedNodes::NewNode(const Place& place, List& list, Index group, Index id)
 {
   const Index node = this->Number();
-  this->Nodes.push_back({ id, this->Block, -1 });
+  this->Nodes.push_back({ id, group, this->Block, -1 });
   this->Spots.push_back(place);
   if (list.First < 0)
   {
@@ -49,10 +49,11 @@ Index SharedNodes::NewNode(const Place& place, List& list, Index id)
   return node;
 }
 
-Index SharedNodes::Sharable(List& list, bool within, bool needsFree)
+Index SharedNodes::Sharable(List& list, const Points& block, bool needsFree)
 {
-  const auto isFree = [&](Index node) { return !(needsFree && this->Nodes[node].Id >= 0); };
-  if (within)
+  const auto isFree = [&](Index node)
+  { return this->Nodes[node].Group == block.Group && !(needsFree && this->Nodes[node].Id >= 0); };
+  if (block.MergesWithin)
   {
     // Its own node, as at a seam, or another block's.
     Index node = list.First;
@@ -89,7 +90,7 @@ std::vector<Index> SharedNodes::Add(const Points& block)
   for (Index i = 0; i < count; ++i)
   {
     const Place place = PlaceOf(block.Places, i);
-    const Index id = block.Ids.empty() || !this->Merges ? -1 : block.Ids[i];
+    const Index id = block.Ids.empty() ? -1 : block.Ids[i];
     if (id >= 0)
     {
       if (const auto known = this->ById.find(id); known != this->ById.end())
@@ -106,11 +107,11 @@ std::vector<Index> SharedNodes::Add(const Points& block)
       }
     }
     List& list = this->Lists.try_emplace(place, List{ -1, -1, -1, -1 }).first->second;
-    Index node = this->Merges ? this->Sharable(list, block.MergesWithin, id >= 0) : -1;
+    Index node = this->Sharable(list, block, id >= 0);
     if (node < 0)
     {
       this->Parted += id >= 0 && list.First >= 0 && this->Nodes[list.First].Block != this->Block;
-      node = this->NewNode(place, list, id);
+      node = this->NewNode(place, list, block.Group, id);
     }
     this->Nodes[node].Block = this->Block;
     if (id >= 0)
@@ -160,23 +161,23 @@ std::vector<Index> SharedNodes::Places(std::vector<std::uint8_t>& isSplit) const
 {
   std::vector<Index> first(this->Nodes.size());
   isSplit.assign(this->Nodes.size(), 0);
-  if (!this->Merges)
-  {
-    std::iota(first.begin(), first.end(), Index(0));
-    return first;
-  }
   for (const auto& [place, list] : this->Lists)
   {
-    bool isAny = false;
     for (Index node = list.First; node >= 0; node = this->Nodes[node].Next)
     {
-      first[node] = list.First;
-      isAny = isAny || this->Nodes[node].Id >= 0;
-    }
-    for (Index node = list.First; node >= 0 && !isAny && list.First != list.Last;
-         node = this->Nodes[node].Next)
-    {
-      isSplit[node] = 1;
+      const auto isOfGroup = [&](Index other)
+      { return this->Nodes[other].Group == this->Nodes[node].Group; };
+      bool hasIds = false;
+      Index members = 0;
+      for (Index other = list.First; other >= 0; other = this->Nodes[other].Next)
+      {
+        if (isOfGroup(other))
+        {
+          first[node] = members++ == 0 ? other : first[node];
+          hasIds = hasIds || this->Nodes[other].Id >= 0;
+        }
+      }
+      isSplit[node] = !hasIds && members > 1;
     }
   }
   return first;

@@ -14,12 +14,6 @@ namespace morph::filters
 class SharedNodes
 {
 public:
-  /// `merges`: false gives each point a node of its own.
-  explicit SharedNodes(bool merges)
-    : Merges(merges)
-  {
-  }
-
   struct Points
   {
     const morph::Points& Places;
@@ -28,6 +22,8 @@ public:
     /// Whether points of this block among themselves may be one node. Off, a crack inside the block
     /// stays open.
     bool MergesWithin = false;
+    /// Points of different groups are never one node, wherever they are.
+    Index Group = 0;
   };
 
   /// Adds the points of one block and returns the node of each. Points with numbers are one node
@@ -65,7 +61,8 @@ private:
   };
   struct Node
   {
-    Index Id = -1;    ///< or -1
+    Index Id = -1; ///< or -1
+    Index Group = 0;
     Index Block = -1; ///< the last one that has it
     Index Next = -1;  ///< at the same place
   };
@@ -76,11 +73,10 @@ private:
   };
 
   static Place PlaceOf(const morph::Points& points, Index row);
-  Index NewNode(const Place& place, List& list, Index id);
+  Index NewNode(const Place& place, List& list, Index group, Index id);
   /// The first node of the list that the present block may share, or -1.
-  Index Sharable(List& list, bool within, bool needsFree);
+  Index Sharable(List& list, const Points& block, bool needsFree);
 
-  bool Merges;
   Index Block = -1; ///< the present one
   std::vector<Node> Nodes;
   std::vector<Place> Spots; ///< of the nodes

@@ -6,6 +6,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/FieldTexts.h"
 #include "Private/Distributed/GatherData.h"
 
 #include <vtkCellData.h>
@@ -167,6 +168,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   std::vector<std::int64_t> nodeIds, cellIds;
   std::vector<CellRecord> cells;
   std::vector<FaceRecord> faces;
+  std::vector<char> texts;
   ranks.together(
     [&]
     {
@@ -177,6 +179,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
       }
       SubGrid::Extract(piece, chosen, mine);
       mine->GetFieldData()->ShallowCopy(piece->GetFieldData());
+      texts = FieldTexts::Take(mine->GetFieldData());
       nodeIds = takeIds(mine->GetPointData(), Surface::IdName, whole.nodeIds());
       cellIds = takeIds(mine->GetCellData(), CellName, whole.cellIds());
       for (vtkIdType i = 0; i < chosen->GetNumberOfIds(); ++i)
@@ -197,7 +200,19 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   const auto allNodes = gatherParts(ranks, nodeIds, this->Bytes);
   const auto allCells = gatherParts(ranks, cells, this->Bytes);
   const auto allFaces = gatherParts(ranks, faces, this->Bytes);
-  ranks.together([&] { this->Assemble(parts, allNodes, allCells, allFaces); });
+  const auto allTexts = gatherParts(ranks, texts, this->Bytes);
+  ranks.together(
+    [&]
+    {
+      for (std::size_t p = 0; p < parts.size(); ++p)
+      {
+        if (parts[p])
+        {
+          FieldTexts::Add(allTexts[p], parts[p]->GetFieldData());
+        }
+      }
+      this->Assemble(parts, allNodes, allCells, allFaces);
+    });
 }
 
 void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts,

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankMesh.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
+#include "Private/RankBlocks/GlobalRanks.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdTypeArray.h>
-#include <vtkMPI.h>
-#include <vtkMPICommunicator.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -74,19 +73,6 @@ void translate(vtkDataSetAttributes* data, const char* name, const std::vector<s
 }
 }
 
-morph::distributed::Ranks GlobalRanks()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  auto* communicator =
-    controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
-  if (!communicator)
-  {
-    throw morph::Error("The mesh is distributed over processes that do not communicate by MPI. "
-                       "Start them by mpiexec.");
-  }
-  return morph::distributed::Ranks(*communicator->GetMPIComm()->GetHandle());
-}
-
 RankMesh::RankMesh()
   : Processes(GlobalRanks())
 {
@@ -124,6 +110,7 @@ bool RankMesh::Take(
     highest = std::max<morph::Index>(highest, dimension(c));
   }
   this->Dimension = static_cast<int>(ranks.maximum(highest));
+  this->Polyhedral = ranks.sum(morph::Index(morph::hasPolyhedra(this->Copy))) > 0;
   for (morph::Index c = 0; c < cells; ++c)
   {
     this->Skip[c] |= dimension(c) < this->Dimension;

@@ -17,9 +17,6 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-/// The processes of VTK's global controller. Throws morph::Error unless they communicate by MPI.
-morph::distributed::Ranks GlobalRanks();
-
 /// A grid of which each MPI process has a piece, kept from one execution to the next. All functions
 /// but the getters are collective.
 class RankMesh
@@ -47,7 +44,10 @@ public:
   /// mesh has.
   const std::vector<std::uint8_t>& Unmeasured() const { return this->Skip; }
   /// Of the whole mesh.
+  ///@{
   int HighestDimension() const { return this->Dimension; }
+  bool HasPolyhedra() const { return this->Polyhedral; }
+  ///@}
   /// The outer faces of this process's cells.
   const MovedSurface& Surface() const { return this->Polygons; }
 
@@ -63,6 +63,7 @@ private:
   std::vector<std::int64_t> NodeIds, CellIds; ///< as they came, or empty
   std::vector<std::uint8_t> Ghosts;
   int Layers = 0, Dimension = 0;
+  bool Polyhedral = false;
   std::unique_ptr<morph::distributed::DistributedMesh> Distributed;
   std::vector<std::int8_t> Signs;
   std::vector<std::uint8_t> Skip;

@@ -2,15 +2,14 @@
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
+#include "Distributed/PolyhedralMethod.h"
 #include "Distributed/Quality.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
-#include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkPointSet.h>
@@ -36,11 +35,6 @@ public:
       this->Method.reset();
     }
     this->Pieces.RequireVolumeCells();
-    if (this->Pieces.Ranks().sum(morph::Index(morph::hasPolyhedra(this->Pieces.Piece()))) > 0)
-    {
-      throw morph::Error("vtkMorphShapes of a mesh with polyhedra needs one MPI rank, and the mesh "
-                         "is distributed over several. Run on one.");
-    }
     return isTaken;
   }
   void SetFeatureLines(bool on, morph::Monitor& monitor) override
@@ -73,6 +67,10 @@ public:
     morph::NodePartition partition;
     whole.ranks().together([&] { partition = morph::partitionNodes(whole.mesh(), prescribed); });
     auto prepared = morph::distributed::makeMethod(std::move(method));
+    if (this->Pieces.HasPolyhedra())
+    {
+      prepared = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(prepared));
+    }
     prepared->prepare(whole, partition, monitor);
     this->Method = std::move(prepared);
   }

@@ -3,18 +3,17 @@
 #include "Distributed/InversionFree.h"
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
-#include "Distributed/Patches.h"
-#include "Distributed/SmoothMesh.h"
+#include "Distributed/PolyhedralMethod.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Gradient.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
+#include "Private/Distributed/RankPolyhedra.h"
 #include "Private/Distributed/RankValidity.h"
-#include "Private/Morph/PostSmoothing.h"
+#include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Morph/Series.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
@@ -22,11 +21,14 @@
 #include "Support/ProgressRange.h"
 #include "vtkMorphAlgorithm.h"
 
+#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -46,15 +48,32 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Smooths towards the undeformed shapes; returns the steps, 0 where the mesh stays. See Session.
-morph::Index smoothAfterwards(const DistributedMesh& mesh, const morph::Points& rest,
-  const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
-  morph::Monitor& monitor)
+/// A copy with zeros where another process owns the node. A set's points may be such nodes, which
+/// have no values here.
+vtkSmartPointer<vtkDataArray> ofOwned(vtkDataArray* gradient, const DistributedMesh& mesh)
 {
-  const morph::SmoothingOptions options = postSmoothing(iterationLimit);
-  const morph::SmoothingReport report =
-    morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
-  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+  if (!gradient)
+  {
+    return nullptr;
+  }
+  const auto copy = vtkSmartPointer<vtkDataArray>::Take(gradient->NewInstance());
+  copy->DeepCopy(gradient);
+  const morph::Index count = std::min<morph::Index>(copy->GetNumberOfTuples(), mesh.pieceNodes());
+  for (morph::Index n = 0; n < count; ++n)
+  {
+    for (int j = 0; !mesh.owns(n) && j < copy->GetNumberOfComponents(); ++j)
+    {
+      copy->SetComponent(static_cast<vtkIdType>(n), j, 0);
+    }
+  }
+  return copy;
+}
+
+bool isInversionFree(const Method& method)
+{
+  const auto* onPieces = dynamic_cast<const morph::distributed::PolyhedralMethod*>(&method);
+  return dynamic_cast<const morph::distributed::InversionFree*>(
+    onPieces ? &onPieces->method() : &method);
 }
 }
 
@@ -86,6 +105,8 @@ public:
     const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor);
 
 private:
+  /// The serial method with the options that evaluate() reads.
+  std::unique_ptr<morph::Morpher> Settings(const Session::Options& options) const;
   std::unique_ptr<Method> Make(const Session::Options& options) const;
   morph::NodePartition PartitionOf(
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const;
@@ -131,12 +152,6 @@ void Morphing::Internals::Take(
   }
   this->Mesh.RequireVolumeCells();
   const auto& ranks = this->Mesh.Ranks();
-  if (ranks.sum(morph::Index(morph::hasPolyhedra(this->Mesh.Piece()))) > 0)
-  {
-    throw morph::Error(options.Method +
-                       " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
-                       "over several. Run on one.");
-  }
   const morph::Index mirrored = this->Mesh.Whole().mirroredBodies();
   this->Results.SetInteger("MirroredBodies", mirrored);
   if (mirrored > 0 && ranks.rank() == 0)
@@ -169,11 +184,25 @@ BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double
   return match;
 }
 
+std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Options& options) const
+{
+  std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
+  options.SetEvaluateOptions(*settings);
+  if (this->Mesh.HasPolyhedra())
+  {
+    PolyhedralRepair::Adapt(*settings);
+  }
+  return settings;
+}
+
 std::unique_ptr<Method> Morphing::Internals::Make(const Session::Options& options) const
 {
-  const std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
-  options.SetEvaluateOptions(*settings);
+  const std::unique_ptr<morph::Morpher> settings = this->Settings(options);
   std::unique_ptr<Method> method = morph::distributed::makeMethod(options.CreateMorpher());
+  if (this->Mesh.HasPolyhedra())
+  {
+    method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
+  }
   method->takeEvaluateOptions(*settings);
   return method;
 }
@@ -210,8 +239,7 @@ Method& Morphing::Internals::Prepare(
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
     this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(start)));
   }
-  const std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
-  options.SetEvaluateOptions(*settings);
+  const std::unique_ptr<morph::Morpher> settings = this->Settings(options);
   this->Prepared->takeEvaluateOptions(*settings);
   return *this->Prepared;
 }
@@ -223,7 +251,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const auto& ranks = whole.ranks();
   const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
   const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
-    match.Targets, [&] { return this->Make(options); } };
+    match.Targets, this->Mesh.HasPolyhedra(), [&] { return this->Make(options); } };
   StepResult result;
   result.BoundaryInverted = validity.RequireFeasible();
 
@@ -242,14 +270,13 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
   const auto start = Clock::now();
   const morph::EvaluateReport report = method.evaluate(match.Targets, result.Moved, evaluating);
-  const bool isInversionFree = dynamic_cast<const morph::distributed::InversionFree*>(&method);
   const morph::Index followers =
     ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
-  if (isInversionFree && followers > 0)
+  if (isInversionFree(method) && (followers > 0 || this->Mesh.HasPolyhedra()))
   {
-    // The method has moved the corners; nodes between them have followed.
-    morph::distributed::repairInverted(
-      whole, this->Mesh.Whole().mesh().points, partition, result.Moved, evaluating);
+    // The method has moved corners of cells or pieces; nodes between them have followed.
+    RankPolyhedra::Repair(whole, this->Mesh.Whole().mesh().points, partition,
+      this->Mesh.HasPolyhedra(), result.Moved, evaluating);
   }
   result.Statistics = report.statistics;
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
@@ -266,9 +293,9 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
     });
   if (options.PostSmooth)
   {
-    result.Statistics.push_back(
-      { "PostSmoothSteps", smoothAfterwards(whole, this->Mesh.Whole().mesh().points, partition,
-                             options.PostSmoothIterations, result.Moved, evaluating) });
+    result.Statistics.push_back({ "PostSmoothSteps",
+      RankPolyhedra::Smooth(whole, this->Mesh.Whole().mesh().points, partition,
+        this->Mesh.HasPolyhedra(), options.PostSmoothIterations, result.Moved, evaluating) });
   }
   double seconds = secondsSince(start);
   if (options.MeasureAll)
@@ -426,7 +453,8 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
     {
       if (rest->GetNumberOfPoints() > 0) // others have no arrays
       {
-        nodes.topRows(whole.pieceNodes()) = Gradient::Require(gradient, rest->GetNumberOfPoints());
+        nodes.topRows(whole.pieceNodes()) =
+          Gradient::Require(ofOwned(gradient, whole), rest->GetNumberOfPoints());
       }
     });
   std::vector<RankMatch::Follower> followers;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankValidity.h"
 
-#include "Distributed/Patches.h"
 #include "Morpher/IncrementalMorph.h"
+#include "Private/Distributed/RankPolyhedra.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
@@ -135,7 +135,8 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
     made.report = method->evaluate(path(time), made.moved, second);
     if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
     {
-      morph::distributed::repairInverted(valid, this->Reference, this->Partition, made.moved, part);
+      RankPolyhedra::Repair(
+        valid, this->Reference, this->Partition, this->HasPolyhedra, made.moved, part);
     }
     made.inverted = inverted(made.moved);
     return made;
@@ -166,8 +167,8 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
   if (repairs)
   {
     morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-    const morph::distributed::RepairReport report = morph::distributed::repairInverted(
-      this->Mesh, this->Reference, this->Partition, moved, first);
+    const morph::distributed::RepairReport report = RankPolyhedra::Repair(
+      this->Mesh, this->Reference, this->Partition, this->HasPolyhedra, moved, first);
     if (report.bad == 0)
     {
       outcome.Status = "Repaired";
@@ -178,8 +179,7 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
       return this->Remaining(moved,
         "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would "
         "have " +
-          std::to_string(report.tooLarge) + " cells of " +
-          std::to_string(this->Mesh.volumeCells()) +
+          std::to_string(report.tooLarge) + " cells of " + std::to_string(report.cells) +
           "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
           "or run on one rank.",
         monitor);

@@ -21,6 +21,7 @@ public:
   const morph::Points& Reference;                  ///< #local nodes x 3, the undeformed mesh
   const morph::NodePartition& Partition;           ///< of the local mesh
   const morph::Points& Targets;                    ///< #prescribed x 3
+  bool HasPolyhedra;                               ///< on any process
   /// Makes a method with its options, not prepared yet.
   std::function<std::unique_ptr<morph::distributed::Method>()> Make;
 

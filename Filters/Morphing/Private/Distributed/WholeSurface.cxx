@@ -7,6 +7,7 @@
 #include "Private/Distributed/GatheredSurface.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
+#include "Private/RankBlocks/GlobalRanks.h"
 #include "Support/Error.h"
 
 #include <vtkAppendPolyData.h>

@@ -3,11 +3,13 @@
 
 #include "Mesh/CellShape.h"
 #include "Private/Blocks/Blocks.h"
+#include "Private/Blocks/Leaves.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Unchanged.h"
 #include "Private/Data/Version.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Private/RankBlocks/RankBlocks.h"
 #include "Support/Error.h"
 
 #include <vtkCompositeDataSet.h>
@@ -38,6 +40,40 @@ namespace
                        " is needed. Apply Merge Blocks first.");
   }
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
+}
+
+bool hasPoints(vtkDataObject* data)
+{
+  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
+}
+
+/// The input, or its blocks as one grid, which all processes make together if several have some.
+vtkDataObject* gather(vtkDataObject* input, Blocks& blocks, int coincident,
+  GridMesh::UnknownCells unknown, morph::Monitor& monitor)
+{
+  const bool isTree = Leaves::TreeOf(input);
+  const bool areOnRanks =
+    Ranks::TakePieces() && Ranks::Count(isTree) > 0 && Ranks::Count(hasPoints(input)) > 1;
+  if (!areOnRanks)
+  {
+    return blocks.Gather(input, coincident, unknown, monitor);
+  }
+  Ranks::Together(
+    [&]
+    {
+      if (!isTree && hasPoints(input))
+      {
+        throw morph::Error("The input is composite data on some MPI ranks, and a " +
+                           std::string(input->GetClassName()) +
+                           " on others. Give composite data on all ranks.");
+      }
+    });
+  if (Ranks::Count(!blocks.IsKept(input, coincident, unknown)) > 0)
+  {
+    blocks.Forget();
+    blocks.Keep(RankBlocks::Make(blocks.Tree(), Blocks::OptionsOf(coincident, unknown)));
+  }
+  return blocks.Tell(monitor);
 }
 
 bool hasVolumeCells(vtkDataObject* data)
@@ -172,14 +208,16 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   std::exception_ptr problem;
   try
   {
-    mesh.Data = blocks.Gather(input, coincidentPoints, unknown, monitor);
+    mesh.Data = gather(input, blocks, coincidentPoints, unknown, monitor);
   }
   catch (...)
   {
     problem = std::current_exception(); // the other processes are about to communicate
   }
   auto* data = vtkDataSet::SafeDownCast(mesh.Data);
-  const bool hasCells = data && data->GetNumberOfCells() > 0;
+  // A process may have sets alone, whose nodes are those of others' cells.
+  const bool hasCells =
+    data && (data->GetNumberOfCells() > 0 || (blocks.Merged() && data->GetNumberOfPoints() > 0));
   const int ranks = Ranks::Count(hasCells);
   if (ranks > 1 && use == Use::ToMorph)
   {
@@ -211,15 +249,6 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   }
   rethrow();
   return mesh;
-}
-
-void RequireNoBlocks(const Blocks& blocks, const char* filter)
-{
-  if (blocks.Merged())
-  {
-    throw morph::Error(std::string("Composite data on several MPI ranks: ") + filter +
-                       " needs them on one. Apply Merge Blocks first, or run on one rank.");
-  }
 }
 
 void RequireVolumeCells(const morph::Mesh& mesh)

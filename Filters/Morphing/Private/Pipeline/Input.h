@@ -71,10 +71,6 @@ struct Mesh
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
   const char* filter, morph::Monitor& monitor);
 
-/// For a mesh on several MPI processes: throws morph::Error where it is of blocks. `filter`: what
-/// the message says needs one rank.
-void RequireNoBlocks(const Blocks& blocks, const char* filter);
-
 /// Throws morph::Error unless there are cells of dimension 3 that are large enough to compute with
 /// (see DataCheck). All types have to be known to the core.
 void RequireVolumeCells(const morph::Mesh& mesh);

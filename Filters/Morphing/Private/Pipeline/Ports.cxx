@@ -208,10 +208,6 @@ int Ports::RequestData(
     vtkUnstructuredGrid* grid = nullptr;
     const auto check = [&]
     {
-      if (mesh.IsDistributed)
-      {
-        Input::RequireNoBlocks(this->Mesh, name);
-      }
       Input::RequireNotSwapped(input, boundary);
       grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)

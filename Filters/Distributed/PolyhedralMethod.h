@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/CutMesh.h"
+#include "Distributed/Method.h"
+
+#include "Morpher/CellStiffness.h"
+
+#include <memory>
+
+namespace morph::distributed
+{
+/// A method on a distributed mesh with polyhedra: another method on their pieces, as
+/// morph::morpherForPolyhedra() has it.
+class PolyhedralMethod : public Method
+{
+public:
+  /// `method`: with the options that prepare() reads, not prepared.
+  explicit PolyhedralMethod(std::unique_ptr<Method> method, bool cutsAll = false);
+
+  void takeEvaluateOptions(const Morpher& serial) override;
+  void setReference(Points reference) override;
+
+  /// The method that works on the pieces.
+  const Method& method() const { return *this->method_; }
+
+protected:
+  void doPrepare(Monitor& monitor) override;
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const override;
+
+private:
+  std::unique_ptr<Method> method_;
+  bool cutsAll_;
+  CellStiffness stiffness_; ///< with values of the cells that the pieces are cut from
+  Points reference_;
+  std::unique_ptr<CutMesh> cut_;
+};
+}

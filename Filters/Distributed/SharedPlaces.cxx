@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/SharedPlaces.h"
+
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <tuple>
+
+namespace morph::distributed
+{
+namespace
+{
+/// -0 becomes 0, so that equal places have equal bits.
+SharedPlaces::Position plain(const SharedPlaces::Position& x)
+{
+  return { x[0] + 0., x[1] + 0., x[2] + 0. };
+}
+
+/// The rank whose share of the positions has this one.
+int rankOfPlace(const SharedPlaces::Position& x, int ranks)
+{
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (const double value : x)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;
+    hash ^= hash >> 32;
+  }
+  return static_cast<int>(hash % static_cast<std::uint64_t>(ranks));
+}
+
+/// The rank whose share of the ids has this one.
+int rankOfId(std::int64_t id, int ranks)
+{
+  const std::uint64_t mixed = static_cast<std::uint64_t>(id) * 0x9E3779B97F4A7C15ULL;
+  return static_cast<int>((mixed >> 32) % static_cast<std::uint64_t>(ranks));
+}
+
+double distance(const SharedPlaces::Position& a, const SharedPlaces::Position& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Sends each item to its rank, and returns there what `answer` makes of all items that came:
+/// an answer for each, in the order of the items.
+template <typename Answer, typename Item, typename RankOf, typename Make>
+std::vector<Answer> ask(
+  const Ranks& ranks, const std::vector<Item>& items, const RankOf& rankOf, const Make& make)
+{
+  std::vector<std::vector<Item>> to(ranks.count());
+  std::vector<int> place;
+  for (const Item& item : items)
+  {
+    place.push_back(rankOf(item));
+    to[place.back()].push_back(item);
+  }
+  const std::vector<std::vector<Answer>> answered = ranks.exchange(make(ranks.exchange(to)));
+  std::vector<std::size_t> next(ranks.count(), 0);
+  std::vector<Answer> result;
+  for (const int rank : place)
+  {
+    result.push_back(answered[rank][next[rank]++]);
+  }
+  return result;
+}
+}
+
+std::int64_t SharedPlaces::contradiction(
+  const Ranks& ranks, const std::vector<Node>& nodes, double tolerance)
+{
+  std::vector<std::vector<Place>> to(ranks.count());
+  for (const Node& node : nodes)
+  {
+    if (node.id >= 0)
+    {
+      to[rankOfId(node.id, ranks.count())].push_back({ node.x, node.id });
+    }
+  }
+  std::vector<Place> all;
+  for (const std::vector<Place>& part : ranks.exchange(to))
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  std::stable_sort(
+    all.begin(), all.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
+  Index found = -1;
+  for (std::size_t i = 0, first = 0; i < all.size(); ++i)
+  {
+    first = all[i].id == all[first].id ? first : i;
+    if (!(distance(all[i].x, all[first].x) <= tolerance)) // a NaN is one, too
+    {
+      found = all[i].id;
+    }
+  }
+  return ranks.maximum(found);
+}
+
+SharedPlaces::SharedPlaces(const Ranks& ranks, const std::vector<Node>& nodes)
+  : ranks_(ranks)
+{
+  this->meetPlaces(nodes);
+  this->meetIds();
+}
+
+void SharedPlaces::meetPlaces(const std::vector<Node>& nodes)
+{
+  const Ranks& ranks = this->ranks_;
+  Index highest = -1;
+  for (const Node& node : nodes)
+  {
+    highest = std::max<Index>(highest, node.id);
+  }
+  const std::int64_t firstNew = ranks.maximum(highest) + 1;
+  std::vector<Node> sent = nodes;
+  for (Node& node : sent)
+  {
+    node.x = plain(node.x);
+  }
+  this->ids_ = ask<std::int64_t>(
+    ranks, sent, [&](const Node& node) { return rankOfPlace(node.x, ranks.count()); },
+    [&](const std::vector<std::vector<Node>>& parts)
+    {
+      std::vector<std::vector<std::int64_t>> answers(ranks.count());
+      for (int r = 0; r < ranks.count(); ++r)
+      {
+        answers[r].resize(parts[r].size());
+        for (std::size_t i = 0; i < parts[r].size(); ++i)
+        {
+          const Node& node = parts[r][i];
+          this->met_.push_back({ node.x, node.group, node.block, Index(node.isUsed == 0), node.id,
+            r, static_cast<Index>(i) });
+        }
+      }
+      std::int64_t news = 0;
+      const std::string problem = this->numberPlaces(firstNew, news);
+      ranks.together(
+        [&]
+        {
+          if (!problem.empty())
+          {
+            throw Error(problem);
+          }
+        });
+      const std::int64_t before = ranks.sumBefore(news);
+      for (Met& met : this->met_)
+      {
+        met.id += met.id >= firstNew ? before : 0;
+        answers[met.rank][met.number] = met.id;
+      }
+      return answers;
+    });
+  this->coinciding_ = ranks.sum(this->coinciding_);
+}
+
+/// Gives nodes without ids the id of another node at the place, or new ones from `firstNew` on.
+/// Counts the nodes of several blocks that coincide. Returns what leaves doubt, or "".
+std::string SharedPlaces::numberPlaces(std::int64_t firstNew, std::int64_t& news)
+{
+  const auto key = [](const Met& m)
+  {
+    // Nodes with ids come first; then those of own cells, and those of ghost cells last.
+    const bool hasId = m.id >= 0;
+    return std::tuple(
+      m.x, m.group, !hasId, hasId ? std::int64_t(0) : m.isGhost, m.block, m.id, m.rank, m.number);
+  };
+  std::sort(this->met_.begin(), this->met_.end(),
+    [&](const Met& a, const Met& b) { return key(a) < key(b); });
+  std::string problem;
+  for (std::size_t first = 0, last = 0; first < this->met_.size(); first = last)
+  {
+    const Met& front = this->met_[first];
+    const bool hasIds = front.id >= 0;
+    bool isTwice = false, isShared = false;
+    std::vector<std::int64_t> different;
+    for (last = first; last < this->met_.size() && this->met_[last].x == front.x &&
+                       this->met_[last].group == front.group;
+         ++last)
+    {
+      const Met& met = this->met_[last];
+      if (met.id >= 0)
+      {
+        if (std::find(different.begin(), different.end(), met.id) == different.end())
+        {
+          different.push_back(met.id);
+          this->coinciding_ += different.size() > 1 && met.block != front.block;
+        }
+        continue;
+      }
+      const bool follows = last > first && this->met_[last - 1].id < 0;
+      isTwice = isTwice || (follows && met.isGhost == 0 && met.rank == this->met_[last - 1].rank);
+      isShared = isShared || hasIds || met.isGhost != 0 || met.rank != front.rank;
+    }
+    if (isTwice && isShared && problem.empty())
+    {
+      std::ostringstream text;
+      text.precision(9);
+      text << "Several nodes of one MPI rank and one of another are at the same position ("
+           << front.x[0] << ", " << front.x[1] << ", " << front.x[2]
+           << "), so positions do not tell which of them are one node. Give the mesh global point "
+              "ids before it is distributed.";
+      problem = text.str();
+    }
+    std::int64_t id = hasIds ? front.id : firstNew + news;
+    bool isUsed = hasIds;
+    for (std::size_t k = first; k < last; ++k)
+    {
+      if (this->met_[k].id < 0)
+      {
+        // Nodes of one rank stay apart, as the two sides of a crack.
+        if (isTwice && isUsed)
+        {
+          id = firstNew + ++news;
+        }
+        this->met_[k].id = id;
+        isUsed = true;
+      }
+    }
+    news += isUsed && !hasIds ? 1 : 0;
+  }
+  return problem;
+}
+
+void SharedPlaces::meetIds()
+{
+  const Ranks& ranks = this->ranks_;
+  this->isShared_ = ask<std::uint8_t>(
+    ranks, this->ids_, [&](std::int64_t id) { return rankOfId(id, ranks.count()); },
+    [&](const std::vector<std::vector<std::int64_t>>& parts)
+    {
+      for (int r = 0; r < ranks.count(); ++r)
+      {
+        for (std::size_t i = 0; i < parts[r].size(); ++i)
+        {
+          this->holders_.push_back({ parts[r][i], r, static_cast<Index>(i) });
+        }
+      }
+      std::sort(this->holders_.begin(), this->holders_.end(),
+        [](const Holder& a, const Holder& b)
+        { return std::tie(a.id, a.rank, a.node) < std::tie(b.id, b.rank, b.node); });
+      std::vector<std::vector<std::uint8_t>> answers(ranks.count());
+      for (int r = 0; r < ranks.count(); ++r)
+      {
+        answers[r].resize(parts[r].size(), 0);
+      }
+      const std::vector<Holder>& all = this->holders_;
+      for (std::size_t first = 0, last = 0; first < all.size(); first = last)
+      {
+        while (last < all.size() && all[last].id == all[first].id)
+        {
+          ++last;
+        }
+        for (std::size_t k = first; k < last; ++k)
+        {
+          answers[all[k].rank][all[k].node] = all[last - 1].rank != all[first].rank;
+        }
+      }
+      return answers;
+    });
+  // From the order of what a rank sent here to its nodes.
+  std::vector<std::vector<Index>> numbers(ranks.count());
+  for (std::size_t n = 0; n < this->ids_.size(); ++n)
+  {
+    numbers[rankOfId(this->ids_[n], ranks.count())].push_back(static_cast<Index>(n));
+  }
+  const auto nodes = ranks.exchange(numbers);
+  for (Holder& holder : this->holders_)
+  {
+    holder.node = nodes[holder.rank][holder.node];
+  }
+}
+
+std::vector<std::int64_t> SharedPlaces::find(const std::vector<Place>& places) const
+{
+  const Ranks& ranks = this->ranks_;
+  std::vector<Place> sent = places;
+  for (Place& place : sent)
+  {
+    place.x = plain(place.x);
+  }
+  const auto nodeAt = [&](const Place& place)
+  {
+    std::int64_t found = -1;
+    auto at = std::lower_bound(this->met_.begin(), this->met_.end(), place.x,
+      [](const Met& met, const Position& x) { return met.x < x; });
+    std::int64_t block = std::numeric_limits<std::int64_t>::max();
+    for (; at != this->met_.end() && at->x == place.x; ++at)
+    {
+      if (place.id >= 0 && at->id == place.id)
+      {
+        return at->id;
+      }
+      if (at->block < block)
+      {
+        block = at->block;
+        found = at->id;
+      }
+    }
+    return found;
+  };
+  return ask<std::int64_t>(
+    ranks, sent, [&](const Place& place) { return rankOfPlace(place.x, ranks.count()); },
+    [&](const std::vector<std::vector<Place>>& parts)
+    {
+      std::vector<std::vector<std::int64_t>> answers(ranks.count());
+      for (int r = 0; r < ranks.count(); ++r)
+      {
+        std::transform(parts[r].begin(), parts[r].end(), std::back_inserter(answers[r]), nodeAt);
+      }
+      return answers;
+    });
+}
+
+std::vector<std::vector<int>> SharedPlaces::holders(const std::vector<std::int64_t>& ids) const
+{
+  struct Question
+  {
+    std::int64_t id;
+    Index number;
+  };
+  struct Answer
+  {
+    Index number;
+    int rank;
+  };
+  const Ranks& ranks = this->ranks_;
+  std::vector<std::vector<Question>> to(ranks.count());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    to[rankOfId(ids[i], ranks.count())].push_back({ ids[i], static_cast<Index>(i) });
+  }
+  const auto asked = ranks.exchange(to);
+  std::vector<std::vector<Answer>> answers(ranks.count());
+  for (int r = 0; r < ranks.count(); ++r)
+  {
+    for (const Question& question : asked[r])
+    {
+      for (auto holder = this->firstHolder(question.id);
+           holder != this->holders_.end() && holder->id == question.id; ++holder)
+      {
+        answers[r].push_back({ question.number, holder->rank });
+      }
+    }
+  }
+  std::vector<std::vector<int>> result(ids.size());
+  for (const std::vector<Answer>& part : ranks.exchange(answers))
+  {
+    for (const Answer& answer : part)
+    {
+      result[answer.number].push_back(answer.rank);
+    }
+  }
+  return result;
+}
+
+std::vector<SharedPlaces::Holder>::const_iterator SharedPlaces::firstHolder(std::int64_t id) const
+{
+  return std::lower_bound(this->holders_.begin(), this->holders_.end(), id,
+    [](const Holder& known, std::int64_t wanted) { return known.id < wanted; });
+}
+
+std::vector<std::pair<Index, std::int64_t>> SharedPlaces::mark(const std::vector<Mark>& marks) const
+{
+  struct Marked
+  {
+    Index node;
+    std::int64_t name;
+  };
+  const Ranks& ranks = this->ranks_;
+  std::vector<std::vector<Mark>> to(ranks.count());
+  for (const Mark& mark : marks)
+  {
+    to[rankOfId(mark.id, ranks.count())].push_back(mark);
+  }
+  std::vector<std::vector<Marked>> onward(ranks.count());
+  for (const std::vector<Mark>& part : ranks.exchange(to))
+  {
+    for (const Mark& mark : part)
+    {
+      for (auto holder = this->firstHolder(mark.id);
+           holder != this->holders_.end() && holder->id == mark.id; ++holder)
+      {
+        onward[holder->rank].push_back({ holder->node, mark.name });
+      }
+    }
+  }
+  std::vector<std::pair<Index, std::int64_t>> result;
+  for (const std::vector<Marked>& part : ranks.exchange(onward))
+  {
+    for (const Marked& marked : part)
+    {
+      result.emplace_back(marked.node, marked.name);
+    }
+  }
+  return result;
+}
+}

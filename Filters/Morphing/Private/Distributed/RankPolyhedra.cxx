@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Distributed/RankPolyhedra.h"
+
+#include "Distributed/CutMesh.h"
+#include "Distributed/SmoothMesh.h"
+#include "Private/Distributed/RankQuality.h"
+#include "Private/Morph/PostSmoothing.h"
+
+#include <utility>
+
+namespace morph::filters::RankPolyhedra
+{
+using morph::distributed::CutMesh;
+using morph::distributed::DistributedMesh;
+using morph::distributed::RepairReport;
+
+RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
+  const morph::NodePartition& partition, bool hasPolyhedra, morph::Points& moved,
+  morph::Monitor& monitor)
+{
+  if (!hasPolyhedra)
+  {
+    return morph::distributed::repairInverted(mesh, reference, partition, moved, monitor);
+  }
+  constexpr int Rounds = 4;
+  const auto bad = [&](const morph::Points& points)
+  { return RankQuality::Measure(mesh, points, monitor).Bad(); };
+  RepairReport result;
+  result.bad = bad(moved);
+  if (result.bad == 0)
+  {
+    return result;
+  }
+  const CutMesh cut(mesh, 1, monitor);
+  const morph::Points shapes = cut.extend(reference);
+  const morph::NodePartition ofPieces = cut.extend(partition);
+  morph::Points points = moved;
+  for (int round = 0; round < Rounds && result.bad > 0; ++round)
+  {
+    morph::Points all = cut.extend(points);
+    const RepairReport ofRound =
+      morph::distributed::repairInverted(cut.mesh(), shapes, ofPieces, all, monitor);
+    result.tooLarge = ofRound.tooLarge;
+    result.cells = ofRound.cells;
+    morph::Points repaired = cut.reduce(all);
+    if (mesh.ranks().sum(morph::Index(repaired != points)) == 0)
+    {
+      break;
+    }
+    points = std::move(repaired);
+    const morph::Index now = bad(points);
+    if (now < result.bad)
+    {
+      result.bad = now;
+      moved = points;
+    }
+  }
+  return result;
+}
+
+morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
+  const morph::NodePartition& partition, bool hasPolyhedra, int iterationLimit,
+  morph::Points& moved, morph::Monitor& monitor)
+{
+  const morph::SmoothingOptions options = postSmoothing(iterationLimit);
+  morph::SmoothingReport report;
+  if (!hasPolyhedra)
+  {
+    report = morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
+    return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+  }
+  const CutMesh cut(mesh, 1, monitor);
+  morph::Points all = cut.extend(moved);
+  report = morph::distributed::smoothMesh(
+    cut.mesh(), cut.extend(rest), cut.extend(partition), options, all, monitor);
+  morph::Points smoothed = cut.reduce(all);
+  // What is better for the pieces may be worse for the polyhedra.
+  const RankQuality::Measured before = RankQuality::Measure(mesh, moved, monitor);
+  const RankQuality::Measured after = RankQuality::Measure(mesh, smoothed, monitor);
+  if (after.Bad() > before.Bad() ||
+      (after.Bad() == before.Bad() && !(after.Whole.minimum >= before.Whole.minimum)))
+  {
+    return 0;
+  }
+  moved = std::move(smoothed);
+  return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
+}
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/RankBlocks/GlobalRanks.h"
+
+#include "Support/Error.h"
+
+#include <vtkMPI.h>
+#include <vtkMPICommunicator.h>
+#include <vtkMultiProcessController.h>
+
+#include <algorithm>
+
+namespace morph::filters
+{
+morph::distributed::Ranks GlobalRanks()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  auto* communicator =
+    controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
+  if (!communicator)
+  {
+    throw morph::Error("The mesh is distributed over processes that do not communicate by MPI. "
+                       "Start them by mpiexec.");
+  }
+  return morph::distributed::Ranks(*communicator->GetMPIComm()->GetHandle());
+}
+
+std::vector<std::string> GatherTexts(
+  const morph::distributed::Ranks& ranks, const std::vector<std::string>& mine)
+{
+  std::vector<char> packed;
+  for (const std::string& text : mine)
+  {
+    packed.insert(packed.end(), text.c_str(), text.c_str() + text.size() + 1);
+  }
+  packed = ranks.gather(packed);
+  std::vector<std::string> all;
+  for (auto first = packed.begin(); first != packed.end();)
+  {
+    const auto last = std::find(first, packed.end(), '\0');
+    all.emplace_back(first, last);
+    first = last + 1;
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+}

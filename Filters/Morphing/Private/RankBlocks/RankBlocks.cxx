@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/RankBlocks/RankBlocks.h"
+
+#include "Distributed/SharedPlaces.h"
+#include "Private/Blocks/BlockCells.h"
+#include "Private/Blocks/BlockWarnings.h"
+#include "Private/Blocks/Leaves.h"
+#include "Private/RankBlocks/GlobalRanks.h"
+#include "Private/RankBlocks/RankBehind.h"
+#include "Private/RankBlocks/RankSets.h"
+#include "Private/RankBlocks/SharedCells.h"
+
+#include <vtkCellData.h>
+#include <vtkDataObjectTree.h>
+#include <vtkDataSet.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace morph::filters::RankBlocks
+{
+namespace
+{
+using morph::Index;
+using morph::distributed::Ranks;
+using morph::distributed::SharedPlaces;
+
+MergedBlocks makeOwn(
+  const Ranks& ranks, vtkDataObjectTree* tree, const MergedBlocks::Options& options)
+{
+  MergedBlocks merged;
+  ranks.together(
+    [&]
+    {
+      if (tree)
+      {
+        merged = MergedBlocks::Make(tree, options);
+      }
+      else
+      {
+        merged.Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+      }
+    });
+  return merged;
+}
+
+/// The highest dimension of all processes' blocks.
+int dimensionOf(const Ranks& ranks, const std::vector<Leaves::Leaf>& leaves)
+{
+  Index highest = 0;
+  for (const Leaves::Leaf& leaf : leaves)
+  {
+    auto* data = vtkDataSet::SafeDownCast(leaf.Data);
+    highest = std::max<Index>(highest, data ? BlockCells::Dimension(data) : -1);
+  }
+  return static_cast<int>(ranks.maximum(highest));
+}
+
+/// The diagonal of the box around all processes' nodes.
+double sizeOf(const Ranks& ranks, vtkUnstructuredGrid* grid)
+{
+  double squares = 0;
+  double box[6] = { 1, -1, 1, -1, 1, -1 };
+  const bool isAny = grid->GetNumberOfPoints() > 0;
+  if (isAny)
+  {
+    grid->GetBounds(box);
+  }
+  for (int j = 0; j < 3; ++j)
+  {
+    const double low = ranks.minimum(isAny ? box[2 * j] : HUGE_VAL);
+    const double high = ranks.maximum(isAny ? box[2 * j + 1] : -HUGE_VAL);
+    squares += high > low ? (high - low) * (high - low) : 0;
+  }
+  return std::sqrt(squares);
+}
+
+std::vector<std::uint8_t> usedNodes(vtkUnstructuredGrid* grid)
+{
+  std::vector<std::uint8_t> isUsed(grid->GetNumberOfPoints(), 0);
+  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (ghosts && (ghosts->GetValue(c) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      continue;
+    }
+    grid->GetCellPoints(c, corners);
+    for (const vtkIdType n : *corners)
+    {
+      isUsed[n] = 1;
+    }
+  }
+  return isUsed;
+}
+
+std::vector<SharedPlaces::Node> nodesOf(
+  const MergedBlocks& merged, const std::vector<Index>& numbers, bool merges)
+{
+  const std::vector<std::uint8_t> isUsed = usedNodes(merged.Grid);
+  std::vector<SharedPlaces::Node> nodes(isUsed.size());
+  std::vector<Index> blockOf(isUsed.size(), -1);
+  for (std::size_t i = 0; i < merged.All.size(); ++i)
+  {
+    for (const Index node : merged.All[i].Nodes)
+    {
+      blockOf[node] = blockOf[node] < 0 ? numbers[i] : blockOf[node];
+    }
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+  {
+    SharedPlaces::Node& node = nodes[n];
+    merged.Grid->GetPoint(static_cast<vtkIdType>(n), node.x.data());
+    node.id = merged.NodeIds[n];
+    node.block = blockOf[n];
+    node.group = merges ? 0 : blockOf[n];
+    node.isUsed = isUsed[n];
+  }
+  return nodes;
+}
+
+/// Makes `ids` the global ids of the grid. The given array stays where all processes have these.
+void setIds(
+  const Ranks& ranks, const std::vector<Index>& ids, const char* name, vtkDataSetAttributes* data)
+{
+  const std::vector<Index> given = BlockCells::GlobalIds(data, static_cast<vtkIdType>(ids.size()));
+  if (ranks.sum(Index(given != ids)) == 0)
+  {
+    return;
+  }
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  data->AddArray(array);
+  data->SetActiveGlobalIds(name);
+}
+}
+
+MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
+{
+  const Ranks ranks = GlobalRanks();
+  const std::vector<Leaves::Leaf> leaves = tree ? Leaves::Of(tree) : std::vector<Leaves::Leaf>();
+  options.AreOnRanks = true;
+  options.Dimension = dimensionOf(ranks, leaves);
+  std::vector<std::string> paths;
+  for (const Leaves::Leaf& leaf : leaves)
+  {
+    paths.push_back(leaf.Path);
+  }
+  const std::vector<std::string> allPaths = GatherTexts(ranks, paths);
+  std::vector<Index> numbers;
+  for (const std::string& path : paths)
+  {
+    numbers.push_back(std::lower_bound(allPaths.begin(), allPaths.end(), path) - allPaths.begin());
+  }
+
+  MergedBlocks merged = makeOwn(ranks, tree, options);
+  std::vector<std::string> warnings;
+  Index contradictory = ranks.maximum(merged.Contradiction.value_or(-1));
+  if (contradictory < 0 && options.ByIds)
+  {
+    contradictory = SharedPlaces::contradiction(
+      ranks, nodesOf(merged, numbers, options.Merges), 1e-6 * sizeOf(ranks, merged.Grid));
+  }
+  if (contradictory >= 0)
+  {
+    warnings.push_back(BlockWarnings::Contradiction(contradictory));
+    options.ByIds = false;
+    merged = makeOwn(ranks, tree, options);
+  }
+  const SharedPlaces places(ranks, nodesOf(merged, numbers, options.Merges));
+  if (places.coinciding() > 0)
+  {
+    warnings.push_back(BlockWarnings::Coinciding(places.coinciding()));
+  }
+  merged.NodeIds = places.ids();
+  SharedCells::MarkGhosts(ranks, places.ids(), places.isShared(), merged.Grid);
+  merged.CellIds = SharedCells::Ids(ranks, merged.Grid);
+
+  const RankSets sets{ ranks, leaves, numbers, static_cast<Index>(allPaths.size()), places };
+  sets.Follow(options.ByIds, merged, warnings);
+  sets.Name(merged);
+  const auto behind = std::make_shared<RankBehind>(ranks, leaves, places, merged);
+  merged.WorstBehind = [behind](vtkDataArray* values) { return behind->Worst(values); };
+  setIds(ranks, merged.NodeIds, "MorphGlobalPointId", merged.Grid->GetPointData());
+  setIds(ranks, merged.CellIds, "MorphGlobalCellId", merged.Grid->GetCellData());
+  if (ranks.rank() == 0)
+  {
+    merged.Warnings = std::move(warnings);
+  }
+  return merged;
+}
+}

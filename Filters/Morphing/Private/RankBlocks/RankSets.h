@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Ranks.h"
+#include "Distributed/SharedPlaces.h"
+#include "Private/Blocks/Leaves.h"
+#include "Private/Blocks/MergedBlocks.h"
+
+#include <string>
+#include <vector>
+
+namespace morph::filters
+{
+/// Blocks that are no part of the mesh, but lie on its nodes, which may be on other MPI processes.
+/// All functions are collective.
+class RankSets
+{
+public:
+  const morph::distributed::Ranks& Ranks;
+  const std::vector<Leaves::Leaf>& Mine;    ///< the leaves of this process
+  const std::vector<morph::Index>& Numbers; ///< of the leaves' blocks, for all processes
+  morph::Index Blocks;                      ///< how many all processes have
+  const morph::distributed::SharedPlaces& Places;
+
+  /// Finds the nodes of these blocks. Nodes of other processes alone are added to the grid, without
+  /// cells, and to NodeIds. `warnings`: receives those of the whole data.
+  void Follow(bool byIds, MergedBlocks& merged, std::vector<std::string>& warnings) const;
+
+  /// BlockSets::Name() with the names of all processes.
+  void Name(MergedBlocks& merged) const;
+
+private:
+  /// How many points of each block are on no node, of how many.
+  struct Counts
+  {
+    std::vector<morph::Index> Missing, Points;
+  };
+  Counts FindNodes(
+    const std::vector<morph::distributed::SharedPlaces::Place>& places, MergedBlocks& merged) const;
+  void Warn(Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const;
+};
+}

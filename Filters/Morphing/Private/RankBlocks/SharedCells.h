@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Ranks.h"
+#include "Mesh/Mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkUnstructuredGrid;
+
+/// Cells of pieces on several MPI processes. All functions are collective.
+namespace morph::filters::SharedCells
+{
+/// Makes ghosts of cells that another process has, too: of those with the same nodes the lowest
+/// process keeps its one. `ids`, `isShared`: of the grid's nodes; see SharedPlaces.
+void MarkGhosts(const morph::distributed::Ranks& ranks, const std::vector<std::int64_t>& ids,
+  const std::vector<std::uint8_t>& isShared, vtkUnstructuredGrid* grid);
+
+/// Returns the ids of the grid's cells: their global ids, if all cells of all processes have one of
+/// their own, else new ones, which ghosts have not (-1).
+std::vector<morph::Index> Ids(const morph::distributed::Ranks& ranks, vtkUnstructuredGrid* grid);
+}

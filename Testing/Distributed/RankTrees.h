@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Distributed/Ranks.h"
+
+#include <vtkDataObjectTree.h>
+#include <vtkSmartPointer.h>
+
+class vtkDataSet;
+class vtkIdList;
+
+/// Composite data for the tests of filters on MPI ranks.
+namespace rank_trees
+{
+/// These cells with their points and all arrays, of the type of `data`; null without cells.
+vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids);
+
+/// This rank's part of `whole`: of each leaf the cells that a random partition gives it, with their
+/// points and all arrays. Leaves without cells here are null. `ofSets`: the rank that gets the
+/// leaves of polygons whole, or -1 for a random partition of these, too.
+vtkSmartPointer<vtkDataObjectTree> part(
+  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole, unsigned seed, int ofSets = -1);
+}
