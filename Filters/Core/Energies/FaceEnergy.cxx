@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 256;
+/// Of a block that the upper part has not, or whose other node is fixed.
+constexpr std::uint16_t NoPlace = 0xffff;
 
 using Plane = FaceEnergy::Plane;
 /// How the two edges of a corner, as columns, change with its nodes.
@@ -136,13 +139,13 @@ void FaceEnergy::openMatrix(BlockCsr3f& matrix) const
     }
     row.assign(1, static_cast<std::int32_t>(i));
     std::copy_if(found.begin(), found.end(), std::back_inserter(row),
-      [](std::int32_t column) { return column >= 0; });
+      [i](std::int32_t column) { return column >= i; });
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
     for (const std::int32_t column : found)
     {
       const auto place = std::lower_bound(row.begin(), row.end(), column) - row.begin();
-      pattern.places.push_back(column < 0 ? -1 : static_cast<std::int32_t>(place));
+      pattern.places.push_back(column < i ? NoPlace : static_cast<std::uint16_t>(place));
     }
     pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
     pattern.offsets.push_back(static_cast<Index>(pattern.columns.size()));
@@ -153,9 +156,7 @@ void FaceEnergy::openMatrix(BlockCsr3f& matrix) const
 
 void FaceEnergy::addAlongNormal(Index row, BlockCsr3f& matrix) const
 {
-  const std::int32_t *begin = matrix.columns(row), *end = matrix.columns(row + 1);
-  const Index diagonal = std::lower_bound(begin, end, static_cast<std::int32_t>(row)) - begin;
-  Eigen::Map<Eigen::Matrix3f> block(matrix.blocks(row) + 9 * diagonal);
+  Eigen::Map<Eigen::Matrix3f> block(matrix.blocks(row)); // that of the diagonal
   const Eigen::Vector3f normal = this->normals_.row(row).transpose().cast<float>();
   block += 0.5f * block.trace() * normal * normal.transpose();
 }
@@ -206,14 +207,14 @@ void FaceEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
     {
       for (Index row = firstRow; row < lastRow; ++row)
       {
-        const std::int32_t* place = result.places(row);
+        const std::uint16_t* place = result.places(row);
         for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
         {
           const Index c = *use / 3, own = *use % 3;
           const Plane left = tangential(row, this->planes_[c]);
           for (Index other = 0; other < 3; ++other, ++place)
           {
-            if (*place < 0)
+            if (*place == NoPlace)
             {
               continue;
             }
