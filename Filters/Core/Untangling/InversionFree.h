@@ -41,7 +41,7 @@ namespace morph
 /// prepare(): as FEMWARP and simplex-linear, and passes over the cells. evaluate(): raising the
 /// minimum takes passes over the cells, and 100 to 1000 over those around the worst ones. The
 /// energy takes 5 to 40 Newton steps of 0.4 to 0.8 microseconds of processor time a tetrahedron
-/// (ten a hexahedron), each with a linear solution. It temporarily takes 2.5 kB a hexahedron. The
+/// (ten a hexahedron), each with a linear solution. It temporarily takes 1.1 kB a hexahedron. The
 /// result is not linear in the boundary, so there is no adjoint.
 class InversionFree : public Morpher
 {
