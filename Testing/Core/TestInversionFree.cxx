@@ -535,7 +535,7 @@ TEST(InversionFree, CancelLeavesTheResultUntouched)
   InversionFree method;
   method.prepare(mesh, motions::outerPartition(mesh), monitor);
   monitor.lastProgress = 0;
-  monitor.cancelAt = 0.3;
+  monitor.cancelAt = 0.09; // the first guesses are there, and the minimum is raised
   Points moved = Points::Constant(2, 3, 7);
   std::string message;
   EXPECT_EQ(motions::kindOf([&] { method.evaluate(target(mesh, waves), moved, monitor); }, message),

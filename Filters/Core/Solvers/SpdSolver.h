@@ -24,8 +24,8 @@ struct RowConstraints
 };
 
 /// Solves A X = B by conjugate gradients, with A sparse, symmetric positive definite. B has three
-/// or four columns; one pass over the matrix serves all of them. The preconditioner is a smoothed-aggregation
-/// multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
+/// or four columns; one pass over the matrix serves all of them. The preconditioner is a
+/// smoothed-aggregation multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
 class SpdSolver
 {
 public:

@@ -418,7 +418,7 @@ void vtkBoundaryDisplacement::vtkInternals::Count(
   const std::vector<signed char>& roles = this->Displaced.Roles;
   std::array<morph::Index, Surroundings::IsLayer + 1> count = {}, inside = {};
   const auto whole = static_cast<std::size_t>(this->Model.Points().rows());
-  // Without inner nodes all nodes inside stay. On ranks the model's nodes are those of the boundary.
+  // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.
   for (std::size_t i = 0; hasInner && i < whole; ++i)
   {
     ++count[roles[i]];
