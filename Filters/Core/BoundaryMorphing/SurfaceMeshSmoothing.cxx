@@ -30,48 +30,60 @@ std::vector<std::uint8_t> foldedMask(const Points& rest, const Points& moved,
   return isFolded;
 }
 
-/// Returns the faces' scaled Jacobians; negative on folded faces alone, not where a surface bends.
-std::vector<double> measure(const Points& rest, const Points& moved, const BoundaryFaces& faces,
-  const Classification& geometry)
+/// The faces' scaled Jacobians, and which of them are visibly folded, not only bent.
+struct Measured
 {
-  std::vector<double> value = faceQuality(rest, moved, faces, geometry).scaledJacobian;
-  const std::vector<std::uint8_t> isFolded = foldedMask(rest, moved, faces, geometry);
-  for (std::size_t f = 0; f < value.size(); ++f)
+  std::vector<double> quality;
+  std::vector<std::uint8_t> isFolded;
+
+  Measured(const Points& rest, const Points& moved, const BoundaryFaces& faces,
+    const Classification& geometry)
+    : quality(faceQuality(rest, moved, faces, geometry).scaledJacobian)
+    , isFolded(foldedMask(rest, moved, faces, geometry))
   {
-    value[f] = isFolded[f] ? value[f] : std::abs(value[f]);
   }
-  return value;
-}
+};
 
 /// The quality of one surface's faces.
 struct Summary
 {
-  Index folded = 0;
+  Index folded = 0; ///< visibly
+  Index turned = 0; ///< by the scaled Jacobian
   double minimum = std::numeric_limits<double>::infinity();
   double sum = 0;
 
-  Summary(const GeometrySurface& surface, const std::vector<double>& quality)
+  Summary(const GeometrySurface& surface, const Measured& measured)
   {
     for (const Index f : surface.faces)
     {
-      if (!std::isnan(quality[f]))
+      const double value = measured.quality[f];
+      if (!std::isnan(value))
       {
-        this->folded += quality[f] <= 0;
-        this->minimum = std::min(this->minimum, quality[f]);
-        this->sum += quality[f];
+        this->folded += measured.isFolded[f];
+        this->turned += value <= 0;
+        this->minimum = std::min(this->minimum, value);
+        this->sum += value;
       }
     }
   }
 
+  bool hasMoreFolds(const Summary& other) const
+  {
+    return this->folded > other.folded || this->turned > other.turned;
+  }
+  bool hasAsManyFolds(const Summary& other) const
+  {
+    return this->folded == other.folded && this->turned == other.turned;
+  }
   bool hasWorseFaces(const Summary& other) const
   {
-    return this->folded != other.folded ? this->folded > other.folded
-                                        : this->minimum < other.minimum;
+    return this->hasMoreFolds(other) ||
+           (this->hasAsManyFolds(other) && this->minimum < other.minimum);
   }
   bool isWorse(const Summary& other) const
   {
-    return this->hasWorseFaces(other) || (this->folded == other.folded &&
-                                           this->minimum == other.minimum && this->sum < other.sum);
+    return this->hasWorseFaces(other) ||
+           (this->hasAsManyFolds(other) && this->minimum == other.minimum && this->sum < other.sum);
   }
 };
 
@@ -92,19 +104,19 @@ public:
   /// Moves the surfaces that return wholly from `report.smoothed` to `report.kept`.
   void run(SurfaceMeshSmoothing& report, Points& points)
   {
-    const std::vector<double> before = this->measured(this->start_);
+    const Measured before = this->measured(this->start_);
     std::vector<Index> open = report.smoothed;
     for (int layer = 0; !open.empty(); ++layer)
     {
-      const std::vector<double> now = this->measured(points);
+      const Measured now = this->measured(points);
       std::vector<Index> next;
       for (const Index s : open)
       {
         const GeometrySurface& surface = this->geometry_.surfaces[s];
         const Summary first(surface, before), here(surface, now);
         // Only a start without folds has a minimum to keep.
-        const bool mends = here.hasWorseFaces(first) && first.folded == 0 && layer < Layers &&
-                           this->takeBackBelow(first.minimum, now, surface, points);
+        const bool mends = here.hasWorseFaces(first) && first.turned == 0 && layer < Layers &&
+                           this->takeBackBelow(first.minimum, now.quality, surface, points);
         if (mends)
         {
           next.push_back(s);
@@ -125,9 +137,9 @@ public:
   }
 
 private:
-  std::vector<double> measured(const Points& points) const
+  Measured measured(const Points& points) const
   {
-    return measure(this->motion_.rest, points, this->faces_, this->geometry_);
+    return { this->motion_.rest, points, this->faces_, this->geometry_ };
   }
 
   /// The result tells whether a node returned that had not before.
