@@ -85,19 +85,15 @@ copy_sources() {
   extract_sources "$fresh"
   # shellcheck disable=SC2016 # expanded inside
   "${as_root[@]}" bash -euc '
-    cd "$1"
-    find . -type f -print0 | while IFS= read -r -d "" file; do
-      if ! cmp --silent "$file" "$2/$file"; then
-        mkdir -p "$2/$(dirname "$file")"
-        rm -f "$2/$file"
-        cp "$file" "$2/$file"
-      fi
-    done
-    cd "$2"
-    find . -path ./build -prune -o -type f -print0 | while IFS= read -r -d "" file; do
-      if [ ! -e "$1/$file" ]; then rm "$file"; fi
-    done
-    rm -rf "$1"
+    sums() { (cd "$1" && find . -path ./build -prune -o -type f -exec sha256sum {} + | sort); }
+    names() { cut -c 67- | tr "\n" "\0"; } # after 64 digits and two blanks
+    sums "$1" > "$1.sums"
+    sums "$2" > "$2.sums"
+    (cd "$2" && comm -13 "$1.sums" "$2.sums" | names | xargs -0 --no-run-if-empty rm)
+    (cd "$1" && comm -23 "$1.sums" "$2.sums" | names | xargs -0 --no-run-if-empty touch)
+    comm -23 "$1.sums" "$2.sums" | names |
+      tar --create --directory "$1" --null --files-from=- | tar --extract --directory "$2"
+    rm -rf "$1" "$1.sums" "$2.sums"
   ' bash "$fresh" "$project"
 }
 

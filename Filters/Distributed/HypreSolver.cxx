@@ -301,6 +301,50 @@ SolveReport HypreSolver::solve(
   return report;
 }
 
+template <typename Action>
+Points HypreSolver::byColumns(const Ranks& ranks, const Points& columns, const Action& action) const
+{
+  Points result = Points::Zero(columns.rows(), 3);
+  if (this->unknowns_ == 0)
+  {
+    return result;
+  }
+  const Index rows = columns.rows();
+  Vector from(ranks.communicator(), this->first_, rows),
+    to(ranks.communicator(), this->first_, rows);
+  std::vector<double> column(rows);
+  for (int j = 0; j < 3; ++j)
+  {
+    Eigen::Map<Eigen::VectorXd>(column.data(), rows) = columns.col(j);
+    HYPRE_ParVector pFrom = from.set(column);
+    std::fill(column.begin(), column.end(), 0.);
+    HYPRE_ParVector pTo = to.set(column);
+    const auto start = Clock::now();
+    action(pFrom, pTo);
+    this->seconds_.solve += secondsSince(start);
+    to.get(column);
+    result.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
+  }
+  return result;
+}
+
+Points HypreSolver::product(const Ranks& ranks, const Points& x) const
+{
+  return this->byColumns(ranks, x,
+    [this](HYPRE_ParVector from, HYPRE_ParVector to)
+    { HYPRE_ParCSRMatrixMatvec(1, this->handles_->matrix, from, 0, to); });
+}
+
+Points HypreSolver::precondition(const Ranks& ranks, const Points& residual) const
+{
+  return this->byColumns(ranks, residual,
+    [this](HYPRE_ParVector from, HYPRE_ParVector to)
+    {
+      HYPRE_BoomerAMGSolve(this->handles_->multigrid, this->handles_->matrix, from, to);
+      HYPRE_ClearAllErrors(); // one cycle does not converge
+    });
+}
+
 std::unique_ptr<HypreSolver> HypreSolver::transposed(const Ranks& ranks) const
 {
   struct Entry

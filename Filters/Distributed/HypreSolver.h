@@ -40,6 +40,11 @@ public:
   SolveReport solve(
     const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const;
 
+  /// Returns A x, #rows x 3. Collective.
+  Points product(const Ranks& ranks, const Points& x) const;
+  /// Returns what one V-cycle makes of each column of residuals, #rows x 3. Collective.
+  Points precondition(const Ranks& ranks, const Points& residual) const;
+
   /// Returns a solver of the transposed matrix, prepared. Collective. Cost: messages of the
   /// entries in other ranks' columns, and prepare().
   std::unique_ptr<HypreSolver> transposed(const Ranks& ranks) const;
@@ -56,6 +61,10 @@ public:
 
 private:
   struct Handles;
+  /// Calls action(column, result), vectors of hypre, for each column.
+  template <typename Action>
+  Points byColumns(const Ranks& ranks, const Points& columns, const Action& action) const;
+
   std::unique_ptr<Handles> handles_;
   mutable Seconds seconds_;
   std::int64_t rows_ = 0, first_ = 0, unknowns_ = 0;

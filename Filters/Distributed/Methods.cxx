@@ -3,6 +3,7 @@
 
 #include "Distributed/InversionFree.h"
 #include "Distributed/SiteMethod.h"
+#include "Distributed/Smoothing.h"
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
@@ -46,6 +47,10 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
     std::unique_ptr<Morpher> guess = inversionFree->releaseMethod();
     return std::make_unique<InversionFree>(
       *inversionFree, guess ? makeMethod(std::move(guess)) : nullptr);
+  }
+  if (const auto* smoothing = dynamic_cast<const morph::Smoothing*>(serial.get()))
+  {
+    return std::make_unique<Smoothing>(*smoothing);
   }
   return nullptr;
 }

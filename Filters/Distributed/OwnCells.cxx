@@ -45,6 +45,22 @@ OwnCells::OwnCells(const DistributedMesh& mesh, const NodePartition& partition)
   }
 }
 
+ConnectedComponents OwnCells::bodies() const
+{
+  ConnectedComponents result;
+  const ConnectedComponents& whole = this->whole_.bodies();
+  result.count = whole.count;
+  for (const Index node : this->part_.nodes)
+  {
+    result.ofNode.push_back(whole.ofNode[node]);
+  }
+  for (const Index cell : this->part_.cells)
+  {
+    result.ofCell.push_back(whole.ofCell[cell]);
+  }
+  return result;
+}
+
 BoundaryFaces OwnCells::outerFaces() const
 {
   const BoundaryFaces& outer = this->whole_.outerFaces();

@@ -30,6 +30,8 @@ public:
   Points take(const Points& all) const { return all(this->part_.nodes, allColumns); }
   /// The local nodes of the distributed mesh, by this mesh's numbers.
   const std::vector<Index>& nodes() const { return this->part_.nodes; }
+  /// The bodies of the whole mesh that these nodes and cells belong to.
+  ConnectedComponents bodies() const;
   /// The outer faces of the whole mesh that belong to these cells.
   BoundaryFaces outerFaces() const;
   /// Returns the global ids of these cells of all ranks, ascending. Collective.

@@ -44,6 +44,8 @@ protected:
   /// The method's own counts, of the whole mesh.
   virtual std::vector<Statistic> counts() const { return {}; }
 
+  const CsrMatrix& coupling() const { return this->coupling_; } ///< #ownFree x #prescribed
+
   void doPrepare(Monitor& monitor) final;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const final;
   EvaluateReport displaceTranspose(

@@ -26,6 +26,7 @@
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 
@@ -242,7 +243,8 @@ int vtkBoundaryDisplacement::RequestData(
     this->Internals->WholeOutput->Initialize();
     if (!mesh.IsElsewhere)
     {
-      this->Internals->Displace(this, input, { selection, target, zone, control }, output, monitor);
+      this->Internals->Displace(this, input, vtkUnstructuredGrid::SafeDownCast(input),
+        { selection, target, zone, control }, output, monitor);
     }
   };
   const auto clear = [&]

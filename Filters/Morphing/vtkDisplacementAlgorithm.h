@@ -410,7 +410,7 @@ public:
    * moves, nor is held, nor is of a zone or layer. Two arrays of the output's field data have a
    * value for each round. `SlideChange` is its largest move, in units of the diagonal of the
    * boundary's bounding box. `SlideForce` is the pull that is left, in parts of that before the
-   * first. Errors: polyhedra, a surface as input, several MPI ranks. Cost: two to six solutions a
+   * first. Errors: polyhedra, a surface as input. Cost: two to six solutions a
    * round. Default 0, no rounds; range [0, 20].
    */
   vtkSetClampMacro(SlideRounds, int, 0, 20);

@@ -4,8 +4,11 @@
 #include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <random>
+#include <vector>
 
 namespace pieces
 {
@@ -89,6 +92,36 @@ std::vector<morph::Index> localNodes(
     }
   }
   return nodes;
+}
+
+morph::Points gathered(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved)
+{
+  struct Placed
+  {
+    morph::Index node;
+    double x[3];
+  };
+  std::vector<Placed> placed;
+  for (morph::Index n = 0; n < moved.rows(); ++n)
+  {
+    if (mesh.owns(n))
+    {
+      placed.push_back({ mesh.nodeId(n), { moved(n, 0), moved(n, 1), moved(n, 2) } });
+    }
+  }
+  placed = mesh.ranks().gather(placed);
+  morph::Points all(static_cast<morph::Index>(placed.size()), 3);
+  for (const Placed& one : placed)
+  {
+    all.row(one.node) << one.x[0], one.x[1], one.x[2];
+  }
+  double apart = 0;
+  for (morph::Index n = 0; n < moved.rows(); ++n)
+  {
+    apart = std::max(apart, (moved.row(n) - all.row(mesh.nodeId(n))).norm());
+  }
+  EXPECT_EQ(apart, 0);
+  return all;
 }
 
 std::string messageOf(const std::function<void()>& work)

@@ -31,6 +31,10 @@ morph::distributed::DistributedMesh distribute(
 std::vector<morph::Index> localNodes(
   const morph::distributed::DistributedMesh& mesh, const std::vector<morph::Index>& ids);
 
+/// The positions of all nodes of the whole mesh; `moved`: of this rank's local nodes. Expects
+/// ghosts where their owners have them.
+morph::Points gathered(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved);
+
 /// The message of the Error that `work` throws on this rank, or "".
 std::string messageOf(const std::function<void()>& work);
 }

@@ -24,7 +24,6 @@
 #include <vtkPartitionedDataSet.h>
 #include <vtkPointData.h>
 #include <vtkScaledJacobian.h>
-#include <vtkSmoothingMorph.h>
 
 #include <gtest/gtest.h>
 
@@ -503,8 +502,5 @@ TEST(RankComposite, OneRanksBadBlockEndsAllWithOneErrorThatNamesIt)
   {
     expectOnOneRank(
       errorOf(vtkNew<vtkExtractMorphBoundary>(), mixed), "composite data on some MPI ranks");
-    vtkNew<vtkSmoothingMorph> smoothing;
-    smoothing->SetBoundaryData(moved(sound, wave));
-    expectOnOneRank(errorOf(smoothing, sound), "vtkSmoothingMorph needs");
   }
 }

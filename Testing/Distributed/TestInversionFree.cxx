@@ -12,7 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -83,31 +82,7 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const motions::Map& map, c
   Points moved;
   const auto report = method->evaluate(
     motions::mapped(mesh.mesh().points(prescribed, morph::allColumns), map), moved, monitor);
-  struct Placed
-  {
-    Index node;
-    double x[3];
-  };
-  std::vector<Placed> placed;
-  for (Index n = 0; n < moved.rows(); ++n)
-  {
-    if (mesh.owns(n))
-    {
-      placed.push_back({ mesh.nodeId(n), { moved(n, 0), moved(n, 1), moved(n, 2) } });
-    }
-  }
-  Points all = whole.points;
-  for (const Placed& one : ranks.gather(placed))
-  {
-    all.row(one.node) << one.x[0], one.x[1], one.x[2];
-  }
-  double apart = 0;
-  for (Index n = 0; n < moved.rows(); ++n)
-  {
-    apart = std::max(apart, (moved.row(n) - all.row(mesh.nodeId(n))).norm());
-  }
-  EXPECT_EQ(apart, 0); // ghosts are where their owners are
-  return measured(whole, all, report);
+  return measured(whole, pieces::gathered(mesh, moved), report);
 }
 
 /// Expects a mesh whose minimum is at least this part of that of one process.

@@ -217,30 +217,11 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
   const bool isSeveral = ranks.count() > 1;
   const std::vector<std::pair<std::string, Configure>> cases = {
     { "Surface 77", [](vtkMorphMesh* filter) { filter->AddSurface("Surface 77"); } },
-    { "Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank",
+    { "FixedSurfaces names",
       [](vtkMorphMesh* filter)
       {
         filter->AddSurface("Surface 1");
-        filter->SetKeepLayers(2);
-      } },
-    { "SlideRounds of vtkBoundaryDisplacement needs one MPI rank",
-      [](vtkMorphMesh* filter)
-      {
-        filter->AddSurface("Surface 1");
-        filter->AddSlidingSurface("Surface 0");
-        filter->SetSlideRounds(3);
-      } },
-    { "Soft zones of vtkMorphMesh need one MPI rank",
-      [](vtkMorphMesh* filter)
-      {
-        filter->AddSurface("Surface 1");
-        filter->AddSoftZone("Cell");
-      } },
-    { "vtkSmoothingMorph needs one MPI rank",
-      [](vtkMorphMesh* filter)
-      {
-        filter->AddSurface("Surface 1");
-        filter->SetMethod(vtkMorphMesh::METHOD_SMOOTHING);
+        filter->AddFixedSurface("Surface 77");
       } },
   };
   for (const auto& [message, configure] : cases)

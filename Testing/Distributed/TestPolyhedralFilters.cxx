@@ -19,6 +19,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkScaledJacobian.h>
+#include <vtkSmoothingMorph.h>
 
 #include <gtest/gtest.h>
 
@@ -214,7 +215,7 @@ TEST(RankPolyhedra, InversionFreeRepairAndSmoothingAreAsValidAsOnOneRank)
   {
     const auto whole = grids::make(mesh);
     const auto part = rank_grids::part(ranks, whole, mesh, ++seed);
-    for (const std::string what : { "inversion-free", "repair", "smooth" })
+    for (const std::string what : { "inversion-free", "smoothing", "repair", "smooth" })
     {
       for (const bool hard : { false, true })
       {
@@ -224,6 +225,10 @@ TEST(RankPolyhedra, InversionFreeRepairAndSmoothingAreAsValidAsOnOneRank)
           if (what == "inversion-free")
           {
             return vtkSmartPointer<vtkInversionFreeMorph>::New();
+          }
+          if (what == "smoothing")
+          {
+            return vtkSmartPointer<vtkSmoothingMorph>::New();
           }
           auto filter = vtkSmartPointer<vtkFEMWarpMorph>::New();
           filter->SetTolerance(1e-12);

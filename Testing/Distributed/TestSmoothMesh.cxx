@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <string>
@@ -49,30 +48,7 @@ void compare(const Ranks& ranks, const std::string& name, const Mesh& whole, con
   const morph::SmoothingReport report = morph::distributed::smoothMesh(mesh, mesh.mesh().points,
     morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, outer.prescribed)), options, mine,
     monitor);
-  double apart = 0;
-  Points all = whole.points;
-  struct Placed
-  {
-    Index node;
-    double x[3];
-  };
-  std::vector<Placed> placed;
-  for (Index n = 0; n < mine.rows(); ++n)
-  {
-    if (mesh.owns(n))
-    {
-      placed.push_back({ mesh.nodeId(n), { mine(n, 0), mine(n, 1), mine(n, 2) } });
-    }
-  }
-  for (const Placed& one : ranks.gather(placed))
-  {
-    all.row(one.node) << one.x[0], one.x[1], one.x[2];
-  }
-  for (Index n = 0; n < mine.rows(); ++n)
-  {
-    apart = std::max(apart, (mine.row(n) - all.row(mesh.nodeId(n))).norm());
-  }
-  EXPECT_EQ(apart, 0); // ghosts are where their owners are
+  const Points all = pieces::gathered(mesh, mine);
   Index bad = 0, expectedBad = 0;
   const double least = minimumOf(whole, expected, expectedBad), own = minimumOf(whole, all, bad);
   EXPECT_EQ(bad, expectedBad);

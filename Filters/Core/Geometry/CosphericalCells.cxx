@@ -18,6 +18,7 @@ namespace
 constexpr Index Grain = 4096;
 constexpr double OnSphere = 1e-6; // power distance / (longest edge)^2
 constexpr double Flat = 1e-6;     // 6 V / (longest edge)^3
+constexpr double SameArea = 1e-6; // relative
 
 using Row = Eigen::RowVector3d;
 using Tetrahedron = Delaunay::Tetrahedron;
@@ -103,8 +104,10 @@ public:
     , old_(delaunay.tetrahedra())
     , sites_(delaunay.sites())
     , cellOf_(old_.size(), NoCell)
+    , isOnHull_(old_.size(), false)
   {
     this->findCells(monitor);
+    this->findFlatHull();
   }
 
   bool empty() const { return this->members_.empty(); }
@@ -160,6 +163,65 @@ private:
       if (this->cellOf_[seed] == NoCell)
       {
         this->grow(seed);
+      }
+    }
+  }
+
+  bool isFlatWithoutCell(int t) const
+  {
+    return t != Delaunay::Outside && this->cellOf_[t] == NoCell && this->thickness_[t] <= Flat;
+  }
+
+  /// Twice a face's area.
+  double area(const Tetrahedron& tetrahedron, int k) const
+  {
+    const Corners c = cornersOf(tetrahedron, k);
+    const Row a = this->sites_.row(c[0]);
+    return (this->sites_.row(c[1]) - a).cross(this->sites_.row(c[2]) - a).norm();
+  }
+
+  /// Marks the layers of flat tetrahedra without a cell on the hull, where its sites are in one
+  /// plane. All that a layer has on its inner side, it has outside. Flat tetrahedra inside keep
+  /// their faces: they would part the cells on their two sides.
+  void findFlatHull()
+  {
+    std::vector<bool> isDone(this->old_.size(), false);
+    for (std::size_t seed = 0; seed < this->old_.size(); ++seed)
+    {
+      if (isDone[seed] || !this->isFlatWithoutCell(static_cast<int>(seed)))
+      {
+        continue;
+      }
+      std::vector<int> layer = { static_cast<int>(seed) };
+      isDone[seed] = true;
+      double outside = 0, inside = 0;
+      for (std::size_t i = 0; i < layer.size(); ++i)
+      {
+        const Tetrahedron& tetrahedron = this->old_[layer[i]];
+        for (int k = 0; k < 4; ++k)
+        {
+          const int next = tetrahedron.neighbors[k];
+          if (next == Delaunay::Outside)
+          {
+            outside += this->area(tetrahedron, k);
+          }
+          else if (!this->isFlatWithoutCell(next))
+          {
+            inside += this->area(tetrahedron, k);
+          }
+          else if (!isDone[next])
+          {
+            isDone[next] = true;
+            layer.push_back(next);
+          }
+        }
+      }
+      if (outside >= (1 - SameArea) * inside)
+      {
+        for (const int t : layer)
+        {
+          this->isOnHull_[t] = true;
+        }
       }
     }
   }
@@ -242,9 +304,7 @@ private:
         const int next = this->old_[t].neighbors[k];
         if (next == Delaunay::Outside || this->cellOf_[next] != cell)
         {
-          // Flat tetrahedra without a cell lie on the hull, where its sites are in one plane.
-          const bool isHull = next == Delaunay::Outside ||
-                              (this->cellOf_[next] == NoCell && this->thickness_[next] <= Flat);
+          const bool isHull = next == Delaunay::Outside || this->isOnHull_[next];
           faces.push_back(
             { t, k, cornersOf(this->old_[t], k), isHull ? Hull : this->cellOf_[next] });
         }
@@ -452,7 +512,8 @@ private:
   Delaunay& delaunay_;
   const std::vector<Tetrahedron>& old_;
   const Points& sites_;
-  std::vector<int> cellOf_; ///< of each old tetrahedron
+  std::vector<int> cellOf_;    ///< of each old tetrahedron
+  std::vector<bool> isOnHull_; ///< of each old tetrahedron: findFlatHull()
   std::vector<double> thickness_;
   std::vector<std::vector<int>> members_;      ///< the old tetrahedra of each cell
   std::map<std::vector<int>, int> meanOfFace_; ///< by its corners

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/NodeSliding.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/Monitor.h"
 
-#include <functional>
 #include <vector>
 
 namespace morph
@@ -18,24 +18,9 @@ namespace morph
 class SlidingWarp
 {
 public:
-  using Row = Eigen::RowVector3d;
-
-  /// The surfaces of the sliding nodes, by the index of a node in slidingNodes().
-  struct Surfaces
-  {
-    /// Returns the projection onto the directions along the surfaces at `x`: of rank 2 on one
-    /// surface, 1 where two meet, 0 where the node cannot move.
-    std::function<Eigen::Matrix3d(Index i, const Row& x)> directions;
-    /// Returns the nearest point of the surfaces.
-    std::function<Row(Index i, const Row& x)> closest;
-  };
-
-  /// What one round has done.
-  struct Round
-  {
-    double change = 0; ///< the largest move of a node, in the unit of the points
-    double force = 0;  ///< what is left of the pull, in parts of that before the first round
-  };
+  using Row = NodeSliding::Row;
+  using Surfaces = NodeSliding::Surfaces;
+  using Round = NodeSliding::Round;
 
   /// Makes the equations of FEMWARP, for which `sliding` nodes are unknowns. `prescribed`: all
   /// nodes whose displacement is known, sorted. Sliding nodes that are no corner of a cell are
@@ -57,16 +42,6 @@ public:
     const Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const;
 
 private:
-  /// The unknown displacements, and the force on all of their nodes.
-  struct State
-  {
-    Points x, force; ///< #rows x 3
-    double pull = 0; ///< the norm of the force along the surfaces
-  };
-  /// Finds the other unknowns, the sliding nodes' being given.
-  void settle(const Surfaces& surfaces, const Points& b, State& state, Monitor& monitor) const;
-  Row place(Index i, const Points& x) const;
-
   Points points_; ///< undeformed
   std::vector<Index> prescribed_, sliding_;
   std::vector<Index> rows_;     ///< the node of each matrix row

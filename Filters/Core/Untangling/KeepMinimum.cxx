@@ -26,14 +26,14 @@ Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points
   {
     movable[node] = 1;
   }
-  Index back = 0;
+  std::vector<Index> back;
   const auto takeBack = [&](Index node)
   {
     if (movable[node])
     {
       points.row(node) = start.row(node);
       movable[node] = 0;
-      ++back;
+      back.push_back(node);
     }
   };
   for (int layer = 0; layer <= Layers; ++layer)
@@ -60,6 +60,7 @@ Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points
       std::for_each(free.begin(), free.end(), takeBack);
     }
   }
-  return back;
+  const std::unique_ptr<CopiedRows> rows = communicator.rows(back);
+  return communicator.sum(static_cast<Index>(back.size() - rows->countedElsewhere().size()));
 }
 }

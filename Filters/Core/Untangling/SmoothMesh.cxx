@@ -4,8 +4,8 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/UntangleEnergy.h"
 #include "Mesh/CellEdges.h"
-#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/KRing.h"
+#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
@@ -288,7 +288,7 @@ private:
         this->mesh_, patch, points, trial,
         [this](const Points& measured) { return this->measure(measured); }, this->communicator_);
       points.swap(trial);
-      if (!isLower || !this->communicator_.all(back == 0))
+      if (!isLower || back > 0)
       {
         return; // the next round would move the same nodes
       }
@@ -339,14 +339,15 @@ bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, cons
   return more > 0 || (more == 0 && !(now >= then));
 }
 
-void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points)
+void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points,
+  const Communicator& communicator)
 {
-  if (partition.higherOrderNodes.empty())
+  SharedHigherOrderNodes higherOrderNodes;
+  higherOrderNodes.prepare(rest, partition, communicator);
+  if (higherOrderNodes.empty())
   {
     return;
   }
-  HigherOrderNodes higherOrderNodes;
-  higherOrderNodes.prepare(rest, partition);
   Points displacement = points - rest.points;
   higherOrderNodes.apply(displacement);
   for (Index node : partition.higherOrderNodes)
@@ -375,7 +376,7 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   {
     smoothed.row(node) = result.row(node);
   }
-  carryFollowers(rest, partition, smoothed);
+  carryFollowers(rest, partition, smoothed, communicator);
   report.wasKept =
     options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor, communicator);
   if (!report.wasKept)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/SharedHigherOrderNodes.h"
+#include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
-#include "Quality/ScaledJacobian.h"
 #include "Untangling/SmoothMesh.h"
 
 namespace morph
@@ -32,21 +33,17 @@ class Smoothing : public Morpher
 public:
   /// Call it before evaluate().
   void setOptions(const SmoothingOptions& options) { this->options_ = options; }
+  const SmoothingOptions& options() const { return this->options_; }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
-  bool isIdentity(const Points& prescribed, Monitor& monitor) const;
-  /// Measures `points` after setting their higher-order nodes.
-  Quality measure(Points& points, Monitor& monitor) const;
-  /// Sets the free nodes of `points` (#nodes x 3, undeformed, with the prescribed nodes moved) to
-  /// the start. Returns whether both the boundary and the start move affinely.
-  bool start(const Points& prescribed, Points& points, Monitor& monitor) const;
-
   SmoothingOptions options_;
   Mesh mesh_; ///< undeformed
+  ConnectedComponents bodies_;
+  SharedHigherOrderNodes followers_;
   std::vector<std::int8_t> orientation_;
 };
 }

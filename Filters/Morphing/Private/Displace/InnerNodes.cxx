@@ -9,6 +9,7 @@
 #include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/InnerPoints.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
 #include <vtkAbstractTransform.h>
@@ -77,6 +78,15 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
   return Choice::Marked(array);
 }
 
+[[noreturn]] void throwNoLayers(const std::string& array)
+{
+  throw Error(
+    "There are no layers to keep: no hexahedra, nor wedges on triangles, lie on the "
+    "faces that move" +
+    (array.empty() ? std::string(".") : " where the cell array '" + array + "' is not zero.") +
+    " Set KeepLayers to 0, or let whole faces of the wall move.");
+}
+
 /// Where nodes move, in the order of their ids.
 using PlaceOfNode = std::map<Index, Eigen::RowVector3d>;
 
@@ -102,9 +112,24 @@ void setMoving(const PlaceOfNode& places, Choice::Result& choice, Points& target
 }
 }
 
-void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-  const MergedBlocks* blocks, const Options& options)
+void InnerNodes::Clear()
 {
+  this->FrozenNodes.clear();
+  this->RigidZones.clear();
+  this->PointOf.clear();
+  this->NumberOf.clear();
+}
+
+void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+  const MergedBlocks* blocks, const Options& options, const WholeSurface* whole)
+{
+  this->Clear();
+  this->Whole = whole;
+  if (whole)
+  {
+    this->FindOnRanks(grid, model, options);
+    return;
+  }
   const morph::Mesh& mesh = model.Mesh();
   std::vector<std::uint8_t> isTaken(mesh.numberOfNodes(), 0);
   for (const Zones::Part& part : Zones::Find(Zones::Frozen, grid, mesh, blocks, options.Zones))
@@ -115,7 +140,6 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     }
   }
   this->FrozenNodes = flagged(isTaken);
-  this->RigidZones.clear();
   for (const Zones::Part& part : Zones::Find(Zones::Rigid, grid, mesh, blocks, options.Zones))
   {
     Zone& zone = this->RigidZones.emplace_back();
@@ -129,6 +153,89 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
       }
     }
   }
+}
+
+void InnerNodes::FindOnRanks(
+  vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options)
+{
+  const WholeVolume volume(*this->Whole);
+  WholeVolume::Flags isTaken(volume.Piece().numberOfNodes(), 0);
+  for (const Zones::Part& part : Zones::FindOnRanks(Zones::Frozen, grid, volume, options.Zones))
+  {
+    for (std::size_t n = 0; n < isTaken.size(); ++n)
+    {
+      isTaken[n] = isTaken[n] || part.IsNode[n];
+    }
+  }
+  this->FrozenNodes = this->NodesOf(model, isTaken);
+  for (const Zones::Part& part : Zones::FindOnRanks(Zones::Rigid, grid, volume, options.Zones))
+  {
+    Zone& zone = this->RigidZones.emplace_back();
+    WholeVolume::Flags isEdge(isTaken.size(), 0), isNew = part.IsNode;
+    for (const Index node : edgeOf(volume.Piece(), part))
+    {
+      isEdge[node] = 1;
+    }
+    for (std::size_t n = 0; n < isTaken.size(); ++n)
+    {
+      isNew[n] = isNew[n] && !isTaken[n];
+      isTaken[n] = isTaken[n] || isNew[n];
+    }
+    zone.IsNode = isNew;
+    zone.IsEdge = volume.AnyFlags(isEdge);
+    zone.Nodes = this->NodesOf(model, isNew);
+  }
+}
+
+std::vector<Index> InnerNodes::NodesOf(
+  const BoundaryModel& model, const WholeVolume::Flags& ofPiece)
+{
+  std::vector<Index> nodes = flagged(this->Whole->AnyFlags(ofPiece));
+  // The gathered cells have inner nodes, too.
+  const std::vector<Index>& outer = model.Faces().nodes;
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                [&](Index node) { return !std::binary_search(outer.begin(), outer.end(), node); }),
+    nodes.end());
+  const std::vector<Index> inner =
+    this->AddPoints(model, WholeVolume(*this->Whole).OwnInner(ofPiece));
+  nodes.insert(nodes.end(), inner.begin(), inner.end());
+  return nodes;
+}
+
+std::vector<Index> InnerNodes::AddPoints(
+  const BoundaryModel& model, const std::vector<Index>& ofPiece)
+{
+  std::vector<Index> numbers;
+  for (const Index point : ofPiece)
+  {
+    const auto [found, isNew] =
+      this->NumberOf.emplace(point, static_cast<Index>(this->PointOf.size()));
+    if (isNew)
+    {
+      this->PointOf.push_back(point);
+    }
+    numbers.push_back(model.Points().rows() + found->second);
+  }
+  return numbers;
+}
+
+Eigen::RowVector3d InnerNodes::RestOf(const BoundaryModel& model, Index node) const
+{
+  const Index beyond = node - model.Points().rows();
+  return beyond < 0 ? model.Points().row(node)
+                    : WholeVolume(*this->Whole).Piece().points.row(this->PointOf[beyond]);
+}
+
+Points InnerNodes::Rest(const BoundaryModel& model) const
+{
+  const Index before = model.Rest().rows();
+  Points rest(before + static_cast<Index>(this->PointOf.size()), 3);
+  rest.topRows(before) = model.Rest();
+  for (Index node = before; node < rest.rows(); ++node)
+  {
+    rest.row(node) = this->RestOf(model, node);
+  }
+  return rest;
 }
 
 void InnerNodes::Constrain(
@@ -173,6 +280,7 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   {
     this->KeepLayers(grid, model, choice, options, result);
   }
+  this->Extend(model, result);
   const auto set = [&](Index node, const Eigen::RowVector3d& to)
   {
     result.Moved.row(node) = to;
@@ -180,7 +288,7 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   };
   for (const Index node : this->FrozenNodes)
   {
-    set(node, model.Points().row(node));
+    set(node, this->RestOf(model, node));
   }
   for (const Zone& zone : this->RigidZones)
   {
@@ -188,8 +296,8 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     {
       if (options.RigidTransform)
       {
-        set(
-          node, transformed(options.RigidTransform, options.ScaleFactor, model.Points().row(node)));
+        set(node,
+          transformed(options.RigidTransform, options.ScaleFactor, this->RestOf(model, node)));
       }
     }
   }
@@ -244,6 +352,14 @@ void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& 
 void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   const Choice::Result& choice, const Options& options, Surroundings::Result& result)
 {
+  if (this->Whole)
+  {
+    this->Layers = this->LayersOnRanks(grid, model, choice, options);
+    this->LayersKey.clear();
+    this->Extend(model, result);
+    this->MoveLayers(this->Rest(model), model, choice, result);
+    return;
+  }
   const std::vector<std::uint8_t> isLayer = layerCells(grid, options.LayersArray);
   std::string key = std::to_string(model.InputVersion()) + " " +
                     std::to_string(options.KeepLayers) + " " + options.LayersArray;
@@ -257,17 +373,77 @@ void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& mode
   }
   if (this->Layers.columns.values.empty())
   {
-    throw Error("There are no layers to keep: no hexahedra, nor wedges on triangles, lie on the "
-                "faces that move" +
-                (options.LayersArray.empty()
-                    ? std::string(".")
-                    : " where the cell array '" + options.LayersArray + "' is not zero.") +
-                " Set KeepLayers to 0, or let whole faces of the wall move.");
+    throwNoLayers(options.LayersArray);
   }
-  morph::moveLayers(model.Points(), model.Faces(), choice.IsMovingFace, this->Layers, result.Moved);
+  this->MoveLayers(model.Points(), model, choice, result);
+}
+
+void InnerNodes::MoveLayers(const Points& rest, const BoundaryModel& model,
+  const Choice::Result& choice, Surroundings::Result& result) const
+{
+  morph::moveLayers(rest, model.Faces(), choice.IsMovingFace, this->Layers, result.Moved);
   for (const Index node : this->Layers.columns.values)
   {
     result.Roles[node] = Surroundings::IsLayer;
+  }
+}
+
+morph::WallLayers InnerNodes::LayersOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+  const Choice::Result& choice, const Options& options)
+{
+  const WholeVolume volume(*this->Whole);
+  std::vector<std::uint8_t> isLayer;
+  Ranks::Together(
+    [&]
+    {
+      if (grid->GetNumberOfCells() > 0) // others have no arrays
+      {
+        isLayer = layerCells(grid, options.LayersArray);
+      }
+    });
+  const WholeVolume::Columns found =
+    volume.FindLayers(choice.IsMovingFace, options.KeepLayers, isLayer);
+  if (Ranks::Count(!found.Nodes.empty() || !found.Points.empty()) == 0)
+  {
+    throwNoLayers(options.LayersArray);
+  }
+  std::map<Index, std::vector<Index>> columnOf;
+  for (std::size_t f = 0; f < choice.IsMovingFace.size(); ++f)
+  {
+    const std::vector<Index>& offsets = model.Faces().offsets;
+    for (Index k = offsets[f]; choice.IsMovingFace[f] && k < offsets[f + 1]; ++k)
+    {
+      columnOf[model.Faces().connectivity[k]];
+    }
+  }
+  for (const auto& [node, wall] : found.Nodes)
+  {
+    columnOf[wall].push_back(node);
+  }
+  for (const auto& [point, wall] : found.Points)
+  {
+    columnOf[wall].push_back(this->AddPoints(model, { point }).front());
+  }
+  morph::WallLayers layers;
+  layers.columns.offsets = { 0 };
+  for (const auto& [wall, column] : columnOf)
+  {
+    layers.walls.push_back(wall);
+    layers.columns.values.insert(layers.columns.values.end(), column.begin(), column.end());
+    layers.columns.offsets.push_back(static_cast<Index>(layers.columns.values.size()));
+  }
+  return layers;
+}
+
+void InnerNodes::Extend(const BoundaryModel& model, Surroundings::Result& result) const
+{
+  const Index before = result.Moved.rows(),
+              all = model.Points().rows() + static_cast<Index>(this->PointOf.size());
+  result.Moved.conservativeResize(all, 3);
+  result.Roles.resize(all, Surroundings::Stays);
+  for (Index node = before; node < all; ++node)
+  {
+    result.Moved.row(node) = this->RestOf(model, node);
   }
 }
 
@@ -286,15 +462,15 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
   // Three nodes that are not on a line tell the motion.
   const bool isTold =
     morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
-  const std::vector<Index>& by = isTold ? outer : zone.Edge.empty() ? zone.Nodes : zone.Edge;
-  const Points moved = isTold ? result.Moved : this->Guess(model, result, monitor);
-  const morph::RigidMotion motion =
-    morph::fitRigidMotion(model.Points()(by, morph::allColumns), moved(by, morph::allColumns));
-  const bool stays =
-    (moved(by, morph::allColumns) - model.Points()(by, morph::allColumns)).isZero(0);
+  const WholeVolume::Moved by = isTold
+                                  ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
+                                      result.Moved(outer, morph::allColumns) }
+                                  : this->Guess(zone, model, result, monitor);
+  const morph::RigidMotion motion = morph::fitRigidMotion(by.From, by.To);
+  const bool stays = (by.To - by.From).isZero(0);
   for (const Index node : zone.Nodes)
   {
-    const Eigen::RowVector3d x = model.Points().row(node);
+    const Eigen::RowVector3d x = this->RestOf(model, node);
     result.Moved.row(node) = stays ? x : motion(x);
     result.Roles[node] = Surroundings::IsZone;
   }
@@ -316,9 +492,45 @@ std::vector<Index> InnerNodes::Prescribed(
   return prescribed;
 }
 
-Points InnerNodes::Guess(
-  const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor)
+WholeVolume::Prescribed InnerNodes::PrescribedOnRanks(const BoundaryModel& model,
+  const Surroundings::Result& result, const std::vector<Index>& others) const
 {
+  WholeVolume::Prescribed given;
+  for (const Index node : model.Faces().nodes)
+  {
+    if (result.Roles[node] != Surroundings::IsFree &&
+        !std::binary_search(others.begin(), others.end(), node))
+    {
+      given.Nodes.push_back(node);
+    }
+  }
+  std::vector<Index> inner;
+  for (std::size_t i = 0; i < this->PointOf.size(); ++i)
+  {
+    const Index node = model.Points().rows() + static_cast<Index>(i);
+    if (result.Roles[node] != Surroundings::Stays)
+    {
+      given.Points.push_back(this->PointOf[i]);
+      inner.push_back(node);
+    }
+  }
+  given.NodePlaces = result.Moved(given.Nodes, morph::allColumns);
+  given.PointPlaces = result.Moved(inner, morph::allColumns);
+  return given;
+}
+
+WholeVolume::Moved InnerNodes::Guess(const Zone& zone, const BoundaryModel& model,
+  const Surroundings::Result& result, morph::Monitor& monitor)
+{
+  if (this->Whole)
+  {
+    const WholeVolume volume(*this->Whole);
+    volume.RequireNoPolyhedra("A rigid zone whose motion its boundary does not tell");
+    const bool hasEdge =
+      Ranks::Count(std::count(zone.IsEdge.begin(), zone.IsEdge.end(), 1) > 0) > 0;
+    return volume.Warp(
+      this->PrescribedOnRanks(model, result, {}), hasEdge ? zone.IsEdge : zone.IsNode, monitor);
+  }
   const morph::Mesh& mesh = model.Mesh();
   const std::vector<Index> prescribed = Prescribed(model, result);
   if (!this->Method || this->MethodVersion != model.InputVersion() ||
@@ -336,22 +548,30 @@ Points InnerNodes::Guess(
   }
   Points moved;
   this->Method->evaluate(result.Moved(prescribed, morph::allColumns), moved, monitor);
-  return moved;
+  const std::vector<Index>& by = zone.Edge.empty() ? zone.Nodes : zone.Edge;
+  return { model.Points()(by, morph::allColumns), moved(by, morph::allColumns) };
 }
 
 void InnerNodes::Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-  const Surroundings::Result& result, vtkPolyData* output)
+  const Surroundings::Result& result, vtkPolyData* output) const
 {
-  std::vector<Index> nodes;
+  std::vector<Index> nodes, points;
+  std::vector<signed char> roles;
   for (Index n = 0; n < static_cast<Index>(result.Roles.size()); ++n)
   {
     if ((result.Roles[n] == Surroundings::IsZone || result.Roles[n] == Surroundings::IsLayer) &&
         !std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), n))
     {
       nodes.push_back(n);
+      points.push_back(this->Whole ? this->PointOf[n - model.Points().rows()] : n);
+      roles.push_back(result.Roles[n]);
     }
   }
-  InnerPoints::Append(grid, nodes, model.Points()(nodes, morph::allColumns),
-    result.Moved(nodes, morph::allColumns), result.Roles, output);
+  InnerPoints::Append(grid, points, this->Rest(model)(nodes, morph::allColumns),
+    result.Moved(nodes, morph::allColumns), roles, output);
+  if (this->Whole)
+  {
+    this->Whole->MakeIdsGlobal(output, static_cast<vtkIdType>(nodes.size()));
+  }
 }
 }

@@ -5,9 +5,12 @@
 #include "Morpher/Morpher.h"
 #include "Private/Displace/Surroundings.h"
 #include "Private/Displace/Zones.h"
+#include "Private/Distributed/WholeSurface.h"
+#include "Private/Distributed/WholeVolume.h"
 
 #include <vtkSmartPointer.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -32,9 +35,14 @@ public:
     bool Any() const { return this->Zones.Any() || this->KeepLayers > 0; }
   };
 
-  /// Finds the zones. `grid`: that `model` was made from. Throws as Zones::Find() does.
+  /// Finds the zones. `grid`: that `model` was made from. Throws as Zones::Find() does. `whole`: of
+  /// a mesh on several MPI processes, of which `grid` is a piece; else null. Then this function and
+  /// Place() are collective. Results have the nodes of `model`, and then those inside that this
+  /// process owns and prescribes.
   void Find(vtkUnstructuredGrid* grid, const BoundaryModel& model, const MergedBlocks* blocks,
-    const Options& options);
+    const Options& options, const WholeSurface* whole = nullptr);
+  /// Forgets the zones and layers.
+  void Clear();
   /// Takes the boundary nodes of zones with a known motion out of `choice`, or puts them in:
   /// frozen ones are held, and those with a transform move. So surfaces around them follow.
   /// `targets`: of choice.Moving.
@@ -51,29 +59,51 @@ public:
     Surroundings::Result& result, morph::Monitor& monitor);
   /// Adds the inner nodes to the output, points without cells, with all arrays. `output`: the
   /// displaced boundary; `input`: the grid.
-  static void Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-    const Surroundings::Result& result, vtkPolyData* output);
+  void Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+    const Surroundings::Result& result, vtkPolyData* output) const;
+  /// The undeformed positions of all nodes of a result.
+  morph::Points Rest(const BoundaryModel& model) const;
 
   /// The nodes that a morph prescribes: those of the boundary that are not free, and inner ones of
   /// zones and layers. Ascending.
   static std::vector<morph::Index> Prescribed(
     const BoundaryModel& model, const Surroundings::Result& result);
+  /// The same on several MPI processes, but for `others`: nodes of the boundary, ascending.
+  WholeVolume::Prescribed PrescribedOnRanks(const BoundaryModel& model,
+    const Surroundings::Result& result, const std::vector<morph::Index>& others) const;
 
 private:
   struct Zone
   {
-    std::vector<morph::Index> Nodes; ///< ascending, in no zone before
-    std::vector<morph::Index> Edge;  ///< those with a cell outside the zone
+    std::vector<morph::Index> Nodes;   ///< ascending, in no zone before
+    std::vector<morph::Index> Edge;    ///< those with a cell outside the zone; not on ranks
+    WholeVolume::Flags IsNode, IsEdge; ///< the same of the piece's points, on ranks
   };
+  void FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options);
+  /// The nodes here of those of the whole mesh that the piece's flags tell. Collective.
+  std::vector<morph::Index> NodesOf(const BoundaryModel& model, const WholeVolume::Flags& ofPiece);
+  Eigen::RowVector3d RestOf(const BoundaryModel& model, morph::Index node) const;
+  /// Adds points of the piece that this process owns to the nodes; returns their numbers.
+  std::vector<morph::Index> AddPoints(
+    const BoundaryModel& model, const std::vector<morph::Index>& ofPiece);
+  morph::WallLayers LayersOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+    const Choice::Result& choice, const Options& options);
   void KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     const Choice::Result& choice, const Options& options, Surroundings::Result& result);
+  void MoveLayers(const morph::Points& rest, const BoundaryModel& model,
+    const Choice::Result& choice, Surroundings::Result& result) const;
+  /// Makes room for the points that were added, undeformed.
+  void Extend(const BoundaryModel& model, Surroundings::Result& result) const;
   void MoveRigidly(const Zone& zone, const BoundaryModel& model, Surroundings::Result& result,
     morph::Monitor& monitor);
-  /// Where FEMWARP takes the nodes, with those that are prescribed so far.
-  morph::Points Guess(
-    const BoundaryModel& model, const Surroundings::Result& result, morph::Monitor& monitor);
+  /// Where FEMWARP takes nodes of a zone, with those that are prescribed so far.
+  WholeVolume::Moved Guess(const Zone& zone, const BoundaryModel& model,
+    const Surroundings::Result& result, morph::Monitor& monitor);
 
-  Surroundings Around; ///< of what Place() moves
+  const WholeSurface* Whole = nullptr;
+  std::vector<morph::Index> PointOf; ///< on ranks: of the piece, of each node behind the model's
+  std::map<morph::Index, morph::Index> NumberOf; ///< in PointOf, of those points
+  Surroundings Around;                           ///< of what Place() moves
   std::vector<morph::Index> FrozenNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;

@@ -96,7 +96,7 @@ void Append(vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nodes,
       }
       else if (name == "Role")
       {
-        numbers->SetComponent(i, 0, roles[nodes[k]]);
+        numbers->SetComponent(i, 0, roles[k]);
       }
       else if (name == Geometry::DimensionName)
       {

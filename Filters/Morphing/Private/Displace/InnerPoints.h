@@ -12,7 +12,7 @@ class vtkUnstructuredGrid;
 namespace morph::filters::InnerPoints
 {
 /// Adds points without cells to `output`, of vtkBoundaryDisplacement. `nodes`: ids in `grid`;
-/// `rest`, `moved`: #nodes x 3; `roles`: of all nodes of the mesh. Arrays that the grid has too get
+/// `rest`, `moved`: #nodes x 3; `roles`: #nodes. Arrays that the grid has too get
 /// its values, those that the filters add theirs, and others 0.
 void Append(vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nodes,
   const morph::Points& rest, const morph::Points& moved, const std::vector<signed char>& roles,

@@ -6,7 +6,6 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
-#include "Private/Displace/Motion.h"
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Pipeline/Input.h"
@@ -21,6 +20,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -225,8 +225,8 @@ void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
     this->Model.Points()(nodes, morph::allColumns), result.Moved(nodes, morph::allColumns), output);
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, const Extras& extras, vtkPolyData* output, filters::Monitor& monitor)
+bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, const Extras& extras, Moves& moves, filters::Monitor& monitor)
 {
   try
   {
@@ -246,13 +246,12 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   filters::Surface::WarnOfNone(this->Model.Faces(), monitor);
   if (this->Model.Faces().nodes.empty())
   {
-    return;
+    return false;
   }
-  morph::Points given;
   if (extras.Target)
   {
     monitor.SetRange(0.5, 0.7);
-    given = this->Fitted(filter, input, extras.Selection, extras.Target, monitor);
+    moves.Given = this->Fitted(filter, input, extras.Selection, extras.Target, monitor);
   }
   else
   {
@@ -261,12 +260,13 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   const bool byPoints = filter->Motion == MOTION_HANDLES || filter->Motion == MOTION_LATTICE;
   if (byPoints && !this->Choice.Moving.empty())
   {
-    given = this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
+    moves.Given =
+      this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
   }
   monitor.check();
 
-  filters::Motion::Options motion;
-  motion.Given = &given;
+  filters::Motion::Options& motion = moves.Motion;
+  motion.Given = &moves.Given;
   motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
   motion.Transform = this->Transform;
   motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
@@ -279,11 +279,42 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
   motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
-  morph::Points targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
-  filters::Choice::Result choice = this->Choice;
-  const filters::InnerNodes::Options inner = this->InnerOptions(filter, extras.Zone);
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  moves.Targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
+  moves.Choice = this->Choice;
+
+  filters::Surroundings::Options& rest = moves.Rest;
+  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
+  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
+  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
+  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
+  rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
+  rest.Radius = filter->FalloffRadius * this->Model.Size();
+  return true;
+}
+
+void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, vtkUnstructuredGrid* grid, const Extras& extras, vtkPolyData* output,
+  filters::Monitor& monitor)
+{
+  const filters::WholeSurface* whole = this->Whole.get();
+  // What the boundary alone decides is the same on all processes.
+  const auto alike = [whole](const std::function<void()>& work)
+  { whole ? whole->Together(work) : work(); };
+  Moves moves;
+  bool hasBoundary = false;
+  filters::InnerNodes::Options inner;
+  alike(
+    [&]
+    {
+      hasBoundary = this->Prepare(filter, input, extras, moves, monitor);
+      inner = this->InnerOptions(filter, extras.Zone);
+    });
+  if (!hasBoundary)
+  {
+    return;
+  }
   const bool hasInner = inner.Any() && filter->Moving != MOVE_NOTHING;
+  this->Inner.Clear();
   if (hasInner)
   {
     if (!grid)
@@ -291,38 +322,55 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
       throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
                          "volume mesh to this filter.");
     }
-    this->Inner.Find(
-      grid, this->Model, this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner);
-    this->Inner.Constrain(this->Model, inner, choice, targets);
+    this->Inner.Find(grid, this->Model,
+      this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner, whole);
   }
-
-  filters::Surroundings::Options rest;
-  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
-  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
-  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
-  rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
-  rest.Radius = filter->FalloffRadius * this->Model.Size();
   monitor.SetRange(extras.Target ? 0.7 : 0.5, 0.9);
-  // Nothing is left of it where this throws.
-  this->Displaced = this->Spread.Spread(this->Model, choice, targets, rest, monitor,
-    std::exchange(this->Displaced, filters::Surroundings::Result()));
   filters::Surroundings::Result& result = this->Displaced;
+  alike(
+    [&]
+    {
+      if (hasInner)
+      {
+        this->Inner.Constrain(this->Model, inner, moves.Choice, moves.Targets);
+      }
+      // Nothing is left of it where this throws.
+      result = this->Spread.Spread(this->Model, moves.Choice, moves.Targets, moves.Rest, monitor,
+        std::exchange(this->Displaced, filters::Surroundings::Result()));
+    });
   if (hasInner)
   {
     result.MotionVersion = -1; // inner nodes move, too
-    this->Inner.Place(grid, this->Model, choice, inner, result, monitor);
-    this->Inner.SpreadAround(this->Model, choice, targets, rest, result, monitor);
+    this->Inner.Place(grid, this->Model, moves.Choice, inner, result, monitor);
+    alike(
+      [&]
+      {
+        this->Inner.SpreadAround(
+          this->Model, moves.Choice, moves.Targets, moves.Rest, result, monitor);
+      });
   }
   const bool hasRounds = filter->SlideRounds > 0 && filter->Moving != MOVE_NOTHING;
   if (hasRounds)
   {
     monitor.SetRange(0.9, 1);
-    this->Slide.Run(
-      this->Model, choice.Held, rest.Sliding, filter->SlideRounds, this->Spread, result, monitor);
+    this->Slide.Run(this->Model, moves.Choice.Held, moves.Rest.Sliding, filter->SlideRounds,
+      this->Spread, whole, this->Inner, result, monitor);
   }
+  alike([&] { this->Write(filter, input, extras, moves, hasInner, hasRounds, output, monitor); });
+  if (hasInner)
+  {
+    alike([&] { this->Inner.Append(grid, this->Model, result, output); });
+  }
+  this->Count(filter);
+}
+
+void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filter,
+  vtkPointSet* input, const Extras& extras, const Moves& moves, bool hasInner, bool hasRounds,
+  vtkPolyData* output, filters::Monitor& monitor)
+{
+  const filters::Surroundings::Result& result = this->Displaced;
   const std::vector<morph::Index> collapsed =
-    filters::Motion::Collapsed(this->Model, choice, result.Moved);
+    filters::Motion::Collapsed(this->Model, moves.Choice, result.Moved);
   if (!collapsed.empty())
   {
     monitor.warn(
@@ -332,7 +380,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   }
   if (hasInner)
   {
-    filters::Output::RequireWritable(this->Model.Rest(), result.Moved,
+    filters::Output::RequireWritable(this->Inner.Rest(this->Model), result.Moved,
       filters::Output::IsFloat(input, filter->OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
@@ -349,24 +397,39 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   else
   {
     this->Fields.Write(
-      this->Model, this->Choice, motion, rest, result, this->Spread, output, monitor);
+      this->Model, this->Choice, moves.Motion, moves.Rest, result, this->Spread, output, monitor);
   }
   if (extras.Target)
   {
     this->WriteDistances(result, output);
   }
-  if (hasInner)
+  if (this->Whole)
   {
-    filters::InnerNodes::Append(grid, this->Model, result, output);
+    this->WholeOutput->ShallowCopy(output);
+    this->Whole->KeepOwn(output);
   }
-  const auto count = [&result](filters::Surroundings::Role role)
-  { return std::count(result.Roles.begin(), result.Roles.end(), role); };
-  filter->MovingPoints = count(filters::Surroundings::Moves);
-  filter->HeldPoints = count(filters::Surroundings::IsHeld);
-  filter->FollowingPoints = count(filters::Surroundings::Follows);
-  filter->FreePoints = count(filters::Surroundings::IsFree);
-  filter->ZonePoints = count(filters::Surroundings::IsZone);
-  filter->LayerPoints = count(filters::Surroundings::IsLayer);
+}
+
+void vtkBoundaryDisplacement::vtkInternals::Count(vtkBoundaryDisplacement* filter) const
+{
+  using filters::Surroundings;
+  const std::vector<signed char>& roles = this->Displaced.Roles;
+  // All processes have the nodes of the boundary, and each has its own inner ones.
+  const auto inner = roles.begin() + this->Model.Points().rows();
+  const filters::RankGroup processes(
+    this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
+  const auto count = [&](Surroundings::Role role)
+  {
+    morph::Index inside = std::count(inner, roles.end(), role);
+    processes.Sum(&inside, 1);
+    return std::count(roles.begin(), inner, role) + inside;
+  };
+  filter->MovingPoints = count(Surroundings::Moves);
+  filter->HeldPoints = count(Surroundings::IsHeld);
+  filter->FollowingPoints = count(Surroundings::Follows);
+  filter->FreePoints = count(Surroundings::IsFree);
+  filter->ZonePoints = count(Surroundings::IsZone);
+  filter->LayerPoints = count(Surroundings::IsLayer);
 }
 
 /// A selection's ids are those of a process's piece, so each process evaluates its own.
@@ -400,17 +463,6 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
         throw morph::Error("A boundary on several MPI ranks cannot be displaced again: "
                            "vtkBoundaryDisplacement takes the volume mesh there.");
       }
-      if (this->InnerOptions(filter, nullptr).Any() && filter->Moving != MOVE_NOTHING)
-      {
-        throw morph::Error("Zones and KeepLayers of vtkBoundaryDisplacement need one MPI rank, and "
-                           "the mesh is distributed over several. Run on one, or turn them off.");
-      }
-      if (filter->SlideRounds > 0 && filter->Moving != MOVE_NOTHING)
-      {
-        throw morph::Error(
-          "SlideRounds of vtkBoundaryDisplacement needs one MPI rank, and the mesh "
-          "is distributed over several. Run on one, or set it to 0.");
-      }
     });
   if (!this->Whole)
   {
@@ -440,12 +492,6 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
       });
     control = filters::WholeSurface::Gather(control);
   }
-  this->Whole->Together(
-    [&]
-    {
-      this->Displace(filter, this->Whole->Grid(),
-        { extras.Selection, target, extras.Zone, control }, output, monitor);
-      this->WholeOutput->ShallowCopy(output);
-      this->Whole->KeepOwn(output);
-    });
+  this->Displace(filter, this->Whole->Grid(), piece,
+    { extras.Selection, target, extras.Zone, control }, output, monitor);
 }

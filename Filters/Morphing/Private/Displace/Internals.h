@@ -13,6 +13,7 @@
 #include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/FitToTarget.h"
 #include "Private/Displace/InnerNodes.h"
+#include "Private/Displace/Motion.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/SlideRounds.h"
@@ -104,8 +105,10 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
     vtkSelection* Zone;           ///< of a zone
     vtkDataObject* ControlPoints; ///< of MOTION_HANDLES and MOTION_LATTICE
   };
-  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
-    vtkPolyData* output, morph::filters::Monitor& monitor);
+  /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
+  /// surface. With Whole, collective.
+  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkUnstructuredGrid* grid,
+    const Extras& extras, vtkPolyData* output, morph::filters::Monitor& monitor);
 
   /// Displace() for a mesh on several MPI processes: each gets the part of the displaced boundary
   /// that its cells have. Collective.
@@ -113,6 +116,21 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
     vtkPolyData* output, morph::filters::Monitor& monitor);
 
 private:
+  /// What moves, and how the rest of the boundary does.
+  struct Moves
+  {
+    morph::Points Given, Targets;
+    morph::filters::Motion::Options Motion;
+    morph::filters::Choice::Result Choice;
+    morph::filters::Surroundings::Options Rest;
+  };
+  /// Finds what moves. Returns false where there is no boundary.
+  bool Prepare(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    Moves& moves, morph::filters::Monitor& monitor);
+  void Write(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
+    const Moves& moves, bool hasInner, bool hasRounds, vtkPolyData* output,
+    morph::filters::Monitor& monitor);
+  void Count(vtkBoundaryDisplacement* filter) const;
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
   morph::filters::InnerNodes::Options InnerOptions(
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);

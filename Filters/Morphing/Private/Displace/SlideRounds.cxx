@@ -2,7 +2,6 @@
 #include "Private/Displace/SlideRounds.h"
 
 #include "Mesh/Polyhedra.h"
-#include "Private/Displace/InnerNodes.h"
 #include "Support/Error.h"
 
 #include <vtkDoubleArray.h>
@@ -107,16 +106,9 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
 }
 }
 
-void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held,
-  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes,
-  Surroundings::Result& result, morph::Monitor& monitor)
+void SlideRounds::Prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
+  const Surroundings::Result& result, morph::Monitor& monitor)
 {
-  this->Rounds.clear();
-  if (surfaces.empty())
-  {
-    monitor.warn("SlideRounds has no effect: no surface is named that slides.");
-    return;
-  }
   const morph::Mesh& mesh = model.Mesh();
   if (mesh.numberOfCells() == 0)
   {
@@ -127,15 +119,10 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
   {
     throw morph::Error("SlideRounds does not know polyhedra, and the mesh has some. Set it to 0.");
   }
-  const std::map<Index, Surfaces> sliding = slidingNodes(model, held, surfaces, result);
-  std::vector<Index> nodes, prescribed;
-  for (const auto& [node, on] : sliding)
-  {
-    nodes.push_back(node);
-  }
+  std::vector<Index> prescribed;
   for (const Index node : InnerNodes::Prescribed(model, result))
   {
-    if (sliding.count(node) == 0)
+    if (!std::binary_search(nodes.begin(), nodes.end(), node))
     {
       prescribed.push_back(node);
     }
@@ -151,13 +138,48 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
     this->Sliding = nodes;
     this->Prescribed = prescribed;
   }
-  const auto surfacesOf = [&](Index i) -> const Surfaces&
-  { return sliding.at(this->Method->slidingNodes()[static_cast<std::size_t>(i)]); };
-  const morph::SlidingWarp::Surfaces along = { [&](Index i, const Row& x)
-    { return directionsAt(model, surfacesOf(i), shapes, x); },
-    [&](Index i, const Row& x) { return shapes.Closest(model, surfacesOf(i), x); } };
+}
+
+void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held,
+  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const WholeSurface* whole,
+  const InnerNodes& inner, Surroundings::Result& result, morph::Monitor& monitor)
+{
+  this->Rounds.clear();
+  if (surfaces.empty())
+  {
+    monitor.warn("SlideRounds has no effect: no surface is named that slides.");
+    return;
+  }
+  const std::map<Index, Surfaces> sliding = slidingNodes(model, held, surfaces, result);
+  std::vector<Index> nodes;
+  for (const auto& [node, on] : sliding)
+  {
+    nodes.push_back(node);
+  }
+  const auto along = [&](const std::vector<Index>& numbered) -> morph::NodeSliding::Surfaces
+  {
+    const auto of = [&](Index i) -> const Surfaces&
+    { return sliding.at(numbered[static_cast<std::size_t>(i)]); };
+    return { [&model, &shapes, of](Index i, const Row& x)
+      { return directionsAt(model, of(i), shapes, x); },
+      [&model, &shapes, of](Index i, const Row& x) { return shapes.Closest(model, of(i), x); } };
+  };
   const morph::Points before = result.Moved;
-  this->Rounds = this->Method->slide(along, rounds, result.Moved, monitor);
+  if (whole)
+  {
+    const WholeVolume volume(*whole);
+    volume.RequireNoPolyhedra("SlideRounds of vtkBoundaryDisplacement");
+    morph::Points places = before(nodes, morph::allColumns);
+    this->Rounds = volume.Slide(
+      inner.PrescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
+    result.Moved(nodes, morph::allColumns) = places;
+  }
+  else
+  {
+    this->Prepare(model, nodes, result, monitor);
+    this->Rounds =
+      this->Method->slide(along(this->Method->slidingNodes()), rounds, result.Moved, monitor);
+  }
   moveBetween(model, sliding, before, shapes, result.Moved);
   for (const Index node : nodes)
   {

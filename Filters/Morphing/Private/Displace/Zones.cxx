@@ -4,12 +4,15 @@
 #include "Private/Blocks/MergedBlocks.h"
 #include "Private/Displace/Choice.h"
 #include "Private/Displace/Selection.h"
+#include "Private/Distributed/WholeVolume.h"
+#include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImplicitFunction.h>
 #include <vtkPointData.h>
+#include <vtkSelection.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -26,6 +29,7 @@ using Flags = std::vector<std::uint8_t>;
 /// Flags of the tuples with a component other than 0; a NaN marks nothing.
 void takeNodes(const morph::Mesh& mesh, Flags isNode, Part& part)
 {
+  part.ByNodes = true;
   part.IsNode = std::move(isNode);
   part.IsCell.assign(mesh.numberOfCells(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -85,12 +89,16 @@ bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
   return found;
 }
 
-void takeNamed(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
+void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks,
+  bool isEmptyPart, Part& part)
 {
   vtkDataArray* ofPoints = grid->GetPointData()->GetArray(part.Name.c_str());
   vtkDataArray* ofCells = grid->GetCellData()->GetArray(part.Name.c_str());
-  if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
+  if (isEmptyPart)
+  {
+    takeCells(mesh, Flags(), part);
+  }
+  else if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
   {
     takeCells(mesh, Choice::Marked(ofCells), part);
   }
@@ -125,6 +133,16 @@ void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part
   }
   takeNodes(mesh, std::move(isNode), part);
 }
+
+bool isNowhere(const Part& part)
+{
+  return std::none_of(part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; });
+}
+
+[[noreturn]] void throwNowhere(const Part& part)
+{
+  throw Error("The zone '" + part.Name + "' has no node of the mesh.");
+}
 }
 
 namespace Zones
@@ -133,14 +151,15 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   const MergedBlocks* blocks, const Options& options)
 {
   std::vector<Part> parts;
+  const bool isEmptyPart = options.IsPart && mesh.numberOfCells() == 0;
   const auto take = [&](const std::string& name, const auto& fill)
   {
     Part& part = parts.emplace_back();
     part.Name = name;
     fill(part);
-    if (std::none_of(part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; }))
+    if (!options.IsPart && isNowhere(part))
     {
-      throw Error("The zone '" + name + "' has no node of the mesh.");
+      throwNowhere(part);
     }
   };
   const NameSet::Names& names = kind == Frozen  ? options.Frozen
@@ -148,7 +167,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
                                                 : options.Soft;
   for (const std::string& name : names)
   {
-    take(name, [&](Part& part) { takeNamed(grid, mesh, blocks, part); });
+    take(name, [&](Part& part) { takeNamed(grid, mesh, blocks, isEmptyPart, part); });
   }
   if (options.RegionKind == kind)
   {
@@ -159,10 +178,45 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
     take("ZoneSelection",
       [&](Part& part)
       {
+        if (options.IsPart && !(options.Selection && options.Selection->GetNumberOfNodes() > 0))
+        {
+          takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
+          return;
+        }
         Selection::Inside inside = Selection::Evaluate(grid, options.Selection, options.Extractor);
         inside.ByPoints ? takeNodes(mesh, std::move(inside.Flags), part)
                         : takeCells(mesh, std::move(inside.Flags), part);
       });
+  }
+  return parts;
+}
+
+std::vector<Part> FindOnRanks(
+  Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume, Options options)
+{
+  // A selection that is nowhere is an error, as on one process.
+  const bool isSelected = options.Selection && options.Selection->GetNumberOfNodes() > 0;
+  options.IsPart = Ranks::Count(isSelected) > 0 || options.SelectionKind != kind;
+  std::vector<Part> parts;
+  Ranks::Together(
+    [&]
+    {
+      if (!options.IsPart)
+      {
+        Selection::Evaluate(grid, nullptr, nullptr); // which throws
+      }
+      parts = Find(kind, grid, volume.Piece(), nullptr, options);
+    });
+  for (Part& part : parts)
+  {
+    Flags isNode = volume.AnyFlags(part.IsNode);
+    if (Ranks::Count(!isNowhere(part)) == 0)
+    {
+      throwNowhere(part);
+    }
+    // A process without a part of the zone does not know what kind it is.
+    Ranks::Count(part.ByNodes) > 0 ? takeNodes(volume.Piece(), std::move(isNode), part)
+                                   : void(part.IsNode = std::move(isNode));
   }
   return parts;
 }

@@ -16,6 +16,7 @@ class vtkUnstructuredGrid;
 namespace morph::filters
 {
 struct MergedBlocks;
+class WholeVolume;
 }
 
 /// Parts of a mesh, inner nodes too, whose motion is prescribed.
@@ -38,6 +39,8 @@ struct Options
   vtkSelection* Selection = nullptr;
   vtkExtractSelection* Extractor = nullptr;
   int SelectionKind = None;
+  /// Whether another process may have what the grid has not: a selection, arrays, the zone itself.
+  bool IsPart = false;
 
   /// Whether a node is prescribed by some zone.
   bool Any() const
@@ -54,6 +57,7 @@ struct Part
   std::string Name;                 ///< for messages
   std::vector<std::uint8_t> IsNode; ///< #nodes: the zone's, and those of its cells
   std::vector<std::uint8_t> IsCell; ///< #cells: the zone's, or those whose nodes all are
+  bool ByNodes = false;             ///< whether the zone has nodes of its own, not cells
 };
 
 /// Finds the zones of that kind, in the order of their names, then those of region and selection.
@@ -62,4 +66,8 @@ struct Part
 /// is not given, and a zone without a node. Cost: a pass over the mesh for each.
 std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const MergedBlocks* blocks, const Options& options);
+/// The same of a mesh on several MPI processes, of which `grid` is a piece. Flags are of its points
+/// and cells. Collective.
+std::vector<Part> FindOnRanks(
+  Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume, Options options);
 }

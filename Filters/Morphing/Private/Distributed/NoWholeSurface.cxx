@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A build without MPI or hypre: Input::TakeMesh() refuses meshes on several ranks before this.
 #include "Private/Distributed/WholeSurface.h"
+#include "Private/Distributed/WholeVolume.h"
 
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -65,6 +66,11 @@ std::size_t WholeSurface::Bytes() const
   refuse();
 }
 
+const RankMesh& WholeSurface::Pieces() const
+{
+  refuse();
+}
+
 morph::Index WholeSurface::NumberOfBodies() const
 {
   refuse();
@@ -76,6 +82,16 @@ std::vector<morph::Index> WholeSurface::Places() const
 }
 
 morph::Index WholeSurface::NodeOf(std::int64_t) const
+{
+  refuse();
+}
+
+const std::vector<std::int64_t>& WholeSurface::NodeIds() const
+{
+  refuse();
+}
+
+const std::vector<std::int64_t>& WholeSurface::CellIds() const
 {
   refuse();
 }
@@ -100,6 +116,11 @@ void WholeSurface::KeepOwn(vtkPolyData*) const
   refuse();
 }
 
+void WholeSurface::MakeIdsGlobal(vtkPolyData*, vtkIdType) const
+{
+  refuse();
+}
+
 vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData*) const
 {
   refuse();
@@ -117,6 +138,48 @@ std::pair<double, double> WholeSurface::MaximumAndMean(
 }
 
 vtkSmartPointer<vtkPolyData> WholeSurface::Gather(vtkPolyData*)
+{
+  refuse();
+}
+
+WholeVolume::WholeVolume(const WholeSurface& surface)
+  : Surface(surface)
+{
+}
+
+const morph::Mesh& WholeVolume::Piece() const
+{
+  refuse();
+}
+
+WholeVolume::Flags WholeVolume::AnyFlags(const Flags&) const
+{
+  refuse();
+}
+
+std::vector<morph::Index> WholeVolume::OwnInner(const Flags&) const
+{
+  refuse();
+}
+
+void WholeVolume::RequireNoPolyhedra(const char*) const
+{
+  refuse();
+}
+
+WholeVolume::Columns WholeVolume::FindLayers(const Flags&, morph::Index, const Flags&) const
+{
+  refuse();
+}
+
+WholeVolume::Moved WholeVolume::Warp(const Prescribed&, const Flags&, morph::Monitor&) const
+{
+  refuse();
+}
+
+std::vector<morph::NodeSliding::Round> WholeVolume::Slide(const Prescribed&,
+  const std::vector<morph::Index>&, const morph::NodeSliding::Surfaces&, int, morph::Points&,
+  morph::Monitor&) const
 {
   refuse();
 }

@@ -127,6 +127,11 @@ std::size_t WholeSurface::Bytes() const
   return this->Own->Surface.Bytes;
 }
 
+const RankMesh& WholeSurface::Pieces() const
+{
+  return this->Own->Mesh;
+}
+
 Index WholeSurface::NumberOfBodies() const
 {
   return static_cast<Index>(this->Own->Surface.NumberOfBody.size());
@@ -188,6 +193,16 @@ Index WholeSurface::NodeOf(std::int64_t id) const
   const std::vector<std::int64_t>& ids = this->Own->Surface.NodeIds;
   const auto found = std::lower_bound(ids.begin(), ids.end(), id);
   return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : -1;
+}
+
+const std::vector<std::int64_t>& WholeSurface::NodeIds() const
+{
+  return this->Own->Surface.NodeIds;
+}
+
+const std::vector<std::int64_t>& WholeSurface::CellIds() const
+{
+  return this->Own->Surface.CellIds;
 }
 
 BoundaryMatch::Result WholeSurface::Match(
@@ -323,6 +338,15 @@ void WholeSurface::KeepOwn(vtkPolyData* surface) const
   translate(kept->GetCellData(), GatheredSurface::CellName, kept->GetNumberOfCells(),
     [&own](vtkIdType of) { return static_cast<vtkIdType>(own.Surface.CellIds[of]); });
   surface->ShallowCopy(kept);
+}
+
+void WholeSurface::MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const
+{
+  const DistributedMesh& whole = this->Own->Whole();
+  const vtkIdType first = surface->GetNumberOfPoints() - count;
+  vtkIdType point = 0;
+  translate(surface->GetPointData(), Surface::IdName, surface->GetNumberOfPoints(),
+    [&](vtkIdType id) { return point++ < first ? id : static_cast<vtkIdType>(whole.nodeId(id)); });
 }
 
 vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData* surface) const

@@ -6,6 +6,7 @@
 #include "Private/Morph/BoundaryMatch.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,8 @@ class Monitor;
 
 namespace morph::filters
 {
+class RankMesh;
+
 /// The boundary of a mesh whose pieces are on several MPI processes, whole and the same on each of
 /// them. So serial code of surfaces runs on each process alike, with the same bits, and each keeps
 /// the part of the result that its own cells have. Not to be used unless Ranks::TakePieces().
@@ -58,6 +61,9 @@ public:
   /// Bytes that this process received to gather the boundary.
   std::size_t Bytes() const;
 
+  /// The pieces that it was gathered from.
+  const RankMesh& Pieces() const;
+
   /// Bodies of the whole mesh, numbered by their lowest cell.
   morph::Index NumberOfBodies() const;
   /// For each point of the piece its node of Grid(), or #nodes + its body or, for a point of no
@@ -65,6 +71,11 @@ public:
   std::vector<morph::Index> Places() const;
   /// The node of Grid() with a global id, or -1.
   morph::Index NodeOf(std::int64_t id) const;
+  /// The global ids of the nodes and cells of Grid(), ascending.
+  ///@{
+  const std::vector<std::int64_t>& NodeIds() const;
+  const std::vector<std::int64_t>& CellIds() const;
+  ///@}
   /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
   /// nodes that it names are left out. Collective.
   BoundaryMatch::Result Match(vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
@@ -80,6 +91,8 @@ public:
   /// points on them; a cell without MorphCellId belongs where its first point does. MorphPointId
   /// and MorphCellId, nodes and cells of Grid() before, become global ids.
   void KeepOwn(vtkPolyData* surface) const;
+  /// Replaces points of the piece in MorphPointId by global ids, for the last `count` points.
+  void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const;
   /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
   /// of this process's piece.
   vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const;

@@ -7,6 +7,7 @@
 #include "Private/Displace/SurfaceGrid.h"
 #include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeSurface.h"
+#include "Private/Distributed/WholeVolume.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/Follower.h"
@@ -166,21 +167,32 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
   {
     return nullptr;
   }
+  std::vector<filters::Zones::Part> parts;
   if (this->IsDistributed)
   {
-    throw morph::Error("Soft zones of vtkMorphMesh need one MPI rank, and the mesh is distributed "
-                       "over several. Run on one, or leave them out.");
+    parts = filters::Zones::FindOnRanks(filters::Zones::Soft, this->Rest,
+      filters::WholeVolume(*this->Displacement->Internals->Whole), options);
   }
-  if (this->Rest->GetNumberOfCells() == 0)
+  else
   {
-    return nullptr; // the mesh is on another MPI rank
+    filters::Ranks::Together(
+      [&]
+      {
+        if (this->Rest->GetNumberOfCells() > 0) // else the mesh is on another MPI rank
+        {
+          parts = filters::Zones::Find(filters::Zones::Soft, this->Rest,
+            filters::GridMesh::FromGrid(this->Rest), this->Blocks.Merged(), options);
+        }
+      });
   }
-  const morph::Mesh mesh = filters::GridMesh::FromGrid(this->Rest);
+  if (parts.empty())
+  {
+    return nullptr;
+  }
   vtkNew<vtkDoubleArray> factors;
   factors->SetNumberOfTuples(this->Rest->GetNumberOfCells());
   factors->FillValue(1);
-  for (const filters::Zones::Part& part :
-    filters::Zones::Find(filters::Zones::Soft, this->Rest, mesh, this->Blocks.Merged(), options))
+  for (const filters::Zones::Part& part : parts)
   {
     for (std::size_t c = 0; c < part.IsCell.size(); ++c)
     {
@@ -200,7 +212,7 @@ void vtkMorphMesh::vtkInternals::TakeZone(vtkSelection* selection)
                  : this->ZoneSelected.OfGrid(this->Blocks, selection, this->Extractor);
 }
 
-void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
+void vtkMorphMesh::vtkInternals::ConfigureMorph(vtkDataArray* soft, morph::Monitor& monitor)
 {
   const vtkMorphMesh* from = this->Filter;
   vtkMorphAlgorithm* to = this->Filter->GetMethodFilter();
@@ -216,7 +228,6 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(morph::Monitor& monitor)
   to->SetStepping(from->Stepping);
   to->SetOutputPointsPrecision(from->OutputPointsPrecision);
   to->SetNumberOfThreads(from->NumberOfThreads);
-  const vtkSmartPointer<vtkDataArray> soft = this->SoftCells();
   if (auto* stiff = vtkStiffnessMorph::SafeDownCast(to))
   {
     stiff->SetStiffness(from->Stiffness);
@@ -335,7 +346,8 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
 std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  filters::Ranks::Together([&] { this->ConfigureMorph(monitor); });
+  const vtkSmartPointer<vtkDataArray> soft = this->SoftCells();
+  filters::Ranks::Together([&] { this->ConfigureMorph(soft, monitor); });
   if (filters::Ranks::Processes() > 1)
   {
     this->Morph->Modified(); // as in Displace()

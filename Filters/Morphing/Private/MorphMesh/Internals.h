@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkPolyData;
 
 class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
@@ -91,8 +92,10 @@ private:
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
 
   void ConfigureDisplacement(vtkSelection* selection);
-  void ConfigureMorph(morph::Monitor& monitor);
+  /// `soft`: SoftCells().
+  void ConfigureMorph(vtkDataArray* soft, morph::Monitor& monitor);
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.
+  /// Collective.
   vtkSmartPointer<vtkDataArray> SoftCells();
   void Displace(morph::Monitor& monitor);
   std::string Morphed(vtkInformation* asked, vtkUnstructuredGrid* output,

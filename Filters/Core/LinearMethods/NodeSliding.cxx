@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/NodeSliding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace morph
+{
+namespace
+{
+constexpr int MostHalvings = 4;
+}
+
+NodeSliding::NodeSliding(const Equations& equations, const Nodes& nodes, const Surfaces& surfaces,
+  const Communicator& communicator)
+  : equations_(equations)
+  , nodes_(nodes)
+  , surfaces_(surfaces)
+  , communicator_(communicator)
+{
+}
+
+NodeSliding::Row NodeSliding::place(Index i, const Points& x) const
+{
+  return this->nodes_.rest.row(i) + x.row(this->nodes_.rows[i]);
+}
+
+double NodeSliding::norm(const Points& rows) const
+{
+  return std::sqrt(this->communicator_.sum(rows.squaredNorm()));
+}
+
+void NodeSliding::settle(State& state) const
+{
+  const RowConstraints held = { this->nodes_.rows,
+    std::vector<Eigen::Matrix3d>(this->nodes_.rows.size(), Eigen::Matrix3d::Zero()) };
+  this->equations_.solve(held, state.x);
+  state.force = this->equations_.b - this->equations_.product(state.x);
+  double sum = 0;
+  for (std::size_t k = 0; k < this->nodes_.rows.size(); ++k)
+  {
+    const auto i = static_cast<Index>(k);
+    sum += (this->surfaces_.directions(i, this->place(i, state.x)) *
+            state.force.row(this->nodes_.rows[k]).transpose())
+             .squaredNorm();
+  }
+  state.pull = std::sqrt(this->communicator_.sum(sum));
+}
+
+std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor& monitor) const
+{
+  const auto count = static_cast<Index>(this->nodes_.rows.size());
+  std::vector<Round> result;
+  State now;
+  now.x = x;
+  this->settle(now);
+  const double before = now.pull;
+  const double rounding =
+    10 * Tolerance * std::max(this->norm(this->equations_.b), this->norm(now.force));
+  for (int round = 0; round < rounds && now.pull > rounding; ++round)
+  {
+    monitor.check();
+    RowConstraints along = { this->nodes_.rows, {} };
+    for (Index i = 0; i < count; ++i)
+    {
+      along.directions.push_back(this->surfaces_.directions(i, this->place(i, now.x)));
+    }
+    Points wanted = now.x;
+    this->equations_.solve(along, wanted);
+
+    Round done;
+    bool isBetter = false;
+    State next;
+    for (int halvings = 0; halvings <= MostHalvings && !isBetter; ++halvings)
+    {
+      next.x = now.x + std::ldexp(1., -halvings) * (wanted - now.x);
+      done.change = 0;
+      for (Index i = 0; i < count; ++i)
+      {
+        const int row = this->nodes_.rows[i];
+        const Row from = this->place(i, now.x);
+        const Row to = next.x.row(row) == now.x.row(row)
+                         ? from
+                         : this->surfaces_.closest(i, this->place(i, next.x));
+        next.x.row(row) += to - this->place(i, next.x);
+        done.change = std::max(done.change, (to - from).norm());
+      }
+      done.change = this->communicator_.maximum(done.change);
+      this->settle(next);
+      isBetter = next.pull < now.pull;
+    }
+    if (!isBetter)
+    {
+      break;
+    }
+    now = next;
+    done.force = now.pull / before;
+    result.push_back(done);
+    monitor.progress((round + 1.) / rounds);
+  }
+  x = now.x;
+  return result;
+}
+}

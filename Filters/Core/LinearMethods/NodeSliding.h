@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/SpdSolver.h"
+#include "Support/Communicator.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <functional>
+#include <vector>
+
+namespace morph
+{
+/// The rounds of SlidingWarp.h, for equations A x = b on one process or several. Each process has
+/// some of the rows.
+class NodeSliding
+{
+public:
+  using Row = Eigen::RowVector3d;
+
+  /// The surfaces of the sliding nodes, by the index of a node.
+  struct Surfaces
+  {
+    /// Returns the projection onto the directions along the surfaces at `x`: of rank 2 on one
+    /// surface, 1 where two meet, 0 where the node cannot move.
+    std::function<Eigen::Matrix3d(Index i, const Row& x)> directions;
+    /// Returns the nearest point of the surfaces.
+    std::function<Row(Index i, const Row& x)> closest;
+  };
+
+  /// What one round has done.
+  struct Round
+  {
+    double change = 0; ///< the largest move of a node, in the unit of the points
+    double force = 0;  ///< what is left of the pull, in parts of that before the first round
+  };
+
+  /// The sliding nodes that have rows on this process.
+  struct Nodes
+  {
+    std::vector<int> rows; ///< of each
+    Points rest;           ///< #rows x 3
+  };
+
+  struct Equations
+  {
+    Points b; ///< #rows x 3
+    /// SpdSolver::solveConstrained() for b, to `Tolerance`.
+    std::function<void(const RowConstraints& constraints, Points& x)> solve;
+    std::function<Points(const Points& x)> product; ///< A x
+  };
+  static constexpr double Tolerance = 1e-11;
+  static constexpr int MaxIterations = 5000;
+
+  /// Holds all arguments by reference.
+  NodeSliding(const Equations& equations, const Nodes& nodes, const Surfaces& surfaces,
+    const Communicator& communicator = Communicator::alone());
+
+  /// Takes at most so many rounds. `x`: #rows x 3 displacements, which are read at the sliding
+  /// nodes. Nodes without a pull keep their bits.
+  std::vector<Round> run(int rounds, Points& x, Monitor& monitor) const;
+
+private:
+  /// The displacements, and the force on all nodes.
+  struct State
+  {
+    Points x, force; ///< #rows x 3
+    double pull = 0; ///< the norm of the force along the surfaces
+  };
+  /// Finds the other unknowns, the sliding nodes' being given.
+  void settle(State& state) const;
+  Row place(Index i, const Points& x) const;
+  double norm(const Points& rows) const;
+
+  const Equations& equations_;
+  const Nodes& nodes_;
+  const Surfaces& surfaces_;
+  const Communicator& communicator_;
+};
+}
