@@ -52,7 +52,9 @@ void SeriesColors::startup()
 
 void SeriesColors::added(pqRepresentation* representation)
 {
-  if (qobject_cast<pqDataRepresentation*>(representation))
+  // A state that is loaded brings its own colors.
+  if (qobject_cast<pqDataRepresentation*>(representation) &&
+      !pqApplicationCore::instance()->isLoadingState())
   {
     QObject::connect(representation, SIGNAL(dataUpdated()), this, SLOT(dataUpdated()));
   }
