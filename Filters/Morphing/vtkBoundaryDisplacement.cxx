@@ -3,9 +3,9 @@
 
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/Pick.h"
+#include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
@@ -212,7 +212,7 @@ int vtkBoundaryDisplacement::RequestData(
   vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::CrewMonitor monitor(this, this->NumberOfThreads);
   const auto displace = [&]
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
@@ -282,7 +282,6 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   list("SlidingPatches", this->Internals->SlidingPatches);
   list("FreePatches", this->Internals->FreePatches);
   os << indent << "Motion: " << this->Motion << "\n";
-  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
   os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";

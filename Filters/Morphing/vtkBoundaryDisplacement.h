@@ -258,26 +258,12 @@ public:
    */
   vtkPolyData* GetFittedTarget();
 
-  enum SurfaceMethods
+  /// The old names of vtkDisplacementAlgorithm::SurfaceMethods, until version 0.2.
+  enum OldSurfaceMethods
   {
-    SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
-    SURFACE_METHOD_SMOOTHING = 1,
-    // The old names, until version 0.2.
     WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
     SMOOTHING = SURFACE_METHOD_SMOOTHING
   };
-  ///@{
-  /**
-   * How surfaces follow; see vtkMorphBoundary. Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
-   */
-  vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
-  vtkGetMacro(SurfaceMethod, int);
-  void SetSurfaceMethodToWeightedResidual()
-  {
-    this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
-  }
-  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
-  ///@}
 
   enum UnattachedMotions
   {
@@ -342,7 +328,6 @@ private:
 
   int Moving = MOVE_EVERYTHING;
   int Motion = MOTION_TRANSFORM;
-  int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
   int UnattachedMotion = UNATTACHED_AFFINELY;
 
   vtkIdType MovingPoints;

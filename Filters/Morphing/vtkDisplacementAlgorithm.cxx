@@ -302,6 +302,7 @@ void vtkDisplacementAlgorithm::CopyDisplacement(vtkDisplacementAlgorithm* from)
   this->SetLatticeBounds(from->LatticeBounds);
   this->SetScaleFactor(from->ScaleFactor);
   this->SetSurroundings(from->Surroundings);
+  this->SetSurfaceMethod(from->SurfaceMethod);
   this->SetFalloffRadius(from->FalloffRadius);
   this->SetSlideRounds(from->SlideRounds);
   this->SetFeatureAngle(from->FeatureAngle);
@@ -363,6 +364,7 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
     6 * this->GetNumberOfLatticeDisplacements());
   os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
   os << indent << "Surroundings: " << this->Surroundings << "\n";
+  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
   os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
   os << indent << "SlideRounds: " << this->SlideRounds << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";

@@ -389,6 +389,28 @@ public:
   void SetSurroundingsToFollowAll() { this->SetSurroundings(SURROUNDINGS_FOLLOW_ALL); }
   ///@}
 
+  enum SurfaceMethods
+  {
+    SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
+    SURFACE_METHOD_SMOOTHING = 1,
+    SURFACE_METHOD_MESH_SMOOTHING = 2
+  };
+  ///@{
+  /**
+   * How surfaces follow, with SURROUNDINGS_FOLLOW and SURROUNDINGS_FOLLOW_ALL: as those of
+   * vtkMorphBoundary. Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
+   */
+  vtkSetClampMacro(
+    SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_MESH_SMOOTHING);
+  vtkGetMacro(SurfaceMethod, int);
+  void SetSurfaceMethodToWeightedResidual()
+  {
+    this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
+  }
+  void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
+  void SetSurfaceMethodToMeshSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_MESH_SMOOTHING); }
+  ///@}
+
   ///@{
   /**
    * The distance at which SURROUNDINGS_FADE reaches zero, in units of the diagonal of the
@@ -507,6 +529,7 @@ protected:
   double LatticeBounds[6] = { 0, 1, 0, 1, 0, 1 };
   double ScaleFactor = 1;
   int Surroundings = SURROUNDINGS_FOLLOW;
+  int SurfaceMethod = SURFACE_METHOD_WEIGHTED_RESIDUAL;
   double FalloffRadius = 0.1;
   int SlideRounds = 0;
   double FeatureAngle = 25;

@@ -3,6 +3,7 @@
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/Topology.h"
@@ -374,6 +375,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   this->Results.SetInteger("HeldVertices", motion.count(morph::BoundaryMotion::Held));
   this->Results.SetInteger("ProjectedPoints", 0);
   this->Results.SetInteger("UnprojectedPoints", 0);
+  this->Results.SetInteger("SmoothedSurfaces", 0);
+  this->Results.SetText("KeptSurfaces", "None");
 
   monitor.SetRange(0.2, 0.3);
   morph::morphCurves(geometry, how.unattached, motion, monitor);
@@ -398,11 +401,24 @@ void vtkMorphBoundary::vtkInternals::Run(
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
-  if (this->Filter->SurfaceMethod == SURFACE_METHOD_SMOOTHING)
+  if (how.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
   {
     morph::smoothSurfaces(faces, geometry, place.get(), motion, monitor);
   }
-  monitor.SetRange(0.9, 1);
+  if (how.method == morph::SurfaceMorphOptions::Method::MeshSmoothing)
+  {
+    monitor.SetRange(0.9, 0.95);
+    const morph::SurfaceMeshSmoothing meshes =
+      morph::smoothSurfaceMeshes(faces, geometry, place.get(), motion, monitor);
+    std::vector<Index> better;
+    for (const Index s : meshes.kept)
+    {
+      better.push_back(geometry.surfaces[s].id);
+    }
+    this->Results.SetInteger("SmoothedSurfaces", static_cast<vtkIdType>(meshes.smoothed.size()));
+    this->Results.SetText("KeptSurfaces", better.empty() ? "None" : morph::listIds(better));
+  }
+  monitor.SetRange(0.95, 1);
 
   const bool isFloat = filters::Output::IsFloat(task.Grid, this->Filter->OutputPointsPrecision);
   morph::Points moved = motion.moved();
@@ -469,6 +485,11 @@ void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionRep
 double vtkMorphBoundary::GetNumber(const char* name) const
 {
   return this->Internals->Results.Number(name);
+}
+
+const char* vtkMorphBoundary::GetKeptSurfaces() const
+{
+  return this->Internals->Results.Text("KeptSurfaces").c_str();
 }
 
 vtkIdType vtkMorphBoundary::GetInteger(const char* name) const

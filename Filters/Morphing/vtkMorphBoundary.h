@@ -12,7 +12,8 @@
  *   are linear in the arc length. A curved one follows the affine map nearest to the motion around
  *   it, so affine motions are reproduced exactly.
  * - Surfaces: by weighted residual, the paper's equations (3) to (6) with NumberOfNeighbors nearest
- *   nodes, or by Laplacian smoothing of the displacements.
+ *   nodes; by Laplacian smoothing of the displacements; or by the same and smoothing of the surface
+ *   mesh itself.
  * - Closed curves and surfaces on which nothing is given follow their surroundings, or stay.
  * - With a target surface on port 2, curve nodes go to the nearest place on its feature edges.
  *   Surface nodes, after their surface has followed, go to the nearest place on it whose normal
@@ -35,7 +36,8 @@
  * normal, which follows the motion: 1 is the ideal triangle or quad, and a face at or below 0 is
  * folded. (A face of a quadratic cell is measured by its corners, and all its polygons have its
  * value.) Field data: MinScaledJacobian, MeanScaledJacobian, FoldedFaces, ProjectedPoints,
- * UnprojectedPoints. No motion gives the undeformed positions bit for bit.
+ * UnprojectedPoints, SmoothedSurfaces, KeptSurfaces. No motion gives the undeformed positions bit
+ * for bit.
  *
  * Time: the output has the time steps of port 1. Port 0 is always asked for RestTime. If one reader
  * feeds both ports, it is updated from within RequestData, for the reason that vtkMorphAlgorithm
@@ -99,6 +101,7 @@ public:
   {
     SURFACE_METHOD_WEIGHTED_RESIDUAL = 0,
     SURFACE_METHOD_SMOOTHING = 1,
+    SURFACE_METHOD_MESH_SMOOTHING = 2,
     // The old names, until version 0.2.
     WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
     SMOOTHING = SURFACE_METHOD_SMOOTHING
@@ -107,15 +110,19 @@ public:
   /**
    * How surfaces follow. SURFACE_METHOD_SMOOTHING also improves faces that become poor (scaled
    * Jacobian below 0.2, and below half of the undeformed value) by moving nodes along the surface.
-   * Default SURFACE_METHOD_WEIGHTED_RESIDUAL.
+   * SURFACE_METHOD_MESH_SMOOTHING does the same. Then it smooths the surface's mesh towards its
+   * undeformed faces, which also opens folds, and keeps the better mesh of both. Default
+   * SURFACE_METHOD_WEIGHTED_RESIDUAL.
    */
-  vtkSetClampMacro(SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_SMOOTHING);
+  vtkSetClampMacro(
+    SurfaceMethod, int, SURFACE_METHOD_WEIGHTED_RESIDUAL, SURFACE_METHOD_MESH_SMOOTHING);
   vtkGetMacro(SurfaceMethod, int);
   void SetSurfaceMethodToWeightedResidual()
   {
     this->SetSurfaceMethod(SURFACE_METHOD_WEIGHTED_RESIDUAL);
   }
   void SetSurfaceMethodToSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_SMOOTHING); }
+  void SetSurfaceMethodToMeshSmoothing() { this->SetSurfaceMethod(SURFACE_METHOD_MESH_SMOOTHING); }
   ///@}
 
   ///@{
@@ -257,6 +264,15 @@ public:
   vtkIdType GetHeldVertices() const { return this->GetInteger("HeldVertices"); }
   vtkIdType GetProjectedPoints() const { return this->GetInteger("ProjectedPoints"); }
   vtkIdType GetUnprojectedPoints() const { return this->GetInteger("UnprojectedPoints"); }
+  ///@}
+
+  ///@{
+  /**
+   * As of the last execution with SURFACE_METHOD_MESH_SMOOTHING: the number of surfaces whose mesh
+   * became better, and the ids of those that were better before, and stayed so. "None" without one.
+   */
+  vtkIdType GetSmoothedSurfaces() const { return this->GetInteger("SmoothedSurfaces"); }
+  const char* GetKeptSurfaces() const;
   ///@}
 
 protected:

@@ -326,6 +326,11 @@ const char* vtkMorphMesh::GetMorphStatus() const
   return this->Internals->Results.Text("MorphStatus").c_str();
 }
 
+const char* vtkMorphMesh::GetAdvice() const
+{
+  return this->Internals->Results.Text("Advice").c_str();
+}
+
 #define morphResultMacro(name, type, kind)                          \
   type vtkMorphMesh::Get##name() const                              \
   {                                                                 \

@@ -376,6 +376,12 @@ public:
   int GetSolverIterations() const;
   ///@}
 
+  /**
+   * What to do where nothing moves yet, since no surface, selection, handle or target is given.
+   * Else "None".
+   */
+  const char* GetAdvice() const;
+
   ///@{
   /**
    * The distance from the target (as aligned) of the nodes that move, before and after the motion,

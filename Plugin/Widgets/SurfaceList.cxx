@@ -45,6 +45,8 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   // As wide as what they show and not as the panel, which a narrow dock shows in part.
   header->setStretchLastSection(false);
   header->setMaximumSectionSize(24 * this->fontMetrics().averageCharWidth());
+  // Its minimum is wider than ParaView's dock.
+  this->List->setSizePolicy(QSizePolicy::Ignored, this->List->sizePolicy().verticalPolicy());
   this->List->viewport()->installEventFilter(this);
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   for (const int column : { 1, 2 })

@@ -145,6 +145,16 @@ int wholeNumber(const char* option, const std::string& text)
   return static_cast<int>(value);
 }
 
+std::string surfaceMethod(const std::string& text)
+{
+  if (text != "WeightedResidual" && text != "Smoothing" && text != "MeshSmoothing")
+  {
+    throw UsageError(
+      "--surface-method needs WeightedResidual, Smoothing or MeshSmoothing, not '" + text + "'.");
+  }
+  return text;
+}
+
 /// Throws UsageError where the options of the motion contradict each other.
 void checkMotion(const Arguments& arguments)
 {
@@ -165,6 +175,10 @@ void checkMotion(const Arguments& arguments)
       (!motion.fixed.empty() || !motion.sliding.empty() || !motion.free.empty()))
   {
     throw UsageError("--fix, --slide and --free need --move, --target, --handles or --lattice.");
+  }
+  if (!motion.isMade() && !motion.surfaceMethod.empty())
+  {
+    throw UsageError("--surface-method needs --move, --target, --handles or --lattice.");
   }
   if (motion.slideRounds > 0 && motion.sliding.empty())
   {
@@ -354,6 +368,10 @@ std::vector<Option> optionsOf(Arguments& result)
       "iterate what slides with the volume, up to so many rounds (20 at most)",
       [&](const std::string& value)
       { result.motion.slideRounds = wholeNumber("--slide-rounds", value); } },
+    { "--surface-method", "<name>",
+      "how surfaces follow what moves, by default WeightedResidual:\nWeightedResidual, Smoothing, "
+      "MeshSmoothing",
+      [&](const std::string& value) { result.motion.surfaceMethod = surfaceMethod(value); } },
     { "--free", "<surface>", "a surface whose nodes are solved with the interior; repeatable",
       [&](const std::string& value) { result.motion.free.push_back(value); } },
     { "--freeze", "<zone>",

@@ -16,6 +16,7 @@ struct Motion
   std::vector<std::string> frozen, rigid;                ///< names of arrays or blocks
   int keepLayers = 0;
   int slideRounds = 0;
+  std::string surfaceMethod; ///< how surfaces follow; empty: by weighted residual
   std::array<double, 3> translation = { 0, 0, 0 };
   std::array<double, 3> rotation = { 0, 0, 0 }; ///< degrees about x, y and z
   std::array<double, 3> scale = { 1, 1, 1 };

@@ -162,6 +162,11 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   }
   filter->SetKeepLayers(motion.keepLayers);
   filter->SetSlideRounds(motion.slideRounds);
+  filter->SetSurfaceMethod(motion.surfaceMethod == "MeshSmoothing"
+                             ? vtkBoundaryDisplacement::SURFACE_METHOD_MESH_SMOOTHING
+                           : motion.surfaceMethod == "Smoothing"
+                             ? vtkBoundaryDisplacement::SURFACE_METHOD_SMOOTHING
+                             : vtkBoundaryDisplacement::SURFACE_METHOD_WEIGHTED_RESIDUAL);
   if (!motion.target.empty())
   {
     filter->SetMotionToTarget();

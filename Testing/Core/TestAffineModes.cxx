@@ -81,6 +81,47 @@ TEST_P(AffineModesOf, GiveWhatEvaluateGives)
   }
 }
 
+TEST_P(AffineModesOf, AreTheAnswersToEachFieldInAnyUnit)
+{
+  for (const auto& [name, unscaled] : motions::jittered())
+  {
+    for (const double unit : { 1e-6, 1., 1e6 })
+    {
+      Mesh mesh = unscaled;
+      mesh.points *= unit;
+      const NodePartition partition = outerPartition(mesh);
+      meshes::ThreadedMonitor monitor(2);
+      const auto method = GetParam().make();
+      method->prepare(mesh, partition, monitor);
+      AffineFields fields = fading(unscaled, partition);
+      fields.rightCols<3>() *= unit;
+      Points weight = Points::Zero(fields.rows(), 3);
+      weight.col(0) = fields.col(0);
+      const std::vector<Points> expected =
+        method->basis({ fields.rightCols<3>(), weight }, monitor);
+      AffineFields scaled = fields;
+      scaled.col(0) *= unit;
+      EvaluateReport report;
+      const FourFields found = method->fields(scaled, monitor, &report);
+      EXPECT_LT(difference(found.rightCols<3>(), expected[0]), 1e-8 * unit) << name << unit;
+      EXPECT_LT((found.col(0) / unit - expected[1].col(0)).cwiseAbs().maxCoeff(), 1e-8)
+        << name << unit;
+      meshes::ThreadedMonitor three(3);
+      EXPECT_EQ(method->fields(scaled, three), found) << name << unit;
+
+      AffineModes modes;
+      modes.prepare(*method, fields, monitor);
+      AffineMotion shift = AffineMotion::Zero();
+      shift.col(0) << unit, -unit, unit; // the weight's answer alone
+      const Points to = targets(mesh, partition, fields, shift);
+      Points direct, moved;
+      method->evaluate(to, direct, monitor);
+      modes.evaluate(*method, shift, to, moved, monitor);
+      EXPECT_LT(difference(moved, direct), 1e-8 * unit) << name << unit;
+    }
+  }
+}
+
 TEST_P(AffineModesOf, WithoutMotionKeepEveryBit)
 {
   for (const auto& [name, mesh] : motions::jittered())

@@ -198,6 +198,69 @@ TEST_P(FirstGuess, EachBodyTakesItsOwnAffineMotion)
   }
 }
 
+TEST_P(FirstGuess, IsTheAnswerToAnAffineMotionOfTheWholeBoundary)
+{
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    const NodePartition partition = outerPartition(mesh);
+    Points target = motions::targets(mesh, partition, motions::affine);
+    meshes::ThreadedMonitor monitor(2);
+    const auto method = GetParam().make();
+    method->prepare(mesh, partition, monitor);
+    Points moved;
+    EXPECT_LT(method->evaluate(target, moved, monitor).bytesMoved,
+      100 * static_cast<double>(mesh.numberOfNodes()))
+      << name; // no pass over the matrix
+    EXPECT_LT(motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-12)
+      << name;
+    // Nodes of a side that are off make it a motion like others.
+    for (Index i = 0; i < target.rows(); ++i)
+    {
+      const motions::Row x = mesh.points.row(partition.prescribed[i]);
+      if (x[0] == 0 && x[1] > 0 && x[1] < 4 && x[2] > 0 && x[2] < 4)
+      {
+        target(i, 1) += 1e-6 * std::sin(static_cast<double>(i));
+      }
+    }
+    EXPECT_GT(method->evaluate(target, moved, monitor).iterations, 0) << name;
+  }
+}
+
+TEST_P(FirstGuess, IsNoAnswerWhereAffineMotionsDoNotSolveTheEquations)
+{
+  // The sides are free: stretched along x at both ends, they do not follow linearly.
+  const Mesh mesh = meshes::hexes(4, 4, 12);
+  std::vector<Index> ends;
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    if (mesh.points(n, 2) == 0 || mesh.points(n, 2) == 12)
+    {
+      ends.push_back(n);
+    }
+  }
+  const NodePartition partition = partitionNodes(mesh, ends);
+  const auto stretch = [](const motions::Row& x) { return motions::Row(1.5 * x[0], x[1], x[2]); };
+  meshes::ThreadedMonitor monitor;
+  const auto method = GetParam().make();
+  if (dynamic_cast<LogBarrierWarp*>(method.get()))
+  {
+    return; // has weights for nodes inside alone
+  }
+  method->prepare(mesh, partition, monitor);
+  Points moved;
+  EXPECT_GT(
+    method->evaluate(motions::targets(mesh, partition, stretch), moved, monitor).iterations, 0);
+  // The Laplace equation without flux forgets what varies across the bar: the middle goes with the
+  // mean, 2 to 3, but for the slowest mode, exp(-6 pi / 4).
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    if (mesh.points(n, 2) == 6)
+    {
+      EXPECT_NEAR(moved(n, 0) - mesh.points(n, 0), 1, 0.05) << n;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, FirstGuess,
   testing::Values(
     Method{

@@ -288,7 +288,7 @@ TEST(Gmres, ConvergesByItself)
   norm2.head<3>() = problem.b.colwise().squaredNorm();
   MultiVectorRow goal2 = 1e-20 * norm2;
   goal2[1] = norm2[1]; // reached already
-  const int made = gmres.run(problem.b, norm2, goal2, x, monitor);
+  const int made = gmres.run(toRows(problem.b, monitor), norm2, goal2, x, monitor);
   EXPECT_LT(made, 30);
   MultiVectorRow left = MultiVectorRow::Zero();
   for (Index i = 0; i < n; ++i)
@@ -320,7 +320,7 @@ TEST(Gmres, GoesOnFromItsGuess)
     {
       norm2 += (toRow(problem.b.row(i)) - rowProduct(problem.A, i, x)).cwiseAbs2();
     }
-    return gmres.run(problem.b, norm2, goal2, x, monitor);
+    return gmres.run(toRows(problem.b, monitor), norm2, goal2, x, monitor);
   };
   EXPECT_LT(applications(1e-7), applications(1) / 2);
 }
@@ -335,7 +335,7 @@ TEST(Gmres, AsksWhetherToStop)
   // Also where there is no column to solve for, and within a run.
   meshes::WatchingMonitor watching;
   MultiVector x = zero;
-  gmres.run(problem.b, one, goal, x, watching);
+  gmres.run(toRows(problem.b, watching), one, goal, x, watching);
   EXPECT_GT(watching.questions, 10);
   for (const MultiVectorRow& norm2 : { infinite, one })
   {
@@ -343,7 +343,8 @@ TEST(Gmres, AsksWhetherToStop)
     monitor.cancelAfter = norm2[0] == 1 ? 5 : 0;
     std::string message;
     x = zero;
-    EXPECT_EQ(motions::kindOf([&] { gmres.run(problem.b, norm2, goal, x, monitor); }, message),
+    EXPECT_EQ(motions::kindOf(
+                [&] { gmres.run(toRows(problem.b, monitor), norm2, goal, x, monitor); }, message),
       Error::Kind::Cancelled);
   }
 }

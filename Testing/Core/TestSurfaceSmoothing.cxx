@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 using namespace morph;
 using shapes::Row;
@@ -121,7 +122,20 @@ TEST(SurfaceSmoothing, GoodSurfacesStayBitForBit)
 
 TEST(SurfaceSmoothing, AffineImagesStay)
 {
-  for (const Mesh& mesh : { meshes::hexes(6, 6, 2), meshes::tets(6, 6, 2) })
+  Mesh mixed = meshes::hexesAndPyramids(6, 6, 2); // with triangles and quadrilaterals
+  {
+    const Case even(mixed);
+    std::mt19937 random(meshes::seed());
+    std::uniform_real_distribution<double> number(-0.2, 0.2);
+    for (Index node : even.faces.nodes)
+    {
+      if (even.geometry.dimension[node] == 2 && std::abs(mixed.points(node, 2) - 2) < 1e-12)
+      {
+        mixed.points.row(node) += Row(number(random), number(random), 0);
+      }
+    }
+  }
+  for (const Mesh& mesh : { meshes::hexes(6, 6, 2), meshes::tets(6, 6, 2), mixed })
   {
     Case c(mesh);
     // Sheared until the angles are poor.

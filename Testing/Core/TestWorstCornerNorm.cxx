@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace
 {
@@ -98,6 +99,42 @@ TEST(WorstCornerNorm, ValueAndGradientAtOnceAreThoseOfEach)
     EXPECT_EQ(energy, angles.valueAndGradient(mesh.points, both, one).energy);
     EXPECT_EQ(gradient, both);
   }
+}
+
+namespace
+{
+/// Counts the sums and minima over processes.
+struct Counting : morph::Communicator
+{
+  using morph::Communicator::sum;
+  double sum(double value) const override
+  {
+    ++this->calls;
+    return value;
+  }
+  double minimum(double value) const override
+  {
+    ++this->calls;
+    return value;
+  }
+  mutable int calls = 0;
+};
+}
+
+TEST(WorstCornerNorm, AGradientAloneNeedsNoSumOverProcesses)
+{
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  const std::vector<Index> free = motions::outerPartition(mesh).free;
+  const Counting processes;
+  const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7, 3,
+    std::numeric_limits<double>::infinity(), processes);
+  meshes::ThreadedMonitor monitor;
+  Points gradient;
+  processes.calls = 0;
+  angles.gradient(mesh.points, gradient, monitor);
+  EXPECT_EQ(processes.calls, 0);
+  angles.value(mesh.points, monitor);
+  EXPECT_EQ(processes.calls, 2);
 }
 
 TEST(WorstCornerNorm, IsEnoughWhereTheMinimumIsAtTheGoal)

@@ -175,6 +175,14 @@ TEST(RankMorphMesh, ShowsItsSurfacesAndKeepsWhatADragNeeds)
     EXPECT_LT(behind->GetComponent(c, 0), piece->GetNumberOfCells());
   }
   EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 6 + 12);
+  // Nor without a handle, with what is selected on no rank, nor listed, nor connected.
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToHandles();
+  filter->SelectedHandlesOn();
+  filter->Update();
+  EXPECT_NE(std::string(filter->GetAdvice()).find("Give a handle"), std::string::npos);
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  filter->SetMovingToSurfaces();
 
   filter->LiveOn();
   turnAndShift(filter);

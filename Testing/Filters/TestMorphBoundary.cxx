@@ -22,6 +22,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -98,7 +99,7 @@ TEST(MorphBoundary, NoMotionIsTheIdentityBitForBit)
     morph::Mesh mesh = meshes::quadraticTets(3, 2, 2);
     meshes::transform(mesh, [](const Row& x) { return Row(0.1 * x); });
     auto grid = grids::make(mesh, type);
-    for (int method = 0; method < 2; ++method)
+    for (int method = 0; method < 3; ++method)
     {
       for (int dimension = 0; dimension <= 2; ++dimension)
       {
@@ -121,7 +122,7 @@ TEST(MorphBoundary, AffineMotionOfTheVerticesMovesAllAndTheVolumeFollows)
     SCOPED_TRACE(name);
     meshes::jitterInterior(mesh, 0.1, meshes::seed());
     auto grid = grids::make(mesh);
-    for (int method = 0; method < 2; ++method)
+    for (int method = 0; method < 3; ++method)
     {
       auto filter = morpher(grid, grids::boundary(grid, grids::affine));
       filter->SetSurfaceMethod(method);
@@ -138,6 +139,60 @@ TEST(MorphBoundary, AffineMotionOfTheVerticesMovesAllAndTheVolumeFollows)
       const morph::Points moved = grids::points(volume->GetOutput());
       const morph::Points expected = grids::mapped(mesh.points, grids::affine);
       EXPECT_LE((moved - expected).cwiseAbs().maxCoeff(), 1e-8);
+    }
+  }
+}
+
+TEST(MorphBoundary, MeshSmoothingIsAsGoodAsSmoothingAndNamesWhatItKept)
+{
+  // The hole comes near a side. Top and bottom are smoothed; the hole moves as it is.
+  auto grid = grids::make(shapes::boxWithHole(48, 8, 2));
+  const auto map = [](const Row& x)
+  { return Row(x.head<2>().norm() < 1.01 ? Row(x + Row(0.8, 0, 0)) : x); };
+  auto filter = morpher(grid, grids::boundary(grid, map));
+  grids::Listener silence(filter);
+  filter->SetSurfaceMethodToSmoothing();
+  filter->Update();
+  const double minimum = filter->GetMinScaledJacobian(), mean = filter->GetMeanScaledJacobian();
+  EXPECT_EQ(filter->GetSmoothedSurfaces(), 0);
+  filter->SetSurfaceMethodToMeshSmoothing();
+  filter->Update();
+  EXPECT_EQ(filter->GetFoldedFaces(), 0);
+  EXPECT_GE(filter->GetMinScaledJacobian(), minimum);
+  const bool allKept = filter->GetSmoothedSurfaces() == 0;
+  EXPECT_TRUE(
+    allKept || filter->GetMinScaledJacobian() > minimum || filter->GetMeanScaledJacobian() > mean);
+  EXPECT_EQ(allKept, std::string(filter->GetKeptSurfaces()).find(", ") != std::string::npos);
+  EXPECT_NE(filter->GetOutput()->GetFieldData()->GetAbstractArray("KeptSurfaces"), nullptr);
+}
+
+TEST(MorphBoundary, MeshSmoothingKeepsNodesOnTheTarget)
+{
+  auto grid = grids::make(shapes::cylinder(8, 8));
+  const auto turn = [](const Row& x)
+  {
+    const double angle = 0.2 * x[0] * x[2];
+    return Row(x[0] * std::cos(angle) - x[1] * std::sin(angle),
+      x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2]);
+  };
+  auto filter = morpher(grid, grids::boundary(grid, turn));
+  grids::Listener silence(filter);
+  filter->SetTargetData(lathe([](double) { return 1.; }, 200, 1, false));
+  filter->SetSurfaceMethodToMeshSmoothing();
+  filter->Update();
+  EXPECT_EQ(filter->GetUnprojectedPoints(), 0);
+  EXPECT_EQ(filter->GetFoldedFaces(), 0);
+  EXPECT_GT(filter->GetSmoothedSurfaces(), 0);
+  const morph::Points moved = grids::points(filter->GetOutput());
+  vtkDataArray* dimension = filter->GetOutput()->GetPointData()->GetArray("GeometryDimension");
+  for (morph::Index i = 0; i < moved.rows(); ++i)
+  {
+    const bool isCap = moved(i, 2) < 1e-9 || moved(i, 2) > 2 - 1e-9;
+    if (dimension->GetComponent(static_cast<vtkIdType>(i), 0) == 2 && !isCap)
+    {
+      // On one of 200 flat sides.
+      EXPECT_LE(moved.row(i).head<2>().norm(), 1 + 1e-9);
+      EXPECT_GE(moved.row(i).head<2>().norm(), std::cos(std::acos(-1.) / 200) - 1e-9);
     }
   }
 }
@@ -409,7 +464,7 @@ TEST(MorphBoundary, NonManifoldBoundaries)
     })
   {
     auto grid = grids::make(mesh);
-    for (int method = 0; method < 2; ++method)
+    for (int method = 0; method < 3; ++method)
     {
       auto filter = morpher(grid, grids::boundary(grid, grids::affine));
       grids::Listener listener(filter);

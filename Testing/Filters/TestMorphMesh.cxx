@@ -105,6 +105,42 @@ std::string statusOf(vtkDataObject* data)
 }
 }
 
+TEST(MorphMesh, SurfacesFollowByTheSurfaceMethod)
+{
+  auto grid = box();
+  std::vector<morph::Points> results;
+  for (int method = 0; method < 3; ++method)
+  {
+    const double rotation[] = { 0, 0, 40 }, scale[] = { 1.5, 0.8, 1 };
+    auto filter = make(grid);
+    filter->SetDisplacementToPlacement();
+    filter->SetRotation(rotation);
+    filter->SetScale(scale);
+    filter->SetSurroundingsToFollowAll();
+    filter->SetSurfaceMethod(method);
+    grids::Listener silence(filter);
+    filter->Update();
+
+    auto displace = displaced::make(grid);
+    displace->SetMovingToPatches();
+    displace->AddPatch(topSurface(grid).c_str());
+    displace->SetMotionToPlacement();
+    displace->SetRotation(rotation);
+    displace->SetScale(scale);
+    displace->SetSurroundingsToFollowAll();
+    displace->SetSurfaceMethod(method);
+    vtkNew<vtkFEMWarpMorph> morph;
+    morph->SetInputData(grid);
+    morph->SetBoundaryConnection(displace->GetOutputPort());
+    morph->SetValidityToRepair();
+    grids::Listener silent(morph);
+    morph->Update();
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(morph->GetOutput()));
+    results.push_back(grids::points(filter->GetOutput()));
+  }
+  EXPECT_NE(results[0], results[1]);
+}
+
 TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
 {
   auto grid = box();
@@ -140,10 +176,23 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
   filter->SetInputData(grid);
   filter->SetVector(1, 2, 3);
   grids::Listener listener(filter);
-  for (const int moving : { vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::MOVE_SELECTION })
+  struct Case
   {
-    filter->SetMoving(moving);
+    int Moving, Displacement;
+    const char* Advice;
+  };
+  for (const Case& one :
+    { Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_VECTOR, "Tick surfaces" },
+      Case{ vtkMorphMesh::MOVE_SELECTION, vtkMorphMesh::DISPLACEMENT_VECTOR, "Select points" },
+      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_TARGET, "Choose the Target" },
+      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" },
+      Case{ vtkMorphMesh::MOVE_EVERYTHING, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" } })
+  {
+    filter->SetMoving(one.Moving);
+    filter->SetDisplacement(one.Displacement);
     filter->Update();
+    EXPECT_NE(std::string(filter->GetAdvice()).find(one.Advice), std::string::npos)
+      << filter->GetAdvice();
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
     vtkUnstructuredGrid* output = filter->GetOutput();
@@ -168,6 +217,14 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
     EXPECT_EQ(filter->GetInvertedCells(), -1);
   }
   EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 6 + 12);
+
+  filter->AddHandle(0, 0, 4, 0, 0, 0.5, 0); // one handle translates everything
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_STREQ(filter->GetAdvice(), "None");
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  const morph::Points shifted = grids::points(grid).rowwise() + Row(0, 0, 0.5);
+  EXPECT_LT((grids::points(filter->GetOutput()) - shifted).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(MorphMesh, SurfacesAreListedBeforeTheFirstExecution)

@@ -95,7 +95,9 @@ Getters gettersOf(vtkMorphBoundary* f)
     { "GivenPoints", [f] { return f->GetGivenPoints(); } },
     { "HeldVertices", [f] { return f->GetHeldVertices(); } },
     { "ProjectedPoints", [f] { return f->GetProjectedPoints(); } },
-    { "UnprojectedPoints", [f] { return f->GetUnprojectedPoints(); } } };
+    { "UnprojectedPoints", [f] { return f->GetUnprojectedPoints(); } },
+    { "SmoothedSurfaces", [f] { return f->GetSmoothedSurfaces(); } },
+    { "KeptSurfaces", [f] { return f->GetKeptSurfaces(); } } };
 }
 
 Getters gettersOf(vtkMorphShapes* f)

@@ -106,7 +106,7 @@ Table ofMorphBoundary()
 {
   using F = vtkMorphBoundary;
   return { threads<F>(), whole<F>("PrescribedDimension", &F::SetPrescribedDimension, 1, 0, 2),
-    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 1),
+    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 2),
     whole<F>("NumberOfNeighbors", &F::SetNumberOfNeighbors, 20, 1, 40),
     whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2),
     real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
@@ -133,7 +133,7 @@ Table ofBoundaryDisplacement()
     real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
     whole<F>("Surroundings", &F::SetSurroundings, 1, 0, 2),
     real<F>("FalloffRadius", &F::SetFalloffRadius, 0.1, 0, 10),
-    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 1),
+    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 2),
     whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2),
     real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
     real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),

@@ -52,7 +52,7 @@ def printed(filter_proxy, name):
 WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "PatchBounds", "PickedSurfaces",
-               "ValidWeights")
+               "ValidWeights", "Advice")
 
 
 def results(*sections):
@@ -180,6 +180,12 @@ class Properties(unittest.TestCase):
                               if p.get("information_only") != "1"]
                     self.assertLess(max(names.index(name) for name in inputs),
                                     names.index("MorphStatus"))
+                    # A group of the panel is where the first of its properties is.
+                    found = {p.get("name") for p in properties(xml)
+                             if p.get("information_only") == "1"} - {"Advice"}
+                    for group in xml.iter("PropertyGroup"):
+                        kinds = {p.get("name") in found for p in group}
+                        self.assertLessEqual(len(kinds), 1, group.get("label"))
         self.assertGreaterEqual(tested, 9)
 
     def test_numbers_with_a_range_have_a_slider(self):
@@ -266,7 +272,9 @@ class Properties(unittest.TestCase):
                 if "Solver" in groups:  # a result of every method, shown where there is a solver
                     solver = groups.pop("Solver")
                     if xml.find("DoubleVectorProperty[@name='SolverIterations']") is not None:
-                        groups["Method"] = solver + groups.get("Method", [])
+                        groups["Counts"] = solver
+                if "Method" in groups:
+                    groups["Counts"] = groups.get("Counts", []) + groups.pop("Method")
                 if "Fit" in groups:
                     groups["Result"] += groups.pop("Fit")
                 expected = sorted(row for rows in groups.values() for row in rows)

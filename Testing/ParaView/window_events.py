@@ -46,6 +46,14 @@ def shot_name(step):
     return name
 
 
+def picture(step):
+    """Of the whole screen at once, where a test presses real keys."""
+    if SHOTS:
+        Path(SHOTS).mkdir(parents=True, exist_ok=True)
+        path = Path(SHOTS) / f"{shot_name(step)}.png"
+        subprocess.run(["import", "-window", "root", str(path)], check=False)
+
+
 class Events:
     """What a user does, in order, by the names of ParaView's widgets."""
 
@@ -123,7 +131,7 @@ class Events:
         """In the panel; name: of the property and its widget."""
         self.do(PANEL + name, command, value)
 
-    def prepare(self, folder, size="800 700", script=None, environment=None, arguments=()):
+    def prepare(self, folder, size="1270 990", script=None, environment=None, arguments=()):
         """Writes the events and ParaView's settings into `folder`; returns the arguments of
         subprocess.Popen that play them, after the Python script `script`, if any. `arguments`: of
         ParaView."""
@@ -152,7 +160,7 @@ class Events:
         return {"args": command, "env": environment, "cwd": folder, "text": True,
                 "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
-    def play(self, folder, seconds=500, **options):
+    def play(self, folder, seconds=900, **options):
         """Plays the events in ParaView, with `folder` for its settings; returns its exit code and
         messages. `options`: of prepare()."""
         how = self.prepare(folder, **options)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morph Mesh in ParaView's window: six clicks from an open mesh to a morphed one, with the numbers
-of pvpython; and nothing ticked, which is no error. A click is one press of the mouse, each level of
-a menu included; typing is counted apart.
+of pvpython; nothing ticked, or no handle given, which is no error. A click is one press of the
+mouse, each level of a menu included; typing is counted apart.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1024x24"
          pvpython window_morph_mesh.py
@@ -71,6 +71,12 @@ class MorphMeshInTheWindow(unittest.TestCase):
         self.assertEqual(morph.MorphStatus, "Valid")
         self.assertEqual(morph.InvertedCells, 0)
         names = list(morph.GetProperty("Surfaces").GetAvailable())
+        nothing, without_handle = MorphMesh(Input=part), MorphMesh(Input=part,
+                                                                   Displacement="Handles")
+        for one, advice in ((nothing, "Tick surfaces"), (without_handle, "Give a handle")):
+            one.UpdatePipeline()
+            self.assertIn(advice, one.Advice)
+            self.assertEqual(one.MorphStatus, "None")
         with tempfile.TemporaryDirectory() as name:
             events = Clicks()
             events.load_plugin(PLUGIN)
@@ -89,6 +95,12 @@ class MorphMeshInTheWindow(unittest.TestCase):
             events.filter("MorphMesh")
             events.apply()  # nothing is ticked
             events.expect(f"{PANEL}MinScaledJacobian/DoubleLineEdit0", "-1")
+            events.expect(f"{PANEL}Advice/Text", nothing.Advice)
+            events.set("Displacement/ComboBox", "set_string", "Handles")
+            events.apply()  # and there is no handle
+            events.expect(f"{PANEL}Advice/Text", without_handle.Advice)
+            events.shot("no handle")
+            events.set("Displacement/ComboBox", "set_string", "Transform")
             events.set(KIND, "set_string", "Rotation about a point")
             events.apply()
             events.save_state(Path(name) / "state.pvsm")

@@ -21,6 +21,7 @@ def watch():
     from paraview import servermanager, simple
     simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
     simple.Show(simple.OpenDataFile(str(Path(os.environ["MORPH_SOURCE"]) / MESH)))
+    simple.ResetCamera()
     manager = servermanager.ProxyManager()
 
     def write(*_):
@@ -32,7 +33,7 @@ def watch():
 
 class QuickLaunch(unittest.TestCase):
     def test_morph_mesh_is_the_first_hit(self):
-        from window_events import Events
+        from window_events import Events, picture
         from window_keys import Keyboard
         try:
             keyboard = Keyboard()
@@ -48,10 +49,12 @@ class QuickLaunch(unittest.TestCase):
                 try:
                     self.assertIn("Reader", self.wait(seen, "Reader", 150))
                     for _ in range(6):
-                        launch(keyboard)
+                        launch(keyboard, picture)
                         if "Morph" in self.wait(seen, "Morph", 15):
                             break
                     self.assertIn("MorphMesh1", seen.read_text(encoding="utf-8").split("\n"))
+                    time.sleep(1)
+                    picture("its first hit")
                 finally:
                     paraview.kill()
 
@@ -67,14 +70,16 @@ class QuickLaunch(unittest.TestCase):
         return text
 
 
-def launch(keyboard):
+def launch(keyboard, picture):
     """The window may not be there yet on a busy machine: then the keys have no effect."""
     keyboard.press("Escape")
     keyboard.click(500, 450)
     keyboard.press("Control_L", "space")
     time.sleep(2)
-    for key in ("m", "o", "r", "p", "h", "Return"):
+    for key in ("m", "o", "r", "p", "h"):
         keyboard.press(key)
+    picture("what is found")
+    keyboard.press("Return")
 
 
 if "MORPH_SEEN" in os.environ:

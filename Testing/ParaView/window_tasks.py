@@ -31,6 +31,7 @@ COLORS = MAIN + "variableToolbar/displayColor/Variables"
 #: Lists of texts, which have no label of their own.
 ZONES = {"FrozenZones": "Zones that stay", "RigidZones": "Zones that are rigid",
          "SoftZones": "Zones that are soft"}
+ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement")
 #: Of each task; numbers are typed besides.
 CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
           "widen a hole by a number": 8, "count and see inverted cells": 11,
@@ -39,11 +40,14 @@ CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
 
 
 class Tasks(Clicks):
-    """Counts the clicks of each task."""
+    """Counts the clicks of each task, and keeps a picture of each step that changes what is
+    seen."""
 
     def __init__(self):
         super().__init__()
         self.counted = {}
+        self.name = None   # of the task
+        self.pictured = 0  # how many lines the last picture shows
 
     def task(self, name):
         """The clicks from here on are those of this task."""
@@ -52,31 +56,65 @@ class Tasks(Clicks):
 
     def done(self):
         self.counted[self.name] += self.clicks
-        self.shot(self.name)
+        self.step("done")
+        self.name = None
+
+    def step(self, what):
+        """A picture, which costs the task no click."""
+        if self.name and len(self.lines) > self.pictured:
+            self.shot(f"{self.name} {what}")
+            self.pictured = len(self.lines)
+
+    def menu(self, *arguments):
+        super().menu(*arguments)
+        if arguments[0] == "menu_Edit":
+            self.step(arguments[1])
+
+    def filter(self, name, menu=None):
+        super().filter(name, menu)
+        if name in ONE_INPUT:  # others open a dialog
+            self.step(name)
+
+    def apply(self):
+        super().apply()
+        self.step("apply")
+
+    def tick(self, widget, row):
+        super().tick(widget, row)
+        self.step(f"tick {row}")
+
+    def type(self, widget, text):
+        super().type(widget, text)
+        self.step(f"{widget.split('/')[0]} {text}")
 
     def select(self, *arguments):
         super().select(*arguments)
         self.clicks += 1
+        self.step("select")
 
     def press(self, name):
         """A button of the panel."""
         self.set(name, "activate", "")
         self.clicks += 1
+        self.step(name)
 
     def select_cells(self, *arguments):
         """A button of the view, and a rectangle."""
         super().select_cells(*arguments)
         self.clicks += 2
+        self.step("cells")
 
     def choose(self, name, entry, widget="ComboBox"):
         """An entry of a list in the panel."""
         self.set(f"{name}/{widget}", "set_string", entry)
         self.clicks += 2
+        self.step(entry)
 
     def toggle(self, name):
         """A tick of the panel, which was off."""
         self.set(f"{name}/CheckBox", "set_boolean", "true")
         self.clicks += 1
+        self.step(name)
 
     def drag(self, first, last):
         """A box as a whole, with the middle button, in ten steps."""
@@ -84,8 +122,11 @@ class Tasks(Clicks):
         for step in range(1, 11):
             x, y = (a + (b - a) * step / 10 for a, b in zip(first, last))
             self.do(VIEW, "mouseMove", f"({x:.4f},{y:.4f},0,4,0)")
+            if step == 6:
+                self.step("drag")
         self.do(VIEW, "mouseRelease", f"({last[0]},{last[1]},4,0,0)")
         self.clicks += 1
+        self.step("release")
 
     def saves(self, path):
         """A state, by the menu and a dialog in which the path is typed."""
@@ -93,10 +134,19 @@ class Tasks(Clicks):
         self.clicks += 3
         self.typed += 1
 
+    def loads(self, path):
+        """A state, in the same way; a second dialog asks where its files are."""
+        self.menu("menu_File", "actionFileLoadServerState")
+        self.do(MAIN + "FileLoadServerStateDialog", "filesSelected", str(path))
+        self.do("LoadStateOptionsDialog/widget/OKButton", "activate")
+        self.clicks += 2
+        self.typed += 1
+
     def accept_inputs(self):
         """Of a filter with several inputs, as the dialog has them."""
         super().accept_inputs()
         self.clicks += 1
+        self.step("inputs")
 
     def choose_input(self, port, place):
         super().choose_input(port, place)

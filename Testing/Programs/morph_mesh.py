@@ -225,6 +225,21 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "--slide-rounds needs --slide", "--slide-rounds", "2", *options)
         self.fails(2, "at most 20", "--slide", "Surface 0", "--slide-rounds", "21", *options)
 
+    def test_surfaces_follow_by_the_surface_method(self):
+        out = self.folder / "out.vtu"
+        options = ("--move", "Surface 1", "--rotate", "z,20", "--scale", "1.1,0.9,1", BORE, out)
+        written = []
+        for method in ("WeightedResidual", "Smoothing", "MeshSmoothing"):
+            result = run("--surface-method", method, *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            written.append(out.read_bytes())
+        self.assertEqual(run(*options).returncode, 0)
+        self.assertEqual(out.read_bytes(), written[0])
+        self.assertNotEqual(written[0], written[1])
+        self.fails(2, "not 'Best'", "--surface-method", "Best", *options)
+        self.fails(2, "--surface-method needs --move", "--surface-method", "Smoothing",
+                   "--displacements", "moved.csv", BORE, out)
+
     def test_zones_and_layers_are_prescribed(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
         prescribed = []

@@ -327,6 +327,12 @@ class SolverFiles(unittest.TestCase):
                array.format("Int64", "connectivity", 1, "0 1 2 3") +
                array.format("Int64", "offsets", 1, "4") + array.format("UInt8", "types", 1, "9") +
                "</Cells></Piece></UnstructuredGrid></VTKFile>")
+        (self.folder / "m_0.vtu").write_text(vtu)
+        pieces = ('<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><PPoints>'
+                  '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
+                  '<Piece Source="m_0.vtu"/></PUnstructuredGrid></VTKFile>')
+        blocks = ('<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet>'
+                  '<DataSet index="0" file="m_0.vtu"/></vtkMultiBlockDataSet></VTKFile>')
         inp = "*NODE\n" + numbered + "*ELEMENT, TYPE={}\n1, 1, 2, 3, 4\n"
         bdf = "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(places))
         none = "is a volume cell"
@@ -338,7 +344,8 @@ class SolverFiles(unittest.TestCase):
                  "0 1 3\nNMARK= 0\n", "two-dimensional mesh: planar meshes are not morphed"),
                 ("m.msh", msh, "no volume elements: planar meshes"),
                 ("m.msh", msh4, "no volume elements: planar meshes"),
-                ("m.vtk", vtk, none), ("m.vtu", vtu, none)):
+                ("m.vtk", vtk, none), ("m.vtu", vtu, none), ("m.pvtu", pieces, none),
+                ("m.vtm", blocks, none)):
             with self.subTest(name=name, message=message):
                 path = self.folder / name
                 path.write_text(content)

@@ -55,7 +55,11 @@ void validate(Index numberOfNodes, const BoundaryFaces& faces, const std::vector
                 std::to_string(targets.rows()) + " new positions; each needs one.");
   }
   std::vector<Index> wrong, inside, twice, notFinite;
-  std::vector<std::uint8_t> seen(numberOfNodes, 0);
+  std::vector<std::uint8_t> seen(numberOfNodes, 0), isOuter(numberOfNodes, 0);
+  for (const Index node : faces.nodes)
+  {
+    isOuter[node] = 1;
+  }
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     const Index id = ids[i];
@@ -64,7 +68,7 @@ void validate(Index numberOfNodes, const BoundaryFaces& faces, const std::vector
       wrong.push_back(id);
       continue;
     }
-    if (!std::binary_search(faces.nodes.begin(), faces.nodes.end(), id))
+    if (!isOuter[id])
     {
       inside.push_back(id);
     }

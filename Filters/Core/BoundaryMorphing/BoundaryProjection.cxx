@@ -12,6 +12,11 @@ namespace morph
 {
 ProjectionTarget::~ProjectionTarget() = default;
 
+bool ProjectionTarget::holds(Index) const
+{
+  return true;
+}
+
 namespace
 {
 std::vector<Index> nodesIn(const BoundaryMotion& motion, BoundaryMotion::State state)

@@ -15,6 +15,8 @@ class ProjectionTarget
 public:
   using Row = Eigen::RowVector3d;
   virtual ~ProjectionTarget();
+  /// Whether the target says where nodes of surface number `surface` may be; it is so by default.
+  virtual bool holds(Index surface) const;
   /// Finds the point `y` of the target nearest to `x` for a node of surface number `surface` (see
   /// Classification). Its normal must fit `normal` (unit length, or zero where unknown). Returns
   /// false if none is near enough.

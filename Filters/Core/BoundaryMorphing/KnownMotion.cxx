@@ -37,12 +37,30 @@ KnownMotion::KnownMotion(const Classification& geometry, const BoundaryMotion& m
   for (const GeometrySurface& surface : geometry.surfaces)
   {
     this->ofSurface_.push_back(knownOf(surface.nodes, motion));
-    this->surface_.push_back(this->sumOf(this->ofSurface_.back()));
+  }
+  this->surface_.resize(this->ofSurface_.size());
+}
+
+const MotionSums& KnownMotion::ofSurface(Index surface)
+{
+  std::optional<MotionSums>& sums = this->surface_[surface];
+  if (!sums)
+  {
+    sums = this->sumOf(this->ofSurface_[surface]);
+  }
+  return *sums;
+}
+
+void KnownMotion::sumBodies()
+{
+  if (!this->body_.empty())
+  {
+    return;
   }
   std::vector<std::vector<Index>> ofBody(1);
-  for (Index node : motion.known())
+  for (Index node : this->motion_.known())
   {
-    const std::size_t body = static_cast<std::size_t>(motion.bodyOfNode[node] + 1);
+    const std::size_t body = static_cast<std::size_t>(this->motion_.bodyOfNode[node] + 1);
     ofBody.resize(std::max(ofBody.size(), body + 1));
     ofBody[body].push_back(node);
   }
@@ -81,7 +99,7 @@ const MotionSums& KnownMotion::besides(const GeometryCurve& curve)
   {
     if (surface == order.begin())
     {
-      sums = this->surface_[*surface];
+      sums = this->ofSurface(*surface);
       continue;
     }
     std::vector<Index> others; // known nodes that the larger sets do not have
@@ -118,8 +136,9 @@ MotionSums KnownMotion::around(const GeometryCurve& curve)
   return more.empty() ? last : more;
 }
 
-MotionSums KnownMotion::around(Index body, const std::vector<Index>& nodes) const
+MotionSums KnownMotion::around(Index body, const std::vector<Index>& nodes)
 {
+  this->sumBodies();
   const std::size_t place = static_cast<std::size_t>(body + 1);
   const bool does = place < this->body_.size() && !this->body_[place].empty() &&
                     this->holds(this->body_[place], nodes);

@@ -4,17 +4,18 @@
 #include "BoundaryMorphing/MotionFit.h"
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace morph
 {
-/// The known displacements of a boundary, summed once by surface and by body. Curves and surfaces
-/// fit affine or rigid fields to these sums.
+/// The known displacements of a boundary, summed at most once by surface and by body, when they are
+/// asked for. Curves and surfaces fit affine or rigid fields to these sums.
 class KnownMotion
 {
 public:
-  /// Keeps references to both; `motion` must not change while the object is in use. Cost: one pass
-  /// over the surfaces' nodes.
+  /// Keeps references to both; `motion` must not change while the object is in use. Cost: a look at
+  /// the surfaces' nodes.
   KnownMotion(const Classification& geometry, const BoundaryMotion& motion);
 
   /// Returns the sums of the first set whose affine span (line, plane, space) contains the curve,
@@ -23,22 +24,26 @@ public:
   /// the curve's nodes; once for each set of adjacent surfaces, the nodes of all but the largest.
   MotionSums around(const GeometryCurve& curve);
   /// Returns the sums for other nodes on a body: of its known nodes, or of all. Cost: `nodes`.
-  MotionSums around(Index body, const std::vector<Index>& nodes) const;
+  MotionSums around(Index body, const std::vector<Index>& nodes);
 
   /// Returns the number of known nodes summed so far, a measure of the cost.
   Index summed() const { return this->summed_; }
 
 private:
   MotionSums sumOf(const std::vector<Index>& ids);
+  const MotionSums& ofSurface(Index surface);
+  /// Sums by body, unless that is done.
+  void sumBodies();
   const MotionSums& besides(const GeometryCurve& curve);
   bool holds(const MotionSums& sums, const std::vector<Index>& nodes) const;
 
   const BoundaryMotion& motion_;
   /// maximum distance of a node from an affine span that contains it
   double tolerance_ = 0;
-  std::vector<std::vector<Index>> ofSurface_; ///< #surfaces: the known nodes
-  std::vector<MotionSums> surface_;           ///< #surfaces
-  std::vector<MotionSums> body_; ///< one more than #bodies; the first has the nodes of no body
+  std::vector<std::vector<Index>> ofSurface_;      ///< #surfaces: the known nodes
+  std::vector<std::optional<MotionSums>> surface_; ///< #surfaces
+  /// one more than #bodies; the first has the nodes of no body; empty where not summed
+  std::vector<MotionSums> body_;
   MotionSums all_;
   std::map<std::vector<Index>, MotionSums> besides_; ///< by the adjacent surfaces of a curve
   Index summed_ = 0;

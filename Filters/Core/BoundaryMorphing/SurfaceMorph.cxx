@@ -112,7 +112,7 @@ SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classificatio
     }
     else if (moves && !free.empty())
     {
-      if (options.method == SurfaceMorphOptions::Method::HarmonicExtension && !options.linear)
+      if (options.method != SurfaceMorphOptions::Method::WeightedResidual && !options.linear)
       {
         extendHarmonically(faces, surface.faces, fixed, free, motion, monitor);
       }

@@ -14,8 +14,9 @@ struct SurfaceMorphOptions
 {
   enum class Method : std::uint8_t
   {
-    WeightedResidual, ///< the paper's choice: SurfaceResidual.h
-    HarmonicExtension ///< SurfaceHarmonicExtension.h
+    WeightedResidual,  ///< the paper's choice: SurfaceResidual.h
+    HarmonicExtension, ///< SurfaceHarmonicExtension.h
+    MeshSmoothing      ///< the same; then call smoothSurfaceMeshes()
   };
   Method method = Method::WeightedResidual;
   Index neighbors = 20; ///< number for the weighted residual, at least 1

@@ -2,6 +2,7 @@
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 
 #include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/MidNodes.h"
 #include "Mesh/GatherMap.h"
 
 #include <Eigen/Eigenvalues>
@@ -40,6 +41,7 @@ struct Corner
   Index node[3];               ///< the corner, the next node, the one before
   Eigen::Matrix2d restInverse; ///< of the two edges in the undeformed face's plane
   double area;                 ///< twice the undeformed triangle's
+  double weight;
 };
 
 class Improvement
@@ -116,9 +118,13 @@ private:
       const Plane plane = tangents(area.normalized());
       for (Index k = 0; k < size; ++k)
       {
-        Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0 };
+        Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0,
+          0 };
         const Eigen::Matrix2d D = edges(corner, this->motion_.rest, plane);
         corner.area = D.determinant();
+        // The corners of a triangle cover it three times, those of a quadrilateral twice. With
+        // these weights forces of an affine motion cancel between both, too.
+        corner.weight = corner.area / (size == 3 ? 3. : 2.);
         if (corner.area > 0)
         {
           corner.restInverse = D.inverse();
@@ -205,10 +211,11 @@ private:
         return sum;
       }
       const double square = J.squaredNorm();
-      sum.value += corner.area * square / (2 * chi);
+      sum.value += corner.weight * square / (2 * chi);
       Eigen::Matrix2d cofactor;
       cofactor << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
-      const Eigen::Matrix2d force = corner.area * (J / chi - square / (2 * chi * root) * cofactor) *
+      const Eigen::Matrix2d force = corner.weight *
+                                    (J / chi - square / (2 * chi * root) * cofactor) *
                                     corner.restInverse.transpose();
       sum.gradient += node == corner.node[1]   ? Eigen::Vector2d(force.col(0))
                       : node == corner.node[2] ? Eigen::Vector2d(force.col(1))
@@ -287,37 +294,18 @@ private:
   {
     const Points before = this->motion_.moved();
     std::vector<Index> moved;
-    const auto move = [&](Index node, const Row& to)
-    {
-      this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
-      moved.push_back(node);
-    };
     for (Index node : patch)
     {
       if (this->position_.row(node) != before.row(node))
       {
-        move(node, this->position_.row(node));
+        this->motion_.displacement.row(node) =
+          this->position_.row(node) - this->motion_.rest.row(node);
+        moved.push_back(node);
       }
     }
-    const Points shift = this->position_ - before;
-    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i)
-    {
-      const Index k = static_cast<Index>(i), node = this->faces_.nodes[i];
-      const Index *first = this->faces_.between.begin(k), *last = this->faces_.between.end(k);
-      Row mean = Row::Zero();
-      std::for_each(first, last,
-        [&](Index corner) { mean += shift.row(corner) / static_cast<double>(last - first); });
-      if (this->motion_.state[node] != BoundaryMotion::OnSurface || mean.isZero(0))
-      {
-        continue;
-      }
-      Row to = before.row(node) + mean;
-      if (!this->target_ || this->target_->closestOnSurface(
-                              this->geometry_.entity[node], Row(to), this->normal_.row(node), to))
-      {
-        move(node, to);
-      }
-    }
+    const std::vector<Index> between = carryMidNodes(
+      this->faces_, this->geometry_, this->target_, this->normal_, before, this->motion_);
+    moved.insert(moved.end(), between.begin(), between.end());
     std::sort(moved.begin(), moved.end());
     return moved;
   }

@@ -17,9 +17,11 @@ struct SurfaceSmoothing
 /// within two faces of a poor one, move along the surface. For up to 20 sweeps, each in turn lowers
 /// the sum, over the corners of its faces, of
 ///
-///   A |J|^2 / (2 chi(det J)),   chi(d) = (d + sqrt(d^2 + delta^2)) / 2.
+///   w |J|^2 / (2 chi(det J)),   chi(d) = (d + sqrt(d^2 + delta^2)) / 2.
 ///
-/// J is the corner's map from its undeformed shape in the tangent plane and A its undeformed area.
+/// J is the corner's map from its undeformed shape in the tangent plane. w is the area of its
+/// undeformed triangle over 3 in triangles and over 2 in quadrilaterals, whose corners cover them
+/// three times and twice. So affine images of surfaces with both are stationary, too.
 /// det J has the sign of the surface's normal, so a folded face counts as inverted. delta is 0 once
 /// all are positive. This is the mean ratio against the undeformed shape, regularised as in Escobar
 /// et al., CMAME 192 (2003) 2775-2787.

@@ -6,6 +6,7 @@
 #include "Energies/ConditionKernel.h"
 #include "Energies/FoldoverDensity.h"
 #include "Energies/FoldoverKernel.h"
+#include "Mesh/SimplicialDecomposition.h"
 
 namespace morph
 {
@@ -62,25 +63,67 @@ MORPH_SIMD_INLINE void storeAtPlaces(
   }
 }
 
-MORPH_SIMD_INLINE void inverseOf(const CellBatches::Tetrahedra& tetrahedra, SimdMatrix& inverse)
+/// The target cells of a batch.
+struct SimdTargets
 {
-  for (int j = 0; j < 3; ++j)
+  using Mask = long long __attribute__((vector_size(32)));
+  SimdVector x[8];
+  SimdDouble4 factor;
+  Mask included;
+
+  MORPH_SIMD_INLINE SimdTargets(const CellBatches& batches, Index batch)
+    : factor(load(batches.targets(batch).factor))
   {
-    for (int i = 0; i < 3; ++i)
+    const long long(&bits)[SimdWidth] = batches.targets(batch).included;
+    this->included = Mask{ bits[0], bits[1], bits[2], bits[3] };
+    const CellBatches::TargetCorners* corner = batches.targetCorners(batch);
+    const int n = batches.corners(batch);
+    for (int a = 0; a < n; ++a)
     {
-      inverse[j][i] = load(tetrahedra.inverse[3 * j + i]);
+      for (int i = 0; i < 3; ++i)
+      {
+        this->x[a][i] = load(corner[a].x[i]);
+      }
     }
   }
-}
+};
+
+/// A tetrahedron of each cell of a batch: the inverse of the target's edges, and the weight. Lanes
+/// that do not count have weight 0.
+struct SimdTarget
+{
+  SimdMatrix inverse;
+  SimdDouble4 weight;
+
+  MORPH_SIMD_INLINE SimdTarget(const SimdTargets& targets, const WeightedTet& tetrahedron, int t)
+  {
+    SimdMatrix D, normal;
+    edgesOf(targets.x, tetrahedron.corner, D);
+    cofactor(D, normal);
+    SimdDouble4 determinant;
+    dot(D[0], normal[0], determinant);
+    const SimdTargets::Mask counts = (targets.included & (1ll << t)) != 0;
+    const SimdDouble4 zero = {}, one = zero + 1.;
+    this->weight = counts ? tetrahedron.weight * targets.factor * determinant : zero;
+    const SimdDouble4 reciprocal = 1. / (counts ? determinant : one);
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        this->inverse[j][i] = normal[i][j] * reciprocal;
+      }
+    }
+  }
+};
 
 /// Computes J; it is the identity in lanes of weight 0, which keeps their numbers harmless.
-MORPH_SIMD_INLINE void jacobian(const SimdVector (&x)[8], const int* corner,
-  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& inverse, SimdMatrix& J)
+MORPH_SIMD_INLINE void jacobian(
+  const SimdVector (&x)[8], const int* corner, const SimdTarget& target, SimdMatrix& J)
 {
   SimdMatrix D;
   edgesOf(x, corner, D);
-  multiply(D, inverse, J);
-  const auto counts = load(tetrahedra.weight) > 0.;
+  multiply(D, target.inverse, J);
+  const auto counts = target.weight > 0.;
   const SimdDouble4 zero = {}, one = zero + 1.;
   for (int j = 0; j < 3; ++j)
   {
@@ -91,17 +134,16 @@ MORPH_SIMD_INLINE void jacobian(const SimdVector (&x)[8], const int* corner,
   }
 }
 
-MORPH_SIMD_INLINE void parametersOf(const FoldoverDensity& density,
-  const CellBatches::Tetrahedra& tetrahedra, Parameters<SimdDouble4>& parameters)
+MORPH_SIMD_INLINE void parametersOf(
+  const FoldoverDensity& density, Parameters<SimdDouble4>& parameters)
 {
-  parameters.theta = load(tetrahedra.theta);
+  parameters.theta = SimdDouble4{} + density.theta;
   parameters.epsilon = density.epsilon;
 }
 
 /// The same functions for each density: value, first derivatives times weight, and second ones.
-MORPH_SIMD_INLINE void valueAt(const FoldoverDensity& density,
-  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, SimdDouble4& determinant,
-  SimdDouble4& value)
+MORPH_SIMD_INLINE void valueAt(
+  const FoldoverDensity& density, const SimdMatrix& J, SimdDouble4& determinant, SimdDouble4& value)
 {
   SimdVector normal;
   cross(J[1], J[2], normal);
@@ -109,12 +151,12 @@ MORPH_SIMD_INLINE void valueAt(const FoldoverDensity& density,
   SimdDouble4 square;
   squaredNorm(J, square);
   Parameters<SimdDouble4> parameters;
-  parametersOf(density, tetrahedra, parameters);
+  parametersOf(density, parameters);
   foldover::density(parameters, square, determinant, value);
 }
 
-MORPH_SIMD_INLINE void valueAt(const ConditionDensity&, const CellBatches::Tetrahedra&,
-  const SimdMatrix& J, SimdDouble4& determinant, SimdDouble4& value)
+MORPH_SIMD_INLINE void valueAt(
+  const ConditionDensity&, const SimdMatrix& J, SimdDouble4& determinant, SimdDouble4& value)
 {
   SimdMatrix normal;
   cofactor(J, normal);
@@ -125,8 +167,8 @@ MORPH_SIMD_INLINE void valueAt(const ConditionDensity&, const CellBatches::Tetra
   condition::density(square, cofactors, determinant, value);
 }
 
-MORPH_SIMD_INLINE void slopeAt(const FoldoverDensity& density,
-  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, SimdMatrix& slope)
+MORPH_SIMD_INLINE void slopeAt(
+  const FoldoverDensity& density, const SimdDouble4& weight, const SimdMatrix& J, SimdMatrix& slope)
 {
   SimdMatrix normal;
   cofactor(J, normal);
@@ -134,10 +176,9 @@ MORPH_SIMD_INLINE void slopeAt(const FoldoverDensity& density,
   dot(J[0], normal[0], determinant);
   squaredNorm(J, square);
   Parameters<SimdDouble4> parameters;
-  parametersOf(density, tetrahedra, parameters);
+  parametersOf(density, parameters);
   Derivatives<SimdDouble4> d;
   derivatives(parameters, square, determinant, d);
-  const SimdDouble4 weight = load(tetrahedra.weight);
   const SimdDouble4 byNorm = 2. * weight * d.I, byVolume = weight * d.D;
   for (int j = 0; j < 3; ++j)
   {
@@ -148,12 +189,11 @@ MORPH_SIMD_INLINE void slopeAt(const FoldoverDensity& density,
   }
 }
 
-MORPH_SIMD_INLINE void slopeAt(const ConditionDensity&, const CellBatches::Tetrahedra& tetrahedra,
-  const SimdMatrix& J, SimdMatrix& slope)
+MORPH_SIMD_INLINE void slopeAt(
+  const ConditionDensity&, const SimdDouble4& weight, const SimdMatrix& J, SimdMatrix& slope)
 {
   SimdDouble4 value;
   condition::gradient(J, value, slope);
-  const SimdDouble4 weight = load(tetrahedra.weight);
   for (int j = 0; j < 3; ++j)
   {
     for (int i = 0; i < 3; ++i)
@@ -163,17 +203,16 @@ MORPH_SIMD_INLINE void slopeAt(const ConditionDensity&, const CellBatches::Tetra
   }
 }
 
-MORPH_SIMD_INLINE void curvatureAt(const FoldoverDensity& density,
-  const CellBatches::Tetrahedra& tetrahedra, const SimdMatrix& J, const SimdMatrix& g,
-  SimdMatrix (&block)[3][3])
+MORPH_SIMD_INLINE void curvatureAt(const FoldoverDensity& density, const SimdMatrix& J,
+  const SimdMatrix& g, SimdMatrix (&block)[3][3])
 {
   Parameters<SimdDouble4> parameters;
-  parametersOf(density, tetrahedra, parameters);
+  parametersOf(density, parameters);
   hessian(parameters, J, g, block);
 }
 
-MORPH_SIMD_INLINE void curvatureAt(const ConditionDensity&, const CellBatches::Tetrahedra&,
-  const SimdMatrix& J, const SimdMatrix& g, SimdMatrix (&block)[3][3])
+MORPH_SIMD_INLINE void curvatureAt(
+  const ConditionDensity&, const SimdMatrix& J, const SimdMatrix& g, SimdMatrix (&block)[3][3])
 {
   condition::hessian(J, g, block);
 }

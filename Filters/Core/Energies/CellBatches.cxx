@@ -98,30 +98,32 @@ bool CellBatches::moves(Index batch, int lane, const int* corner) const
 
 void CellBatches::setTargets(const TargetMatrices& targets)
 {
-  this->target_.clear();
+  this->theta_ = targets.theta;
+  this->target_.assign(this->size(), Targets{});
+  this->targetCorner_.assign(this->places() / SimdWidth, TargetCorners{});
   for (Index index = 0; index < this->size(); ++index)
   {
-    Batch& batch = this->batches_[index];
-    batch.firstTarget = static_cast<Index>(this->target_.size());
+    const Batch& batch = this->batches_[index];
     const SimplicialDecomposition parts = simplicialDecomposition(batch.shape);
-    this->target_.resize(this->target_.size() + parts.count, Tetrahedra{});
+    TargetCorners* to = this->targetCorner_.data() + batch.firstPlace / SimdWidth;
     for (int lane = 0; lane < batch.cells; ++lane)
     {
-      const Index c = batch.cell[lane], first = targets.start[c];
-      for (Index t = 0; t < targets.start[c + 1] - first; ++t)
+      const Index c = batch.cell[lane];
+      this->target_[index].factor[lane] = targets.factor[c];
+      for (int t = 0; t < parts.count; ++t)
       {
-        const TargetMatrices::Tetrahedron& from = targets.tetrahedra[first + t];
-        if (!(from.weight > 0 && this->moves(index, lane, parts.tets[t].corner)))
+        if (targets.includes(c, t) && this->moves(index, lane, parts.tets[t].corner))
         {
-          continue;
+          this->target_[index].included[lane] |= 1ll << t;
         }
-        Tetrahedra& to = this->target_[batch.firstTarget + t];
-        for (int i = 0; i < 9; ++i)
+      }
+      const double* from = targets.corners.data() + 3 * targets.start[c];
+      for (int a = 0; a < numberOfCorners(batch.shape); ++a)
+      {
+        for (int i = 0; i < 3; ++i)
         {
-          to.inverse[i][lane] = from.inverse[i];
+          to[a].x[i][lane] = from[3 * a + i];
         }
-        to.weight[lane] = from.weight;
-        to.theta[lane] = from.theta;
       }
     }
   }

@@ -12,15 +12,20 @@ namespace morph
 {
 /// Cells with a free node in batches of four of one shape, so that a formula runs on four
 /// tetrahedra at once. The last batch of a shape may have fewer cells: its spare lanes repeat the
-/// first cell with weight 0.
+/// first cell, and nothing counts there.
 class CellBatches
 {
 public:
-  /// One tetrahedron of each cell of a batch. Lanes of weight 0 have no effect.
-  struct Tetrahedra
+  /// The target cells of a batch, see TargetMatrices; their corners follow elsewhere.
+  struct Targets
   {
-    double inverse[9][SimdWidth]; ///< of the target matrix, by columns
-    double weight[SimdWidth], theta[SimdWidth];
+    double factor[SimdWidth];
+    long long included[SimdWidth]; ///< bit t: tetrahedron t counts
+  };
+  /// One corner of the target cells of a batch.
+  struct TargetCorners
+  {
+    double x[3][SimdWidth];
   };
 
   /// `free`: ids of the nodes that move, in the order of the rows. An order that keeps neighbors
@@ -29,7 +34,7 @@ public:
   /// Only the volume cells with the ids `cells`.
   CellBatches(const Mesh& mesh, const std::vector<Index>& free, const std::vector<Index>& cells);
 
-  /// Tetrahedra without a free node get weight 0, as they are constant.
+  /// Tetrahedra without a free node are left out, as they are constant.
   void setTargets(const TargetMatrices& targets);
 
   Index size() const { return static_cast<Index>(this->batches_.size()); }
@@ -54,10 +59,13 @@ public:
   /// Whether the tetrahedron of these four corners in this lane of the batch has a free node.
   bool moves(Index batch, int lane, const int* corner) const;
 
-  const Tetrahedra* targets(Index batch) const
+  const Targets& targets(Index batch) const { return this->target_[batch]; }
+  /// One for each corner of the shape.
+  const TargetCorners* targetCorners(Index batch) const
   {
-    return this->target_.data() + this->batches_[batch].firstTarget;
+    return this->targetCorner_.data() + this->firstPlace(batch) / SimdWidth;
   }
+  double theta() const { return this->theta_; }
 
 private:
   struct Batch
@@ -65,7 +73,7 @@ private:
     Shape shape;
     int cells;
     Index cell[SimdWidth]; ///< ids
-    Index firstPlace, firstTarget;
+    Index firstPlace;
   };
   void addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& row, Batch& batch);
 
@@ -73,6 +81,8 @@ private:
   std::vector<std::int32_t> node_, row_;
   std::vector<std::int32_t> batchOf_; ///< of each corner
   Adjacency uses_;
-  std::vector<Tetrahedra> target_;
+  std::vector<Targets> target_;             ///< of each batch
+  std::vector<TargetCorners> targetCorner_; ///< as batchOf_
+  double theta_ = 0;
 };
 }

@@ -40,18 +40,18 @@ struct BatchEnergy
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
     const SimplicialDecomposition parts = simplicialDecomposition(batches.shape(batch));
-    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
+    const SimdTargets targets(batches, batch);
     const SimdDouble4 zero = {};
     const SimdDouble4 one = zero + 1.;
     SimdDouble4 energy = {}, inverted = {}, least = zero + std::numeric_limits<double>::infinity();
-    for (int t = 0; t < parts.count; ++t, ++tetrahedra)
+    for (int t = 0; t < parts.count; ++t)
     {
-      SimdMatrix inverse, J;
-      inverseOf(*tetrahedra, inverse);
-      jacobian(x, parts.tets[t].corner, *tetrahedra, inverse, J);
+      const SimdTarget target(targets, parts.tets[t], t);
+      SimdMatrix J;
+      jacobian(x, parts.tets[t].corner, target, J);
       SimdDouble4 determinant, value;
-      valueAt(density, *tetrahedra, J, determinant, value);
-      const SimdDouble4 weight = load(tetrahedra->weight);
+      valueAt(density, J, determinant, value);
+      const SimdDouble4& weight = target.weight;
       energy += weight * value;
       least = ((weight > 0.) & (determinant < least)) ? determinant : least;
       inverted += ((weight > 0.) & (determinant <= 0.)) ? one : zero;
@@ -73,14 +73,15 @@ struct BatchGradient
     SimdVector x[8], sum[8] = {};
     cornersOf(batches, batch, points, x);
     const SimplicialDecomposition decomposition = simplicialDecomposition(batches.shape(batch));
-    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
-    for (int t = 0; t < decomposition.count; ++t, ++tetrahedra)
+    const SimdTargets targets(batches, batch);
+    for (int t = 0; t < decomposition.count; ++t)
     {
       const int* corner = decomposition.tets[t].corner;
-      SimdMatrix inverse, J, slope;
-      inverseOf(*tetrahedra, inverse);
-      jacobian(x, corner, *tetrahedra, inverse, J);
-      slopeAt(density, *tetrahedra, J, slope);
+      const SimdTarget target(targets, decomposition.tets[t], t);
+      const SimdMatrix& inverse = target.inverse;
+      SimdMatrix J, slope;
+      jacobian(x, corner, target, J);
+      slopeAt(density, target.weight, J, slope);
       for (int i = 0; i < 3; ++i)
       {
         SimdDouble4 all = {};

@@ -23,20 +23,24 @@ public:
   MeshEnergy(const Mesh& mesh, const std::vector<Index>& free,
     const Communicator& communicator = Communicator::alone());
 
-  /// Sets the tetrahedra's target matrices, weights and theta; required before the functions below.
-  /// Tetrahedra of weight 0 are left out. Memory: 88 bytes a tetrahedron.
-  void setTargets(const TargetMatrices& targets) { this->batches_.setTargets(targets); }
+  /// Sets the target shapes, weights and theta; required before the functions below.
+  /// Memory: 24 bytes a corner of each cell.
+  void setTargets(const TargetMatrices& targets)
+  {
+    this->batches_.setTargets(targets);
+    this->density_.theta = targets.theta;
+  }
   /// Sets the regularisation; theta is that of the targets. With a regularisation below 1e-9 no
   /// step may end with an inverted tetrahedron.
   void setDensity(const FoldoverDensity& density)
   {
-    this->density_ = density;
+    this->density_.epsilon = density.epsilon;
     this->isCondition_ = false;
   }
   /// Takes the condition number, in which theta has no part. No step may end with an inverted
   /// tetrahedron.
   void setDensity(const ConditionDensity&) { this->isCondition_ = true; }
-  /// The foldover-free density that was last set.
+  /// The foldover-free density that was last set, with the targets' theta.
   const FoldoverDensity& density() const { return this->density_; }
 
   struct State

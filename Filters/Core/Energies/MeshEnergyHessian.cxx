@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/CellBatchKernel.h"
 #include "Energies/MeshEnergy.h"
+#include "Support/Error.h"
 #include "Support/SimdDispatch.h"
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
+#include <limits>
+#include <string>
 
 namespace morph
 {
@@ -91,10 +93,11 @@ struct BatchHessian
       sum[k] = {};
     }
     const SimplicialDecomposition parts = simplicialDecomposition(batches.shape(batch));
-    const CellBatches::Tetrahedra* tetrahedra = batches.targets(batch);
-    for (int t = 0; t < parts.count; ++t, ++tetrahedra)
+    const SimdTargets targets(batches, batch);
+    for (int t = 0; t < parts.count; ++t)
     {
-      addTetrahedra(x, parts.tets[t].corner, *tetrahedra, density, n, sum);
+      const SimdTarget target(targets, parts.tets[t], t);
+      addTetrahedra(x, parts.tets[t].corner, target, density, n, sum);
     }
     SimdFloat4 entries[9 * blocksOf(8)];
     for (Index k = 0; k < blocksOf(n); ++k)
@@ -113,19 +116,18 @@ struct BatchHessian
 private:
   template <typename Density>
   static MORPH_SIMD_INLINE void addTetrahedra(const SimdVector (&x)[8], const int* corner,
-    const CellBatches::Tetrahedra& tetrahedra, const Density& density, int n, SimdMatrix* sum)
+    const SimdTarget& target, const Density& density, int n, SimdMatrix* sum)
   {
-    SimdMatrix inverse, J, g, block[3][3];
-    inverseOf(tetrahedra, inverse);
-    jacobian(x, corner, tetrahedra, inverse, J);
+    SimdMatrix J, g, block[3][3];
+    jacobian(x, corner, target, J);
     for (int j = 0; j < 3; ++j)
     {
       for (int i = 0; i < 3; ++i)
       {
-        g[j][i] = inverse[i][j];
+        g[j][i] = target.inverse[i][j];
       }
     }
-    curvatureAt(density, tetrahedra, J, g, block);
+    curvatureAt(density, J, g, block);
     SimdDouble4 most = {};
     for (int a = 0; a < 3; ++a)
     {
@@ -135,7 +137,7 @@ private:
       }
     }
     const SimdDouble4 weight =
-      load(tetrahedra.weight) * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
+      target.weight * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
 
     // A translation changes nothing: the blocks of corner 0 follow from the others.
     SimdMatrix first = {};
@@ -183,10 +185,28 @@ void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
   BlockPattern pattern;
   pattern.offsets.reserve(rows + 1);
   pattern.placeOffsets.reserve(rows + 1);
-  Index places = 0;
-  for (const Index use : this->batches_.uses().values)
+  // Calls add(column) for each corner of the row's cells from the row on.
+  const auto forUpper = [&](Index i, const auto& add)
   {
-    places += this->batches_.corners(this->batches_.batchOf(use));
+    for (const Index* use = this->batches_.uses().begin(i); use != this->batches_.uses().end(i);
+         ++use)
+    {
+      const Index batch = this->batches_.batchOf(*use), first = this->batches_.firstPlace(batch);
+      const Index lane = (*use - first) % SimdWidth;
+      for (int a = 0; a < this->batches_.corners(batch); ++a)
+      {
+        const std::int32_t column = this->batches_.row(first + a * SimdWidth + lane);
+        if (column >= i)
+        {
+          add(column);
+        }
+      }
+    }
+  };
+  Index places = 0;
+  for (Index i = 0; i < rows; ++i)
+  {
+    forUpper(i, [&](std::int32_t) { ++places; });
   }
   pattern.places.reserve(places);
   std::vector<std::int32_t> row, found;
@@ -197,25 +217,21 @@ void MeshEnergy::openMatrix(BlockCsr3f& matrix, Monitor& monitor) const
       monitor.check();
     }
     found.clear();
-    for (const Index* use = this->batches_.uses().begin(i); use != this->batches_.uses().end(i);
-         ++use)
-    {
-      const Index batch = this->batches_.batchOf(*use), first = this->batches_.firstPlace(batch);
-      const Index lane = (*use - first) % SimdWidth;
-      for (int a = 0; a < this->batches_.corners(batch); ++a)
-      {
-        found.push_back(this->batches_.row(first + a * SimdWidth + lane));
-      }
-    }
-    row.assign(1, static_cast<std::int32_t>(i));
-    std::copy_if(found.begin(), found.end(), std::back_inserter(row),
-      [](std::int32_t column) { return column >= 0; });
+    forUpper(i, [&](std::int32_t column) { found.push_back(column); });
+    row = found;
+    row.push_back(static_cast<std::int32_t>(i));
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
+    if (row.size() > std::numeric_limits<std::uint16_t>::max())
+    {
+      throw Error(Error::Kind::InvalidInput,
+        "Node id " + std::to_string(this->free_[i]) +
+          " has more than 65,535 neighbors, which is too many for Newton's method.");
+    }
     for (std::int32_t column : found)
     {
       const auto place = std::lower_bound(row.begin(), row.end(), column) - row.begin();
-      pattern.places.push_back(column < 0 ? -1 : static_cast<std::int32_t>(place));
+      pattern.places.push_back(static_cast<std::uint16_t>(place));
     }
     pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
     pattern.offsets.push_back(static_cast<Index>(pattern.columns.size()));
@@ -275,7 +291,7 @@ private:
     const Adjacency& uses = this->batches_.uses();
     Used& used = this->used_[row];
     const Index *firstUse = uses.begin(row) + used.uses, *use = firstUse;
-    const std::int32_t *firstPlace = this->matrix_.places(row) + used.places, *place = firstPlace;
+    const std::uint16_t *firstPlace = this->matrix_.places(row) + used.places, *place = firstPlace;
     float* out = this->matrix_.blocks(row);
     for (; use != uses.end(row) && *use < endPlace; ++use)
     {
@@ -283,13 +299,14 @@ private:
       const int n = this->batches_.corners(batch);
       const Index own = (*use - first) / SimdWidth, lane = (*use - first) % SimdWidth;
       const float* cell = blocks.data() + start[batch - begin] + lane * 9 * blocksOf(n);
-      for (Index other = 0; other < n; ++other, ++place)
+      for (Index other = 0; other < n; ++other)
       {
-        if (*place < 0)
+        if (this->batches_.row(first + other * SimdWidth + lane) < row)
         {
           continue;
         }
         float* block = out + 9 * static_cast<Index>(*place);
+        ++place;
         const float* in = cell + 9 * blockOf(std::min(own, other), std::max(own, other), n);
         for (Index j = 0; j < 3; ++j)
         {
@@ -317,6 +334,7 @@ void MeshEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
     this->openMatrix(result, monitor);
   }
   result.setZero();
+  this->parts_.resize(0, 3); // the solution of a system needs its memory more
   BlockGatherer gatherer(this->batches_, result);
   std::vector<Index> start(BatchesInPiece + 1, 0);
   std::vector<float> blocks;

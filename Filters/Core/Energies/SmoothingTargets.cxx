@@ -51,31 +51,26 @@ TargetMatrices idealTargets(
 {
   const std::vector<double> volume = volumes(rest, communicator);
   TargetMatrices result;
-  result.start.assign(1, 0);
+  result.open(rest);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
     const Shape shape = cellShape(rest.types[c])->shape;
     const int corners = cornerTetrahedra(shape);
-    const CellCorners unit = idealShape(shape, Eigen::Vector3d::Ones());
-    double x[8][3];
-    std::copy(unit.data(), unit.data() + unit.size(), x[0]);
-    const double size = corners > 0 ? std::cbrt(volume[c] / std::abs(signedVolume(shape, x))) : 1;
-    for (int t = 0; t < corners; ++t)
+    if (corners == 0)
     {
-      const int* corner = simplicialDecomposition(shape).tets[t].corner;
-      Eigen::Matrix3d D;
-      for (int k = 0; k < 3; ++k)
-      {
-        D.col(k) = size * (unit.col(corner[k + 1]) - unit.col(corner[0]));
-      }
-      D.row(0) *= orientation[c];
-      TargetMatrices::Tetrahedron tetrahedron;
-      Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
-      tetrahedron.weight = 1. / corners;
-      tetrahedron.theta = 0;
-      result.tetrahedra.push_back(tetrahedron);
+      continue;
     }
-    result.start.push_back(static_cast<Index>(result.tetrahedra.size()));
+    CellCorners ideal = idealShape(shape, Eigen::Vector3d::Ones());
+    double x[8][3];
+    std::copy(ideal.data(), ideal.data() + ideal.size(), x[0]);
+    ideal *= std::cbrt(volume[c] / std::abs(signedVolume(shape, x)));
+    ideal.row(0) *= orientation[c];
+    std::copy(ideal.data(), ideal.data() + 3 * numberOfCorners(shape),
+      result.corners.data() + 3 * result.start[c]);
+    // The corners' tetrahedra are alike, and each has the same share of a weight of 1.
+    const WeightedTet& first = simplicialDecomposition(shape).tets[0];
+    result.factor[c] = 1 / (corners * first.weight * result.edges(c, first).determinant());
+    result.included[c] = (1u << corners) - 1;
   }
   return result;
 }
@@ -90,10 +85,7 @@ TargetMatrices smoothingTargets(const Mesh& rest, const std::vector<std::int8_t>
   }
   TargetMatrices result = targetMatrices(rest, orientation, rest.points,
     TargetConstruction::Initial, CellWeights::Volume, monitor, communicator);
-  for (TargetMatrices::Tetrahedron& tetrahedron : result.tetrahedra)
-  {
-    tetrahedron.theta = 0;
-  }
+  result.theta = 0;
   return result;
 }
 }

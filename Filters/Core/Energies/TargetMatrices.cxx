@@ -122,7 +122,12 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const CellCorners& x)
   return D;
 }
 
-std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, Index tetrahedron)
+SimplicialDecomposition partsOf(const Mesh& mesh, Index cell)
+{
+  return simplicialDecomposition(cellShape(mesh.types[cell])->shape);
+}
+
+std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, int tetrahedron)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
   return nodesAt(mesh, cell, shape, simplicialDecomposition(shape.shape).tets[tetrahedron].corner);
@@ -234,26 +239,45 @@ CellCorners idealShape(Shape shape, const Eigen::Vector3d& length)
   return x;
 }
 
+Eigen::Matrix3d TargetMatrices::edges(Index cell, const WeightedTet& tetrahedron) const
+{
+  const Eigen::Map<const Eigen::Matrix3Xd> x(
+    this->corners.data() + 3 * this->start[cell], 3, this->start[cell + 1] - this->start[cell]);
+  Eigen::Matrix3d D;
+  for (int k = 0; k < 3; ++k)
+  {
+    D.col(k) = x.col(tetrahedron.corner[k + 1]) - x.col(tetrahedron.corner[0]);
+  }
+  return D;
+}
+
+void TargetMatrices::open(const Mesh& mesh)
+{
+  this->start.assign(1, 0);
+  this->start.reserve(mesh.numberOfCells() + 1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    this->start.push_back(this->start.back() + numberOfCorners(cellShape(mesh.types[c])->shape));
+  }
+  this->corners.assign(3 * this->start.back(), 0);
+  this->factor.assign(mesh.numberOfCells(), 0);
+  this->included.assign(mesh.numberOfCells(), 0);
+}
+
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor,
   const Communicator& communicator)
 {
   const Index cells = rest.numberOfCells();
   TargetMatrices result;
-  result.start.assign(cells + 1, 0);
-  for (Index c = 0; c < cells; ++c)
-  {
-    result.start[c + 1] =
-      result.start[c] + simplicialDecomposition(cellShape(rest.types[c])->shape).count;
-  }
-  result.tetrahedra.resize(result.start.back());
+  result.open(rest);
   const bool tetrahedraAlone = communicator.all(std::all_of(rest.types.begin(), rest.types.end(),
     [](std::uint8_t type)
     {
       const Shape shape = cellShape(type)->shape;
       return shape == Shape::Tet || numberOfCorners(shape) == 0;
     }));
-  const double theta = tetrahedraAlone ? 0.5 : 0.1;
+  result.theta = tetrahedraAlone ? 0.5 : 0.1;
   const std::vector<char> valid = validCells(rest, orientation, monitor);
   const bool allValid = [&]
   {
@@ -295,35 +319,46 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
         const SimplicialDecomposition parts = simplicialDecomposition(shape);
         const double mean = meanVolume(parts, x), least = LeastVolume * mean;
         const double unit = weights == CellWeights::Volume ? 1 : mean;
+        result.factor[c] = sign / (6 * unit);
+        const Index corner = result.start[c];
+        std::copy(x.data(), x.data() + 3 * (result.start[c + 1] - corner),
+          result.corners.data() + 3 * corner);
         for (int t = 0; t < parts.count; ++t)
         {
-          TargetMatrices::Tetrahedron& tetrahedron = result.tetrahedra[result.start[c] + t];
-          tetrahedron = {};
-          const Eigen::Matrix3d D = edges(parts.tets[t], x);
-          const double volume = sign * D.determinant() / 6;
-          if (t >= cornerTetrahedra(shape) && !(volume > least))
+          const double volume = sign * edges(parts.tets[t], x).determinant() / 6;
+          if (volume > (t < cornerTetrahedra(shape) ? 0 : least))
           {
-            continue;
+            result.included[c] |= 1u << t;
           }
-          Eigen::Map<Eigen::Matrix3d>(tetrahedron.inverse) = D.inverse();
-          tetrahedron.theta = theta;
-          tetrahedron.weight = parts.tets[t].weight * volume / unit;
         }
       }
     });
 
-  const double total =
-    communicator.sum(reproducibleSum(static_cast<Index>(result.tetrahedra.size()), monitor, 0.,
-      [&](Index t) { return result.tetrahedra[t].weight; }));
-  const auto count = communicator.sum(static_cast<double>(result.tetrahedra.size()));
-  monitor.parallelFor(static_cast<Index>(result.tetrahedra.size()), Grain,
-    [&](Index first, Index last)
+  // The mean over all tetrahedra becomes 1.
+  const double total = communicator.sum(reproducibleSum(cells, monitor, 0.,
+    [&](Index c)
     {
-      for (Index t = first; t < last; ++t)
+      const SimplicialDecomposition parts = partsOf(rest, c);
+      double sum = 0;
+      for (int t = 0; t < parts.count; ++t)
       {
-        result.tetrahedra[t].weight *= count / total;
+        if (result.includes(c, t))
+        {
+          sum += parts.tets[t].weight * result.edges(c, parts.tets[t]).determinant();
+        }
       }
-    });
+      return sum * result.factor[c];
+    }));
+  Index count = 0;
+  for (Index c = 0; c < cells; ++c)
+  {
+    count += partsOf(rest, c).count;
+  }
+  const double scale = communicator.sum(static_cast<double>(count)) / total;
+  for (double& factor : result.factor)
+  {
+    factor *= scale;
+  }
   return result;
 }
 
@@ -335,14 +370,14 @@ void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
     const Index c = faces.cells[f];
     const Index* first = faces.connectivity.data() + faces.offsets[f];
     const Index* last = faces.connectivity.data() + faces.offsets[f + 1];
-    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    for (int t = 0; t < partsOf(mesh, c).count; ++t)
     {
-      const std::array<Index, 4> nodes = nodesOf(mesh, c, t - targets.start[c]);
+      const std::array<Index, 4> nodes = nodesOf(mesh, c, t);
       const auto onFace = std::count_if(nodes.begin(), nodes.end(),
         [&](Index node) { return std::find(first, last, node) != last; });
       if (onFace >= 3)
       {
-        targets.tetrahedra[t].weight = 0;
+        targets.exclude(c, t);
       }
     }
   }
@@ -350,15 +385,14 @@ void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
 
 namespace
 {
-bool isPositive(
-  const std::array<Index, 4>& node, const TargetMatrices::Tetrahedron& target, const Points& points)
+bool isPositive(const std::array<Index, 4>& node, double sign, const Points& points)
 {
   Eigen::Matrix3d D;
   for (int k = 0; k < 3; ++k)
   {
     D.col(k) = (points.row(node[k + 1]) - points.row(node[0])).transpose();
   }
-  return (D * Eigen::Map<const Eigen::Matrix3d>(target.inverse)).determinant() > 0;
+  return sign * D.determinant() > 0;
 }
 }
 
@@ -369,10 +403,10 @@ std::vector<Index> tangledCells(
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     bool tangled = false;
-    for (Index t = targets.start[c]; t < targets.start[c + 1] && !tangled; ++t)
+    for (int t = 0; t < partsOf(mesh, c).count && !tangled; ++t)
     {
-      tangled = targets.tetrahedra[t].weight > 0 &&
-                !isPositive(nodesOf(mesh, c, t - targets.start[c]), targets.tetrahedra[t], points);
+      tangled =
+        targets.includes(c, t) && !isPositive(nodesOf(mesh, c, t), targets.factor[c], points);
     }
     if (tangled)
     {
@@ -388,15 +422,14 @@ Index excludeInvertedAtFixedNodes(
   Index dropped = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    for (Index t = targets.start[c]; t < targets.start[c + 1]; ++t)
+    for (int t = 0; t < partsOf(mesh, c).count; ++t)
     {
-      TargetMatrices::Tetrahedron& tetrahedron = targets.tetrahedra[t];
-      const std::array<Index, 4> node = nodesOf(mesh, c, t - targets.start[c]);
-      if (tetrahedron.weight > 0 &&
+      const std::array<Index, 4> node = nodesOf(mesh, c, t);
+      if (targets.includes(c, t) &&
           std::count_if(node.begin(), node.end(), [&](Index n) { return isFixed[n] != 0; }) >= 2 &&
-          !isPositive(node, tetrahedron, points))
+          !isPositive(node, targets.factor[c], points))
       {
-        tetrahedron.weight = 0;
+        targets.exclude(c, t);
         ++dropped;
       }
     }

@@ -3,10 +3,14 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
+#include <Eigen/Core>
+
+#include <cstdint>
 #include <vector>
 
 namespace morph
@@ -36,23 +40,30 @@ using CellCorners = Eigen::Matrix<double, 3, 8>;
 /// axes. Its corners are in VTK's order.
 CellCorners idealShape(Shape shape, const Eigen::Vector3d& lengths);
 
-/// Target matrices of all cells: for each tetrahedron of the averaged simplicial decompositions,
-/// the inverse of its target and a weight.
+/// Target matrices of all cells, kept as the corners of each target cell. Its tetrahedra are those
+/// of the averaged simplicial decomposition. J = [x1 - x0, x2 - x0, x3 - x0] times the inverse of
+/// the same edges of the target is the identity for the target's shape and size. All matrices of a
+/// hexahedron would take four times as much memory as its corners.
 struct TargetMatrices
 {
-  /// One tetrahedron: J = [x1 - x0, x2 - x0, x3 - x0] inverse(t) is the identity for the target's
-  /// shape and size. The corners are those of the same entry in the shape's
-  /// simplicialDecomposition(). A cell has the first of these tetrahedra or all.
-  struct Tetrahedron
+  std::vector<Index> start{ 0 }; ///< #cells + 1: the first corner of each volume cell
+  std::vector<double> corners;   ///< three numbers a corner, in the order of the shape
+  /// #cells. A tetrahedron's weight is this, times its weight in the decomposition, times the
+  /// determinant of the target's edges. The mean over all is 1; with CellWeights::Equal a cell's
+  /// sum does not depend on its volume. It has the sign of the cell.
+  std::vector<double> factor;
+  std::vector<std::uint32_t> included; ///< #cells: bit t is set unless tetrahedron t is left out
+  double theta = 0; ///< of FoldoverDensity: 0.5 in meshes of tetrahedra alone, 0.1 in others
+
+  bool includes(Index cell, int tetrahedron) const
   {
-    double inverse[9]; ///< column major
-    /// decomposition weight times target volume, with CellWeights::Equal in units of the cell's
-    /// mean; the mean over all is 1
-    double weight;
-    double theta; ///< of FoldoverDensity: 0.5 in tetrahedral cells, 0.1 in others
-  };
-  std::vector<Index> start; ///< #cells + 1
-  std::vector<Tetrahedron> tetrahedra;
+    return (this->included[cell] >> tetrahedron & 1u) != 0;
+  }
+  void exclude(Index cell, int tetrahedron) { this->included[cell] &= ~(1u << tetrahedron); }
+  /// The target's edges from the tetrahedron's first corner, by columns.
+  Eigen::Matrix3d edges(Index cell, const WeightedTet& tetrahedron) const;
+  /// Makes room for the corners of a mesh's cells, with all tetrahedra left out.
+  void open(const Mesh& mesh);
 };
 
 /// Computes the target matrices of a mesh. `orientation`: #cells, see cellSigns() in Topology.h;
@@ -60,23 +71,23 @@ struct TargetMatrices
 /// the sums of parallel edges, within [1/20, 20]; tetrahedra are as for Initial. Initial and
 /// Stretched cannot use an undeformed cell with a scaled Jacobian of 1e-3 or less. It takes
 /// IdealSkew with the edge lengths of its valid undeformed neighbors. Inner tetrahedra of a valid
-/// cell that are not positive have weight 0. On several processes `rest` has the cells of this one,
-/// and neighbors are those of this one. Cost: one pass, 96 bytes a tetrahedron (ten a hexahedron).
+/// cell that are not positive are left out. On several processes `rest` has the cells of this one,
+/// and neighbors are those of this one. Cost: one pass, 24 bytes a corner of each cell.
 TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const Points& guide, TargetConstruction target, CellWeights weights, Monitor& monitor,
   const Communicator& communicator = Communicator::alone());
 
-/// Sets weight 0 for tetrahedra with three corners on one of the boundary `faces` numbered in
+/// Leaves out the tetrahedra with three corners on one of the boundary `faces` numbered in
 /// `folded`. On a folded face, either these tetrahedra or their neighbors are inverted.
 void excludeOnFoldedFaces(const Mesh& mesh, const BoundaryFaces& faces,
   const std::vector<Index>& folded, TargetMatrices& targets);
 
-/// Returns the cells with a tetrahedron of positive weight that is inverted or flat at `points`
-/// (#nodes x 3).
+/// Returns the cells with a tetrahedron, not left out, that is inverted or flat at `points` (#nodes
+/// x 3).
 std::vector<Index> tangledCells(
   const Mesh& mesh, const Points& points, const TargetMatrices& targets);
 
-/// Sets weight 0 for tetrahedra that are inverted or flat at `points` (#nodes x 3) and have two or
+/// Leaves out the tetrahedra that are inverted or flat at `points` (#nodes x 3) and have two or
 /// more fixed corners. Behind a fold of the boundary such tetrahedra cannot be positive. `isFixed`:
 /// #nodes, nonzero where fixed. Returns their number.
 Index excludeInvertedAtFixedNodes(const Mesh& mesh, const std::vector<char>& isFixed,

@@ -96,20 +96,18 @@ Tetrahedra tetrahedraOf(const CellBatches& batches, const TargetMatrices& target
   for (Index batch = 0; batch < batches.size(); ++batch)
   {
     const Index first = result.first.back();
-    const WeightedTet* part = simplicialDecomposition(batches.shape(batch)).tets;
+    const SimplicialDecomposition parts = simplicialDecomposition(batches.shape(batch));
     for (int lane = 0; lane < batches.cells(batch); ++lane)
     {
-      const Index start = targets.start[batches.cell(batch, lane)];
-      const Index count = targets.start[batches.cell(batch, lane) + 1] - start;
-      result.volumes.resize(
-        std::max(result.volumes.size(), static_cast<std::size_t>(first + count)));
-      for (Index t = 0; t < count; ++t)
+      const Index cell = batches.cell(batch, lane);
+      for (int t = 0; t < parts.count; ++t)
       {
-        const TargetMatrices::Tetrahedron& target = targets.tetrahedra[start + t];
-        if (target.weight > 0 && batches.moves(batch, lane, part[t].corner))
+        if (targets.includes(cell, t) && batches.moves(batch, lane, parts.tets[t].corner))
         {
+          result.volumes.resize(
+            std::max(result.volumes.size(), static_cast<std::size_t>(first + t + 1)));
           result.volumes[first + t].inverse[lane] =
-            Eigen::Map<const Eigen::Matrix3d>(target.inverse).determinant();
+            1 / targets.edges(cell, parts.tets[t]).determinant();
           ++result.count;
         }
       }

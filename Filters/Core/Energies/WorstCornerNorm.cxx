@@ -309,6 +309,16 @@ private:
   }
 };
 
+struct WorstCornerNorm::BatchGradientAlone
+{
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
+    const Points& points, Points& forces)
+  {
+    Sum ignored;
+    BatchGradient::run(batch, batches, corners, points, forces, ignored);
+  }
+};
+
 WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
   double goal, const Communicator& communicator)
@@ -338,7 +348,9 @@ Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) 
 
 void WorstCornerNorm::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  this->valueAndGradient(points, result, monitor);
+  gatherFromBatches<BatchGradientAlone>(
+    this->batches_, this->parts_, result, monitor, this->corners_, points);
+  this->rows().add(result);
 }
 
 Objective::Value WorstCornerNorm::valueAndGradient(

@@ -50,6 +50,7 @@ private:
   struct Sum;
   struct BatchValue;
   struct BatchGradient;
+  struct BatchGradientAlone;
   Value valueOf(const Sum& sum) const;
 
   std::vector<Index> free_;

@@ -5,6 +5,8 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace morph
@@ -51,37 +53,72 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
   }
 }
 
-std::vector<AffineFit> AffineGuess::fits(const Points& prescribed) const
+AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 {
-  std::vector<AffineFit> result;
-  result.reserve(this->coupled_.size());
+  const bool hasFourth = std::any_of(
+    prescribed.begin(), prescribed.end(), [](const MultiVectorRow& row) { return row[3] != 0; });
+  Fits result;
+  result.three_.reserve(this->coupled_.size());
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
-    result.push_back(this->leastSquares_[c].fit(prescribed(this->coupled_[c], allColumns)));
+    const std::vector<int>& columns = this->coupled_[c];
+    Points some(static_cast<Index>(columns.size()), 3);
+    for (Index i = 0; i < some.rows(); ++i)
+    {
+      some.row(i) = prescribed[columns[i]].head<3>();
+    }
+    result.three_.push_back(this->leastSquares_[c].fit(some));
+    if (hasFourth)
+    {
+      for (Index i = 0; i < some.rows(); ++i)
+      {
+        some.row(i) << prescribed[columns[i]][3], 0, 0;
+      }
+      result.fourth_.push_back(this->leastSquares_[c].fit(some));
+    }
   }
   return result;
 }
 
-void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
-  const CsrMatrix& coupling, const Points& prescribed, Points& rhs, Points& x, Points& fitted,
-  Monitor& monitor) const
+bool AffineGuess::agree(const Points& points, const NodePartition& partition,
+  const MultiVector& prescribed, const Fits& fits, double tolerance) const
 {
-  fitted.setZero(x.rows(), 3);
+  Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
+  for (std::size_t c = 0; c < this->coupled_.size(); ++c)
+  {
+    for (const int column : this->coupled_[c])
+    {
+      const MultiVectorRow& given = prescribed[column];
+      const MultiVectorRow off =
+        given - fits.displacement(static_cast<int>(c), points.row(partition.prescribed[column]));
+      largest = largest.max(given.array().abs());
+      most = most.max(off.array().abs());
+    }
+  }
+  return (most <= tolerance * largest).all(); // not for numbers that have overflowed
+}
+
+void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
+  const CsrMatrix& coupling, const MultiVector& prescribed, const Fits& fits, MultiVector& rhs,
+  MultiVector& x, MultiVector& fitted, Monitor& monitor) const
+{
+  rhs.resize(x.size());
+  fitted.assign(x.size(), MultiVectorRow::Zero());
   fitted.swap(x);
-  const std::vector<AffineFit> fits = this->fits(prescribed);
   monitor.parallelFor(coupling.rows(), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        const AffineFit& fit = fits[this->component(i)];
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        const int component = this->component(i);
+        MultiVectorRow sum = MultiVectorRow::Zero();
         for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
         {
-          sum -= entry.value() * (prescribed.row(entry.col()) -
-                                   fit.displacement(points.row(partition.prescribed[entry.col()])));
+          const Index node = partition.prescribed[entry.col()];
+          sum -= entry.value() *
+                 (prescribed[entry.col()] - fits.displacement(component, points.row(node)));
         }
-        rhs.row(i) = sum;
+        rhs[i] = sum;
       }
     });
 }
@@ -136,28 +173,74 @@ std::size_t AffineGuess::memory() const
   return bytes;
 }
 
-void rightHandSideAndGuess(const Points& points, const std::vector<Index>& rows,
-  const AffineGuess& guess, const CsrMatrix& coupling, const Points& prescribed, Points& rhs,
-  Points& x, Monitor& monitor)
+void rightHandSide(
+  const CsrMatrix& coupling, const MultiVector& prescribed, MultiVector& rhs, Monitor& monitor)
 {
-  const std::vector<AffineFit> fits = guess.fits(prescribed);
-  const Index n = static_cast<Index>(rows.size());
-  rhs.resize(n, 3);
-  x.resize(n, 3);
-  monitor.parallelFor(n, Grain,
+  rhs.resize(static_cast<std::size_t>(coupling.rows()));
+  monitor.parallelFor(coupling.rows(), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        x.row(i) = fits[guess.component(i)].displacement(points.row(rows[i]));
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
-        {
-          sum -= entry.value() * prescribed.row(entry.col());
-        }
-        rhs.row(i) = sum;
+        rhs[i] = -rowProduct(coupling, i, prescribed);
       }
     });
+}
+
+void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
+  const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
+{
+  x.resize(rows.size());
+  monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        x[i] = fits.displacement(guess.component(i), points.row(rows[i]));
+      }
+    });
+}
+
+double affineResidual(const Points& points, const std::vector<Index>& rows,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  Monitor& monitor)
+{
+  const auto count = static_cast<Index>(rows.size());
+  std::vector<double> part(static_cast<std::size_t>((count + Grain - 1) / Grain), 0);
+  monitor.parallelFor(static_cast<Index>(part.size()), 1,
+    [&](Index firstPart, Index lastPart)
+    {
+      for (Index p = firstPart; p < lastPart; ++p)
+      {
+        for (Index i = p * Grain; i < std::min(count, (p + 1) * Grain); ++i)
+        {
+          // The motions 1 and x: constants, and coordinates about the row's own node.
+          const Eigen::RowVector3d centre = points.row(rows[i]);
+          Eigen::Array4d sum = Eigen::Array4d::Zero(), size = sum;
+          const auto add = [&](double value, Index node)
+          {
+            Eigen::Array4d term;
+            term << value, value * (points.row(node) - centre).transpose().array();
+            sum += term;
+            size += term.abs();
+          };
+          for (CsrMatrix::InnerIterator entry(interior, static_cast<int>(i)); entry; ++entry)
+          {
+            add(entry.value(), rows[entry.col()]);
+          }
+          for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+          {
+            add(entry.value(), partition.prescribed[entry.col()]);
+          }
+          const double scale = size.tail<3>().maxCoeff();
+          const double missed = std::max(
+            std::abs(sum[0]) / size[0], scale > 0 ? sum.tail<3>().abs().maxCoeff() / scale : 0.);
+          part[p] = std::isfinite(missed) ? std::max(part[p], missed)
+                                          : std::numeric_limits<double>::infinity();
+        }
+      }
+    });
+  return part.empty() ? 0 : *std::max_element(part.begin(), part.end());
 }
 
 Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
@@ -170,16 +253,43 @@ Points permute(const Points& free, const std::vector<Index>& rows, const NodePar
   return result;
 }
 
-void unpermute(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
-  Points& free, Monitor& monitor)
+namespace
 {
-  monitor.parallelFor(x.rows(), Grain,
+template <typename Columns>
+void copyBack(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
+  Columns& free, Monitor& monitor)
+{
+  monitor.parallelFor(static_cast<Index>(x.size()), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        free.row(indexInFree(rows, partition.free, i)) = x.row(i);
+        free.row(indexInFree(rows, partition.free, i)) =
+          x[i].template head<Columns::ColsAtCompileTime>().transpose();
       }
     });
+}
+}
+
+void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
+  Points& free, Monitor& monitor)
+{
+  copyBack(x, rows, partition, free, monitor);
+}
+
+void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
+  FourFields& free, Monitor& monitor)
+{
+  copyBack(x, rows, partition, free, monitor);
+}
+
+MultiVector toRows(const FourFields& fields)
+{
+  MultiVector rows(static_cast<std::size_t>(fields.rows()));
+  for (Index i = 0; i < fields.rows(); ++i)
+  {
+    rows[i] = fields.row(i).transpose();
+  }
+  return rows;
 }
 }

@@ -3,7 +3,9 @@
 
 #include "Geometry/AffineFit.h"
 #include "Mesh/NodePartition.h"
+#include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MultiVector.h"
 #include "Solvers/RowComponents.h"
 #include "Support/Monitor.h"
 
@@ -28,9 +30,33 @@ public:
   AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
     const CsrMatrix& coupling);
 
-  /// Returns the fit of each component; `prescribed`: #prescribed x 3 displacements.
-  std::vector<AffineFit> fits(const Points& prescribed) const;
+  /// The fit of each component, for the columns of a MultiVector.
+  class Fits
+  {
+  public:
+    template <typename Row>
+    MultiVectorRow displacement(int component, const Row& x) const
+    {
+      MultiVectorRow result = toRow(this->three_[component].displacement(x));
+      if (!this->fourth_.empty())
+      {
+        result[3] = this->fourth_[component].displacement(x)[0];
+      }
+      return result;
+    }
+
+  private:
+    friend class AffineGuess;
+    std::vector<AffineFit> three_;
+    std::vector<AffineFit> fourth_; ///< its first column; empty where that is zero
+  };
+  /// `prescribed`: #prescribed displacements.
+  Fits fits(const MultiVector& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
+  /// Whether the fits give the displacements of all coupled nodes, to `tolerance` of the largest of
+  /// each column. Cost: one pass over these nodes.
+  bool agree(const Points& points, const NodePartition& partition, const MultiVector& prescribed,
+    const Fits& fits, double tolerance) const;
 
   /// For equations that affine motions do not solve, and whose solution is the fit plus the answer
   /// to the rest. `coupling`, `prescribed`: as above; `rhs`: #rows x 3.
@@ -38,7 +64,8 @@ public:
   /// Sets `rhs` to -A_B (U_B - F_B), where F is the fit of the row's component. Moves the guess
   /// `x`, F_I, to `fitted`, to be added to the solution, and leaves zero.
   void takeOff(const Points& points, const NodePartition& partition, const CsrMatrix& coupling,
-    const Points& prescribed, Points& rhs, Points& x, Points& fitted, Monitor& monitor) const;
+    const MultiVector& prescribed, const Fits& fits, MultiVector& rhs, MultiVector& x,
+    MultiVector& fitted, Monitor& monitor) const;
   /// Adds to `prescribed` what the fit has in the adjoint: F_I^T g + F_B^T A_B^T y. `gradient`, g,
   /// and `solution`, y with A_I y = g: #rows x 3.
   void addTranspose(const Points& points, const NodePartition& partition,
@@ -54,15 +81,29 @@ private:
   std::vector<AffineLeastSquares> leastSquares_;
 };
 
-/// Sets `rhs` to -A_B U_B and `x` to the first guess; both #rows x 3.
-void rightHandSideAndGuess(const Points& points, const std::vector<Index>& rows,
-  const AffineGuess& guess, const CsrMatrix& coupling, const Points& prescribed, Points& rhs,
-  Points& x, Monitor& monitor);
+/// Sets `rhs` to -A_B U_B, #rows.
+void rightHandSide(
+  const CsrMatrix& coupling, const MultiVector& prescribed, MultiVector& rhs, Monitor& monitor);
+/// Sets `x` to the first guess, #rows.
+void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
+  const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
-/// Reorders rows from NodePartition::free's order to the matrix order, and back; #free x 3.
+/// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
+/// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.
+double affineResidual(const Points& points, const std::vector<Index>& rows,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  Monitor& monitor);
+
+/// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,
+/// or #free x 4.
 ///@{
 Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
-void unpermute(const Points& x, const std::vector<Index>& rows, const NodePartition& partition,
+void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
   Points& free, Monitor& monitor);
+void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
+  FourFields& free, Monitor& monitor);
 ///@}
+
+/// The rows of four scalar fields.
+MultiVector toRows(const FourFields& fields);
 }

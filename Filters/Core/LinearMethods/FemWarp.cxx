@@ -15,6 +15,7 @@ namespace morph
 namespace
 {
 constexpr int MaxIterations = 2000;
+constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
 }
 
 void FemWarp::setTolerance(double tolerance)
@@ -47,6 +48,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
+  this->affineResidual_ =
+    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
   try
   {
     ProgressRange last(monitor, 0.6, 1);
@@ -71,24 +74,51 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 
-EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
+EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
-  Points rhs, x, fitted;
-  rightHandSideAndGuess(
-    this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
-  if (!this->isUniform_)
+  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
+  firstGuess(this->restPoints(), this->rows_, this->guess_, fits, x, monitor);
+  // Without iterations: a pass over the matrix takes longer than all else.
+  const double tolerance = AffineShare * this->tolerance_;
+  if ((!this->isUniform_ || this->affineResidual_ <= tolerance) &&
+      this->guess_.agree(this->restPoints(), this->partition(), prescribed, fits, tolerance))
   {
-    this->guess_.takeOff(
-      this->restPoints(), this->partition(), this->coupling_, prescribed, rhs, x, fitted, monitor);
+    return { 0, 0, static_cast<double>((sizeof(MultiVectorRow) + 24) * x.size()), {} };
+  }
+  MultiVector rhs, fitted;
+  if (this->isUniform_)
+  {
+    rightHandSide(this->coupling_, prescribed, rhs, monitor);
+  }
+  else
+  {
+    this->guess_.takeOff(this->restPoints(), this->partition(), this->coupling_, prescribed, fits,
+      rhs, x, fitted, monitor);
   }
   const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
-  if (!this->isUniform_)
+  for (std::size_t i = 0; i < fitted.size(); ++i)
   {
-    x += fitted;
+    x[i] += fitted[i];
   }
-  unpermute(x, this->rows_, this->partition(), free, monitor);
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
+}
+
+EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  MultiVector x;
+  const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
+  return report;
+}
+
+EvaluateReport FemWarp::displaceFields(
+  const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+{
+  MultiVector x;
+  const EvaluateReport report = this->solve(toRows(prescribed), x, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
+  return report;
 }
 
 EvaluateReport FemWarp::displaceTranspose(

@@ -15,6 +15,7 @@ namespace morph
 namespace
 {
 constexpr int MaxIterations = 2000;
+constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
 
 void requireWeights(const LogBarrierSystem& system, bool relax)
 {
@@ -74,6 +75,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
+  this->affineResidual_ =
+    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(system.interior, coordinates, last);
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
@@ -91,25 +94,52 @@ EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monit
   return result;
 }
 
-EvaluateReport LogBarrierWarp::displace(
-  const Points& prescribed, Points& free, Monitor& monitor) const
+EvaluateReport LogBarrierWarp::solve(
+  const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
-  Points rhs, x, fitted;
-  rightHandSideAndGuess(
-    this->restPoints(), this->rows_, this->guess_, this->coupling_, prescribed, rhs, x, monitor);
-  if (!this->isUniform_)
+  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
+  firstGuess(this->restPoints(), this->rows_, this->guess_, fits, x, monitor);
+  const double tolerance = AffineShare * this->tolerance_;
+  if ((!this->isUniform_ || this->affineResidual_ <= tolerance) &&
+      this->guess_.agree(this->restPoints(), this->partition(), prescribed, fits, tolerance))
   {
-    this->guess_.takeOff(
-      this->restPoints(), this->partition(), this->coupling_, prescribed, rhs, x, fitted, monitor);
+    return this->report({}, monitor);
+  }
+  MultiVector rhs, fitted;
+  if (this->isUniform_)
+  {
+    rightHandSide(this->coupling_, prescribed, rhs, monitor);
+  }
+  else
+  {
+    this->guess_.takeOff(this->restPoints(), this->partition(), this->coupling_, prescribed, fits,
+      rhs, x, fitted, monitor);
   }
   const GeneralSolver::Report solved =
     this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  if (!this->isUniform_)
+  for (std::size_t i = 0; i < fitted.size(); ++i)
   {
-    x += fitted;
+    x[i] += fitted[i];
   }
-  unpermute(x, this->rows_, this->partition(), free, monitor);
   return this->report(solved, monitor);
+}
+
+EvaluateReport LogBarrierWarp::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  MultiVector x;
+  const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
+  return report;
+}
+
+EvaluateReport LogBarrierWarp::displaceFields(
+  const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+{
+  MultiVector x;
+  const EvaluateReport report = this->solve(toRows(prescribed), x, monitor);
+  unpermute(x, this->rows_, this->partition(), free, monitor);
+  return report;
 }
 
 EvaluateReport LogBarrierWarp::displaceTranspose(

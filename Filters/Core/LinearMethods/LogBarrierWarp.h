@@ -71,10 +71,14 @@ protected:
   /// The report counts OutsideHullNodes, the TwoRingNodes, AffineNodes and StiffnessNodes among
   /// them, and the solver's FallBackIterations.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displaceFields(
+    const FourFields& prescribed, FourFields& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
+  /// Sets `x` to the displacements of the rows.
+  EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
   EvaluateReport report(const GeneralSolver::Report& solved, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
@@ -84,6 +88,7 @@ private:
   CsrMatrix coupling_;
   AffineGuess guess_;
   bool isUniform_ = true;
+  double affineResidual_ = 0; ///< of the equations, see affineResidual()
   double meanWeightIterations_ = 0;
   int mostWeightIterations_ = 0;
   std::vector<Statistic> outsideCounts_;

@@ -31,30 +31,36 @@ void forEachFaceOfAny(const Mesh& mesh, Index cell, Visit&& visit)
   }
 }
 
-/// Finds the equal faces among those of one lowest corner, and numbers them by the first.
-void matchFaces(const std::vector<Index>& faces, FaceTable& table)
+/// Finds the equal faces among those of one lowest corner, and numbers them by the first. `sorted`:
+/// the corners of all faces, in their places in table.corners, those of each face ascending.
+void matchFaces(const std::vector<Index>& sorted, std::vector<Index>& faces, FaceTable& table)
 {
-  std::vector<std::pair<std::vector<Index>, Index>> keys;
-  for (const Index face : faces)
+  const auto compare = [&](Index a, Index b)
   {
-    std::vector<Index> key(table.corners.begin(face), table.corners.end(face));
-    std::sort(key.begin(), key.end());
-    keys.emplace_back(std::move(key), face);
-  }
-  std::sort(keys.begin(), keys.end());
-  for (std::size_t i = 0; i < keys.size();)
+    const auto first = [&](Index face) { return sorted.begin() + table.corners.offsets[face]; };
+    const auto last = [&](Index face) { return first(face) + table.size(face); };
+    const auto [x, y] = std::mismatch(first(a), last(a), first(b), last(b));
+    return x == last(a) || y == last(b) ? table.size(a) - table.size(b) : *x - *y;
+  };
+  std::sort(faces.begin(), faces.end(),
+    [&](Index a, Index b)
+    {
+      const Index order = compare(a, b);
+      return order != 0 ? order < 0 : a < b;
+    });
+  for (std::size_t i = 0; i < faces.size();)
   {
     std::size_t end = i + 1;
-    while (end < keys.size() && keys[end].first == keys[i].first)
+    while (end < faces.size() && compare(faces[end], faces[i]) == 0)
     {
       ++end;
     }
-    const Index lowest = keys[i].second;
+    const Index lowest = faces[i];
     const Index uses = static_cast<Index>(end - i);
     for (; i < end; ++i)
     {
-      table.first[keys[i].second] = lowest;
-      table.uses[keys[i].second] = uses;
+      table.first[faces[i]] = lowest;
+      table.uses[faces[i]] = uses;
     }
   }
 }
@@ -66,6 +72,7 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
   table.start.push_back(0);
   table.corners.offsets.push_back(0);
   std::vector<Index>& values = table.corners.values;
+  values.reserve(mesh.faces.size() + 3 * mesh.connectivity.size());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     forEachFaceOfAny(mesh, c,
@@ -88,8 +95,18 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
   const Index faces = table.start.back(), nodes = mesh.numberOfNodes();
   table.first.resize(faces);
   table.uses.resize(faces);
-  const auto lowestCorner = [&](Index face)
-  { return *std::min_element(table.corners.begin(face), table.corners.end(face)); };
+  std::vector<Index> sorted = values;
+  monitor.parallelFor(faces, 4096,
+    [&](Index begin, Index end)
+    {
+      for (Index f = begin; f < end; ++f)
+      {
+        std::sort(
+          sorted.begin() + table.corners.offsets[f], sorted.begin() + table.corners.offsets[f + 1]);
+      }
+    });
+  // A collapsed face may have no corners left but one, never none.
+  const auto lowestCorner = [&](Index face) { return sorted[table.corners.offsets[face]]; };
   Adjacency buckets;
   buckets.offsets.assign(nodes + 1, 0);
   for (Index f = 0; f < faces; ++f)
@@ -110,7 +127,7 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
       for (Index n = begin; n < end; ++n)
       {
         some.assign(buckets.begin(n), buckets.end(n));
-        matchFaces(some, table);
+        matchFaces(sorted, some, table);
       }
     });
   monitor.check();

@@ -75,35 +75,63 @@ std::vector<Index> numberCenters(const Mesh& mesh, const FaceTable& table, Index
   return centers;
 }
 
-using Triplets = std::vector<Eigen::Triplet<double, Index>>;
-
-/// Adds the weights of a cell's nodes in its centre, one entry a node.
-void addCellCenter(const Mesh& mesh, const FaceTable& table, Index cell, Index row, Triplets& means)
+/// The weights of nodes in centres, centre by centre.
+struct Means
 {
-  std::vector<double> areas;
+  std::vector<Index> offsets = { 0 };
+  std::vector<std::pair<Index, double>> weights; ///< node and weight, the nodes of each ascending
+
+  /// The weights since the last close() become those of the next centre, by ascending nodes.
+  void close()
+  {
+    std::sort(this->weights.begin() + this->offsets.back(), this->weights.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+    this->offsets.push_back(static_cast<Index>(this->weights.size()));
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> matrix(Index nodes) const
+  {
+    const auto rows = static_cast<Index>(this->offsets.size()) - 1;
+    Eigen::SparseMatrix<double, Eigen::RowMajor, Index> result(rows, nodes);
+    result.reserve(static_cast<Index>(this->weights.size()));
+    for (Index row = 0; row < rows; ++row)
+    {
+      result.startVec(row);
+      for (Index k = this->offsets[row]; k < this->offsets[row + 1]; ++k)
+      {
+        result.insertBackByOuterInner(row, this->weights[k].first) = this->weights[k].second;
+      }
+    }
+    result.finalize();
+    return result;
+  }
+};
+
+/// Adds the weights of a cell's nodes in its centre, one entry a node. `areas`: memory.
+void addCellCenter(
+  const Mesh& mesh, const FaceTable& table, Index cell, std::vector<double>& areas, Means& means)
+{
+  areas.clear();
   double sum = 0;
   for (Index f = table.start[cell]; f < table.start[cell + 1]; ++f)
   {
     areas.push_back(doubleArea(mesh, table.corners.begin(f), table.size(f)).norm());
     sum += areas.back();
   }
-  const auto first = static_cast<std::ptrdiff_t>(means.size());
   for (const Index* node = mesh.cell(cell); node != mesh.cell(cell) + mesh.cellSize(cell); ++node)
   {
-    means.emplace_back(row, *node, 0.);
+    means.weights.emplace_back(*node, 0.);
   }
-  const auto column = [](const Triplets::value_type& a, const Triplets::value_type& b)
-  { return a.col() < b.col(); };
-  std::sort(means.begin() + first, means.end(), column);
+  const auto first = static_cast<std::ptrdiff_t>(means.offsets.back());
+  means.close();
   for (Index f = table.start[cell]; f < table.start[cell + 1]; ++f)
   {
     const double share =
       sum > 0 ? areas[f - table.start[cell]] / sum : 1 / static_cast<double>(areas.size());
     for (const Index* node = table.corners.begin(f); node != table.corners.end(f); ++node)
     {
-      const auto at = std::lower_bound(
-        means.begin() + first, means.end(), Triplets::value_type(row, *node, 0.), column);
-      *at = { row, *node, at->value() + share / static_cast<double>(table.size(f)) };
+      const auto at = std::lower_bound(means.weights.begin() + first, means.weights.end(), *node,
+        [](const auto& weight, Index id) { return weight.first < id; });
+      at->second += share / static_cast<double>(table.size(f));
     }
   }
 }
@@ -205,6 +233,12 @@ struct Cells
   std::vector<std::uint8_t> types;
   std::vector<Index> sizes, connectivity;
 
+  void reserve(Index count)
+  {
+    this->types.reserve(count);
+    this->sizes.reserve(count);
+    this->connectivity.reserve(5 * count);
+  }
   void add(std::uint8_t type, const Index* begin, const Index* end)
   {
     this->types.push_back(type);
@@ -234,17 +268,24 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
 {
   const FaceTable table = faceTable(mesh, monitor);
   const std::vector<Index> centers = numberCenters(mesh, table, this->faceCenters_);
-  Triplets means;
+  Means means;
   for (Index f = 0; f < table.start.back(); ++f)
   {
-    const double share = 1 / static_cast<double>(table.size(f));
-    for (const Index* node = table.corners.begin(f);
-         centers[f] != Whole && table.first[f] == f && node != table.corners.end(f); ++node)
+    if (centers[f] == Whole || table.first[f] != f)
     {
-      means.emplace_back(centers[f], *node, share);
+      continue;
     }
+    const double share = 1 / static_cast<double>(table.size(f));
+    for (const Index* node = table.corners.begin(f); node != table.corners.end(f); ++node)
+    {
+      means.weights.emplace_back(*node, share);
+    }
+    means.close();
   }
   Cells first, others;
+  first.reserve(mesh.numberOfCells());
+  others.reserve(static_cast<Index>(table.corners.values.size()) / 2);
+  std::vector<double> areas;
   Index row = this->faceCenters_;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -260,7 +301,8 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
       continue;
     }
     const Index apex = this->nodes_ + row;
-    addCellCenter(mesh, table, c, row++, means);
+    ++row;
+    addCellCenter(mesh, table, c, areas, means);
     Cells* to = &first;
     for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
     {
@@ -284,9 +326,11 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
     }
     this->cellOfOther_.resize(others.types.size(), c);
   }
-  this->means_.resize(row, this->nodes_);
-  this->means_.setFromTriplets(means.begin(), means.end());
+  this->means_ = means.matrix(this->nodes_);
   this->pieces_.offsets = { 0 };
+  this->pieces_.types.reserve(first.types.size() + others.types.size());
+  this->pieces_.offsets.reserve(first.types.size() + others.types.size() + 1);
+  this->pieces_.connectivity.reserve(first.connectivity.size() + others.connectivity.size());
   append(first, this->pieces_);
   append(others, this->pieces_);
   this->pieces_.points = this->extend(ConstPoints(mesh.points));

@@ -3,7 +3,7 @@
 
 #include "Support/Error.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace morph
 {
@@ -15,18 +15,13 @@ constexpr Index Grain = 4096;
 void AffineModes::prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor)
 {
   this->clear();
-  Points weight = Points::Zero(fields.rows(), 3);
-  weight.col(0) = fields.col(0);
-  std::vector<EvaluateReport> reports;
-  const std::vector<Points> modes =
-    method.basis({ fields.rightCols<3>(), weight }, monitor, &reports);
-  this->modes_.resize(modes[0].rows(), 4);
-  this->modes_.col(0) = modes[1].col(0);
-  this->modes_.rightCols<3>() = modes[0];
-  this->report_ = reports[0];
-  this->report_.iterations = std::max(reports[0].iterations, reports[1].iterations);
-  this->report_.relativeResidual =
-    std::max(reports[0].relativeResidual, reports[1].relativeResidual);
+  // The weight has no unit. In that of p, neither is rounding beside the other.
+  const double place = fields.rows() > 0 ? fields.rightCols<3>().cwiseAbs().maxCoeff() : 0;
+  const double unit = place > 0 && std::isfinite(place) ? std::exp2(std::ilogb(place)) : 1;
+  AffineFields scaled = fields;
+  scaled.col(0) *= unit;
+  this->modes_ = method.fields(scaled, monitor, &this->report_);
+  this->modes_.col(0) /= unit;
   this->report_.bytesMoved = 80. * static_cast<double>(this->modes_.rows());
   this->given_ = fields; // last: what throws above leaves nothing prepared
 }

@@ -6,7 +6,7 @@
 namespace morph
 {
 /// Four numbers of each node: its weight w, and three p that an affine motion multiplies.
-using AffineFields = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+using AffineFields = FourFields;
 
 /// What moves a node with the fields (w, p): its displacement is w c + A p. The columns are c and
 /// the three of A.
@@ -25,9 +25,9 @@ inline Eigen::RowVector3d affineDisplacement(
 class AffineModes
 {
 public:
-  /// Solves for the four fields. `fields`: #prescribed x 4, finite, in the order of
-  /// NodePartition::prescribed. Cost: two evaluations, and 32 bytes a node. Throws Error as
-  /// LinearMorpher::basis() does.
+  /// Solves for the four fields at once. `fields`: #prescribed x 4, finite, in the order of
+  /// NodePartition::prescribed. Cost: LinearMorpher::fields(), and 32 bytes a node. Throws Error as
+  /// that does.
   void prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor);
   /// Forgets the fields.
   void clear();

@@ -6,6 +6,9 @@
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace morph
 {
 namespace
@@ -22,7 +25,8 @@ void requireRows(const char* what, Index rows, Index expected)
 }
 
 /// Returns the `ids` whose row of `some` is not finite.
-std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
+template <typename Columns>
+std::vector<Index> notFinite(const Columns& some, const std::vector<Index>& ids)
 {
   std::vector<Index> where;
   for (Index i = 0; i < some.rows(); ++i)
@@ -33,6 +37,31 @@ std::vector<Index> notFinite(const Points& some, const std::vector<Index>& ids)
     }
   }
   return where;
+}
+
+/// Throws unless these are finite displacements of the prescribed nodes.
+template <typename Columns>
+void requireMode(const Columns& displacement, const NodePartition& partition)
+{
+  requireRows("The array of boundary displacements", displacement.rows(),
+    static_cast<Index>(partition.prescribed.size()));
+  if (!displacement.allFinite())
+  {
+    throw Error("Boundary displacements that are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(displacement, partition.prescribed)) + ".");
+  }
+}
+
+/// Throws unless what was found for the free nodes is finite.
+template <typename Columns>
+void requireFound(const Columns& free, const NodePartition& partition)
+{
+  if (!free.allFinite())
+  {
+    throw Error("The displacements found are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite(free, partition.free)) +
+                ". The motion, or the mesh, is too large to compute with: scale it down.");
+  }
 }
 
 /// Returns the nodes that are in no list of the partition.
@@ -224,28 +253,71 @@ Points LinearMorpher::mode(
   const Points& displacement, EvaluateReport& report, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
-  requireRows("The array of boundary displacements", displacement.rows(),
-    static_cast<Index>(partition.prescribed.size()));
-  if (!displacement.allFinite())
-  {
-    throw Error("Boundary displacements that are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(displacement, partition.prescribed)) + ".");
-  }
+  requireMode(displacement, partition);
   Points free(static_cast<Index>(partition.free.size()), 3);
   if (free.rows() > 0)
   {
     report = this->displace(displacement, free, monitor);
   }
-  if (!free.allFinite())
-  {
-    throw Error("The displacements found are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(free, partition.free)) +
-                ". The motion, or the mesh, is too large to compute with: scale it down.");
-  }
+  requireFound(free, partition);
   Points all = Points::Zero(this->restPoints().rows(), 3);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = displacement;
   this->higherOrderNodes_.apply(all);
+  return all;
+}
+
+EvaluateReport LinearMorpher::displaceFields(
+  const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+{
+  Points three = free.leftCols<3>(), fourth = three;
+  Points given = prescribed.leftCols<3>();
+  EvaluateReport report;
+  {
+    ProgressRange part(monitor, 0, 0.5);
+    report = this->displace(given, three, part);
+  }
+  given.setZero();
+  given.col(0) = prescribed.col(3);
+  ProgressRange part(monitor, 0.5, 1);
+  const EvaluateReport other = this->displace(given, fourth, part);
+  free << three, fourth.col(0);
+  report.iterations = std::max(report.iterations, other.iterations);
+  report.relativeResidual = std::max(report.relativeResidual, other.relativeResidual);
+  report.bytesMoved += other.bytesMoved;
+  return report;
+}
+
+FourFields LinearMorpher::fields(
+  const FourFields& prescribed, Monitor& monitor, EvaluateReport* report) const
+{
+  this->requirePrepared();
+  const NodePartition& partition = this->partition();
+  FourFields free = FourFields::Zero(static_cast<Index>(partition.free.size()), 4);
+  EvaluateReport found;
+  requireMode(prescribed, partition);
+  if (free.rows() > 0)
+  {
+    ProgressRange whole(monitor, 0, 1);
+    found = this->displaceFields(prescribed, free, whole);
+  }
+  requireFound(free, partition);
+  FourFields all = FourFields::Zero(this->restPoints().rows(), 4);
+  all(partition.free, allColumns) = free;
+  all(partition.prescribed, allColumns) = prescribed;
+  if (!this->higherOrderNodes_.empty())
+  {
+    Points three = all.leftCols<3>(), fourth = Points::Zero(all.rows(), 3);
+    fourth.col(0) = all.col(3);
+    this->higherOrderNodes_.apply(three);
+    this->higherOrderNodes_.apply(fourth);
+    all << three, fourth.col(0);
+  }
+  if (report)
+  {
+    *report = std::move(found);
+  }
+  monitor.progress(1);
   return all;
 }
 

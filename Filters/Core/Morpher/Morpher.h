@@ -11,6 +11,9 @@
 
 namespace morph
 {
+/// n x 4: four scalar fields, one row per node.
+using FourFields = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
 /// A named count that a method reports, for instance nodes that took a fall-back.
 struct Statistic
 {
@@ -107,7 +110,17 @@ public:
   std::vector<Points> basis(const std::vector<Points>& displacements, Monitor& monitor,
     std::vector<EvaluateReport>* reports = nullptr) const;
 
+  /// basis() of four scalar fields in one solve: a field has one number a node, which the method
+  /// takes as it takes one coordinate. `prescribed`: #prescribed x 4. Returns #nodes x 4; a column
+  /// does not depend on the others beyond the tolerance. `report`: null, or becomes the solve's.
+  FourFields fields(
+    const FourFields& prescribed, Monitor& monitor, EvaluateReport* report = nullptr) const;
+
 protected:
+  /// displace() of four scalar fields: `prescribed` #prescribed x 4, `free` #free x 4. By default
+  /// in two calls of displace().
+  virtual EvaluateReport displaceFields(
+    const FourFields& prescribed, FourFields& free, Monitor& monitor) const;
   /// Adds M^T free to `prescribed` (#prescribed x 3); `free`: #free x 3.
   virtual EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const = 0;

@@ -69,6 +69,23 @@ public:
     return report;
   }
 
+  EvaluateReport displaceFields(const NodePartition& partition, const FourFields& prescribed,
+    FourFields& free, Monitor& monitor) const
+  {
+    Points three = Points::Zero(this->nodes_, 3), fourth = three;
+    three(partition.prescribed, allColumns) = prescribed.leftCols<3>();
+    fourth(partition.prescribed, 0) = prescribed.col(3);
+    three = this->pieces_->extend(three);
+    fourth = this->pieces_->extend(fourth);
+    const std::vector<Index>& ids = this->method_->partition().prescribed;
+    FourFields given(static_cast<Index>(ids.size()), 4);
+    given << three(ids, allColumns), fourth(ids, 0);
+    EvaluateReport report;
+    const FourFields all = this->method_->fields(given, monitor, &report);
+    free = all(partition.free, allColumns);
+    return report;
+  }
+
   EvaluateReport displaceTranspose(
     const NodePartition& partition, const Points& free, Points& prescribed, Monitor& monitor) const
   {
@@ -130,6 +147,11 @@ class PolyhedralLinearMorpher : public PolyhedralMorpher<LinearMorpher>
 {
   using PolyhedralMorpher<LinearMorpher>::PolyhedralMorpher;
 
+  EvaluateReport displaceFields(
+    const FourFields& prescribed, FourFields& free, Monitor& monitor) const override
+  {
+    return this->onPieces_.displaceFields(this->partition(), prescribed, free, monitor);
+  }
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override
   {

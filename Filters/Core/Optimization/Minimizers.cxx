@@ -3,6 +3,7 @@
 
 #include "Optimization/Descent.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace morph
@@ -11,6 +12,28 @@ namespace
 {
 constexpr double LinearTolerance = 0.03;
 constexpr int MostLinearIterations = 100;
+
+/// The relative residual of the next linear system, by the gradients' norms. Source: Eisenstat,
+/// Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2 with its safeguard.
+class ForcingTerm
+{
+public:
+  double next(double norm)
+  {
+    if (this->norm_ > 0)
+    {
+      const double ratio = norm / this->norm_, safeguard = Gamma * this->term_ * this->term_;
+      const double term = std::max(Gamma * ratio * ratio, safeguard > 0.1 ? safeguard : 0);
+      this->term_ = std::clamp(term, LinearTolerance, Most);
+    }
+    this->norm_ = norm;
+    return this->term_;
+  }
+
+private:
+  static constexpr double Gamma = 0.9, Most = 0.3;
+  double norm_ = 0, term_ = Most;
+};
 }
 
 Objective::~Objective() = default;
@@ -34,6 +57,7 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   DescentProgress progress(limits);
   LineSearch search(objective, false);
   Points gradient, direction;
+  ForcingTerm forcing;
   for (int step = 0; step < limits.steps; ++step)
   {
     monitor.check();
@@ -43,9 +67,12 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
     {
       break;
     }
+    // The diagonal blocks alone need the tolerance: looser steps miss what is smooth.
+    const double tolerance = limits.preconditioner ? forcing.next(norm) : LinearTolerance;
     objective.hessian(points, matrix, monitor);
-    effort.linearIterations += matrix.solve(
-      -gradient, direction, LinearTolerance, MostLinearIterations, monitor, objective.rows());
+    effort.linearIterations += matrix.solve(gradient, direction, tolerance, MostLinearIterations,
+      monitor, objective.rows(), limits.preconditioner);
+    direction *= -1;
     const double slope = objective.rows().dot(gradient, direction, monitor);
     const double before = value.energy;
     if (!search.run(direction, slope, points, value, effort, monitor))

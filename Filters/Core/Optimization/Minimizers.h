@@ -22,6 +22,8 @@ struct MinimizerLimits
   /// norm of the gradient is below gradientDecrease times the first.
   double slowDecrease = 1e-4;
   double gradientDecrease = 1e-2;
+  /// for Newton's linear systems, beside their diagonal blocks; null: none
+  const NodePreconditioner* preconditioner = nullptr;
 };
 
 /// Minimises by Newton's method with conjugate gradients and a backtracking line search (Armijo).

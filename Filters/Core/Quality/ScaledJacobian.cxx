@@ -88,41 +88,68 @@ double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x
 
 double hex(const Vector* x, unsigned samples, bool& collapsed)
 {
-  const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
-  const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
-  const Vector t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
-  // The mean edges may vanish while every edge has a length: such a cell is inverted, not
-  // collapsed.
-  bool noMeanEdge = false;
-  double least = normalizedDeterminant(r, s, t, noMeanEdge);
-  if ((samples & HexCenter) == 0)
+  double least = std::numeric_limits<double>::infinity();
+  if ((samples & HexCenter) != 0)
   {
-    least = std::numeric_limits<double>::infinity();
+    const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
+    const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
+    const Vector t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
+    // The mean edges may vanish while every edge has a length: such a cell is inverted, not
+    // collapsed.
+    bool noMeanEdge = false;
+    least = normalizedDeterminant(r, s, t, noMeanEdge);
   }
   // Each edge is at two corners. Roots and divisions, which take most of the time, are computed
-  // once.
-  Vector direction[12];
-  unsigned withoutLength = 0;
+  // once, and for several edges at a time.
+  using Edges = Eigen::Array<double, 12, 1>;
+  Edges edge[3];
   for (int e = 0; e < 12; ++e)
   {
     const int* ends = HexAxisEdges[e / 4][e % 4];
-    const Vector edge = x[ends[1]] - x[ends[0]];
-    const double length = lengthOf(edge);
-    withoutLength |= length == 0 ? 1u << e : 0u;
-    direction[e] = edge / length;
+    for (int j = 0; j < 3; ++j)
+    {
+      edge[j][e] = x[ends[1]][j] - x[ends[0]][j];
+    }
   }
-  const auto from = [&direction](int edge) -> Vector
-  { return edge > 0 ? direction[edge - 1] : Vector(-direction[-edge - 1]); };
+  Edges length = (edge[0].square() + (edge[1].square() + edge[2].square())).sqrt();
+  unsigned withoutLength = 0;
+  for (int e = 0; e < 12; ++e)
+  {
+    if (!(length[e] > 1e-150))
+    {
+      length[e] = std::hypot(edge[0][e], edge[1][e], edge[2][e]); // the square may have vanished
+      withoutLength |= length[e] == 0 ? 1u << e : 0u;
+    }
+  }
+  for (Edges& component : edge)
+  {
+    component /= length;
+  }
+  using Corners = Eigen::Array<double, 8, 1>;
+  Corners at[3][3]; // of the three edges at each corner
+  for (int k = 0; k < 8; ++k)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      const int which = HexCornerEdges[k][d];
+      const int e = std::abs(which) - 1;
+      for (int j = 0; j < 3; ++j)
+      {
+        at[d][j][k] = which > 0 ? edge[j][e] : -edge[j][e];
+      }
+      collapsed =
+        collapsed || (isChosen(samples, k) && withoutLength != 0 && (withoutLength >> e & 1u) != 0);
+    }
+  }
+  const Corners(&a)[3] = at[0], (&b)[3] = at[1], (&c)[3] = at[2];
+  const Corners determinant =
+    a[0] * (b[1] * c[2] - b[2] * c[1]) +
+    (a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]));
   for (int k = 0; k < 8; ++k)
   {
     if (isChosen(samples, k))
     {
-      const int(&c)[3] = HexCornerEdges[k];
-      for (int d = 0; d < 3 && withoutLength != 0; ++d)
-      {
-        collapsed = collapsed || (withoutLength >> (std::abs(c[d]) - 1) & 1u) != 0;
-      }
-      least = std::min(least, from(c[0]).dot(from(c[1]).cross(from(c[2]))));
+      least = std::min(least, determinant[k]);
     }
   }
   return least;

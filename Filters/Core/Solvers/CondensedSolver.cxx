@@ -13,6 +13,9 @@ namespace
 {
 constexpr int MostStages = 4;
 constexpr Index MostNeighbors = 16;
+// Pairs of entries that a row may add: it takes vectors of the iteration along, which cost as much.
+constexpr std::size_t MostAdded = 8;
+constexpr Index Grain = 4096;
 constexpr Index LeastPart = 8; // of the rows: fewer are not worth a pass
 
 /// Whether row i has an entry in column j; the columns of a row ascend.
@@ -23,11 +26,11 @@ bool couples(const CsrMatrix& matrix, int i, int j)
     columns + matrix.outerIndexPtr()[i], columns + matrix.outerIndexPtr()[i + 1], j);
 }
 
-/// Whether the matrix has no more entries without the row. `neighbors`: the columns of its other
-/// entries.
+/// Whether the matrix has hardly more entries without the row. `neighbors`: the columns of its
+/// other entries.
 bool staysSparse(const CsrMatrix& matrix, const std::vector<int>& neighbors)
 {
-  const std::size_t most = neighbors.size(); // of 2 n + 1 entries that go, in pairs
+  const std::size_t most = neighbors.size() + MostAdded; // 2 n + 1 entries go, in pairs
   std::size_t missing = 0;
   for (std::size_t a = 0; a < neighbors.size() && missing <= most; ++a)
   {
@@ -58,13 +61,17 @@ CsrMatrix sorted(const CsrRows<double>& rows, Index columns)
   return CsrMatrix(byColumn);
 }
 
-Points rowsOf(const ConstPoints& all, const std::vector<int>& rows)
+MultiVector rowsOf(const MultiVector& all, const std::vector<int>& rows, Monitor& monitor)
 {
-  Points result(static_cast<Index>(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    result.row(static_cast<Index>(i)) = all.row(rows[i]);
-  }
+  MultiVector result(rows.size());
+  monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        result[i] = all[rows[i]];
+      }
+    });
   return result;
 }
 }
@@ -139,6 +146,7 @@ CondensedSolver::Stage CondensedSolver::condense(
                }
              }),
       width);
+  stage.transposed = stage.coupling.transpose();
   // Own entries first, and factors that commute: the result is symmetric to the last bit.
   CsrMatrix rest = sorted(
     assembleRows<double>(static_cast<int>(width), monitor,
@@ -196,7 +204,7 @@ void CondensedSolver::prepare(CsrMatrix& matrix, const std::vector<bool>& remova
     }
     monitor.check();
     Stage stage = condense(matrix, removed, monitor);
-    places = rowsOf(places, stage.kept);
+    places = Points(places(stage.kept, allColumns));
     for (std::size_t k = 0; k < stage.kept.size(); ++k)
     {
       may[k] = may[stage.kept[k]];
@@ -224,23 +232,39 @@ void CondensedSolver::prepare(CsrMatrix& matrix, const std::vector<bool>& remova
 SolveReport CondensedSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
+  MultiVector rows = toRows(x, monitor);
+  const SolveReport report =
+    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+  fromRows(rows, x, monitor);
+  return report;
+}
+
+SolveReport CondensedSolver::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
   if (this->stages_.empty())
   {
     return this->solver_.solve(b, x, tolerance, maxIterations, monitor);
   }
-  std::vector<Points> given = { b }, found = { x };
+  std::vector<MultiVector> given, found; // of each stage's remaining rows
   for (const Stage& stage : this->stages_)
   {
-    const Points ofRemoved = rowsOf(given.back(), stage.removed);
-    Points next = rowsOf(given.back(), stage.kept);
-    for (int r = 0; r < stage.coupling.rows(); ++r)
-    {
-      for (CsrMatrix::InnerIterator entry(stage.coupling, r); entry; ++entry)
+    const MultiVector& all = given.empty() ? b : given.back();
+    MultiVector next = rowsOf(all, stage.kept, monitor);
+    monitor.parallelFor(static_cast<Index>(next.size()), Grain,
+      [&](Index first, Index last)
       {
-        next.row(entry.col()) -= (entry.value() * stage.inverse[r]) * ofRemoved.row(r);
-      }
-    }
-    found.push_back(rowsOf(found.back(), stage.kept));
+        for (Index k = first; k < last; ++k)
+        {
+          for (CsrMatrix::InnerIterator entry(stage.transposed, static_cast<int>(k)); entry;
+               ++entry)
+          {
+            const int r = static_cast<int>(entry.col());
+            next[k] -= (entry.value() * stage.inverse[r]) * all[stage.removed[r]];
+          }
+        }
+      });
+    found.push_back(rowsOf(found.empty() ? x : found.back(), stage.kept, monitor));
     given.push_back(std::move(next));
   }
   const SolveReport report =
@@ -248,23 +272,30 @@ SolveReport CondensedSolver::solve(
   for (std::size_t i = this->stages_.size(); i-- > 0;)
   {
     const Stage& stage = this->stages_[i];
-    Points& all = found[i];
-    const Points& kept = found[i + 1];
-    for (std::size_t k = 0; k < stage.kept.size(); ++k)
-    {
-      all.row(stage.kept[k]) = kept.row(static_cast<Index>(k));
-    }
-    for (int r = 0; r < stage.coupling.rows(); ++r)
-    {
-      Eigen::RowVector3d sum = given[i].row(stage.removed[r]);
-      for (CsrMatrix::InnerIterator entry(stage.coupling, r); entry; ++entry)
+    const MultiVector &right = i == 0 ? b : given[i - 1], &kept = found[i];
+    MultiVector& all = i == 0 ? x : found[i - 1];
+    monitor.parallelFor(static_cast<Index>(kept.size()), Grain,
+      [&](Index first, Index last)
       {
-        sum -= entry.value() * kept.row(entry.col());
-      }
-      all.row(stage.removed[r]) = stage.inverse[r] * sum;
-    }
+        for (Index k = first; k < last; ++k)
+        {
+          all[stage.kept[k]] = kept[k];
+        }
+      });
+    monitor.parallelFor(stage.coupling.rows(), Grain,
+      [&](Index first, Index last)
+      {
+        for (Index r = first; r < last; ++r)
+        {
+          MultiVectorRow sum = right[stage.removed[r]];
+          for (CsrMatrix::InnerIterator entry(stage.coupling, static_cast<int>(r)); entry; ++entry)
+          {
+            sum -= entry.value() * kept[entry.col()];
+          }
+          all[stage.removed[r]] = stage.inverse[r] * sum;
+        }
+      });
   }
-  x = std::move(found.front());
   return report;
 }
 
@@ -278,9 +309,10 @@ std::size_t CondensedSolver::memory() const
   std::size_t bytes = this->solver_.memory() + sizeof(int) * this->components_.ofRow.size();
   for (const Stage& stage : this->stages_)
   {
-    bytes += sizeof(int) * (stage.kept.size() + 2 * stage.removed.size()) +
-             sizeof(double) * stage.removed.size() +
-             (sizeof(int) + sizeof(double)) * static_cast<std::size_t>(stage.coupling.nonZeros());
+    bytes +=
+      sizeof(int) * (stage.kept.size() + 2 * stage.removed.size()) +
+      sizeof(double) * stage.removed.size() +
+      2 * (sizeof(int) + sizeof(double)) * static_cast<std::size_t>(stage.coupling.nonZeros());
   }
   return bytes;
 }

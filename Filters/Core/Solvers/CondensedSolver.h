@@ -13,8 +13,8 @@ namespace morph
 ///
 /// Rows are eliminated in stages. No two rows of a stage are coupled, so that their block of A is
 /// diagonal, D. The others keep A_kk - A_kr D^-1 A_rk. A row is eliminated if it couples at most 16
-/// others, and adds no more entries than it removes. A stage has
-/// an eighth of the rows or more.
+/// others, and adds at most 16 entries more than it removes. A stage has an eighth of the rows or
+/// more.
 class CondensedSolver
 {
 public:
@@ -26,8 +26,12 @@ public:
     const ConstPoints& coordinates, Monitor& monitor);
 
   /// As SpdSolver::solve(), for all rows. The tolerance is that of the remaining system.
+  ///@{
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  SolveReport solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const;
+  ///@}
 
   /// The solver of the remaining rows: all, in the order of `matrix`, where none was eliminated.
   const SpdSolver& remaining() const { return this->solver_; }
@@ -42,6 +46,7 @@ private:
     std::vector<int> kept, removed; ///< rows of the stage's matrix, ascending
     Eigen::ArrayXd inverse;         ///< D^-1
     CsrMatrix coupling;             ///< A_rk, #removed x #kept
+    CsrMatrix transposed;           ///< A_kr
   };
   /// Chooses the rows to remove; empty where there are none.
   static std::vector<int> choose(const CsrMatrix& matrix, const std::vector<bool>& removable);

@@ -56,7 +56,7 @@ struct Workspace
 Eigen::Array4i above(const Row& norm2, const Row& goal2)
 {
   Eigen::Array4i running = Eigen::Array4i::Zero();
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 4; ++c)
   {
     running[c] = !(norm2[c] <= goal2[c]);
   }
@@ -111,23 +111,32 @@ struct GeneralSolver::System
   }
 
   /// Sets the residual to b - A x; returns the squared norms.
-  Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
+  Row trueResidual(const MultiVector& b, Workspace& work, Monitor& monitor) const;
   void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
     Monitor& monitor) const;
   /// Runs BiCGSTAB from the current solution until it reaches the goal, stagnates or breaks down.
   /// `norm2` becomes that of the recurrence's residual: the caller has to compute the true one.
   void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
     Monitor& monitor, const std::function<void(double)>& progress) const;
+  Report solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const;
   Report solve(
-    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+  {
+    MultiVector rows = toRows(x, monitor);
+    const Report report = this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+    fromRows(rows, x, monitor);
+    return report;
+  }
 };
 
-Row GeneralSolver::System::trueResidual(const Points& b, Workspace& work, Monitor& monitor) const
+Row GeneralSolver::System::trueResidual(
+  const MultiVector& b, Workspace& work, Monitor& monitor) const
 {
   return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index i)
     {
-      work.residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, work.solution);
+      work.residual[i] = b[i] - rowProduct(this->A, i, work.solution);
       return Row(work.residual[i].cwiseAbs2());
     });
 }
@@ -160,7 +169,7 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
   Row scale = zero, unscale = zero;
   const auto rescale = [&]
   {
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 4; ++c)
     {
       unscale[c] = norm2[c] > goal2[c] ? std::sqrt(norm2[c] / static_cast<double>(n)) : 0;
       scale[c] = unscale[c] > 0 ? 1 / unscale[c] : 0;
@@ -187,7 +196,7 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
     {
       return;
     }
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 4; ++c)
     {
       if (running[c] &&
           !(std::abs(rho[c]) > BreakdownCosine * std::sqrt(norm2[c]) * std::sqrt(shadowNorm2[c])))
@@ -293,18 +302,15 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
 }
 
 GeneralSolver::Report GeneralSolver::System::solve(
-  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
-  const Row bNorm2 = reproducibleSum(
-    n, monitor, Row(Row::Zero()), [&](Index i) { return Row(toRow(b.row(i)).cwiseAbs2()); });
+  const Row bNorm2 =
+    reproducibleSum(n, monitor, Row(Row::Zero()), [&](Index i) { return Row(b[i].cwiseAbs2()); });
   const auto start = [&]
   {
-    for (Index i = 0; i < n; ++i)
-    {
-      work->solution[i] = toRow(x.row(i));
-    }
+    work->solution = x;
     return keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, *work, monitor),
       work->solution, work->residual, monitor);
   };
@@ -395,7 +401,7 @@ GeneralSolver::Report GeneralSolver::System::solve(
     monitor.warn(text.str());
   }
 
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 4; ++c)
   {
     // A residual of 1e-13 of the whole is rounding, however small the column is.
     if (bNorm2[c] > floor2 && norm2[c] > 100 * floor2)
@@ -403,10 +409,7 @@ GeneralSolver::Report GeneralSolver::System::solve(
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }
   }
-  for (Index i = 0; i < n; ++i)
-  {
-    x.row(i) = work->solution[i].head<3>();
-  }
+  x.swap(work->solution);
   this->giveBack(std::move(work));
   const double pass =
     12. * this->A.nonZeros() + (9. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
@@ -469,6 +472,12 @@ void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, M
 
 GeneralSolver::Report GeneralSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
+}
+
+GeneralSolver::Report GeneralSolver::solve(
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }

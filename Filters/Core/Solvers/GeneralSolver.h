@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MultiVector.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Monitor.h"
@@ -12,7 +13,7 @@
 namespace morph
 {
 /// Solves A X = B and A^T X = B by BiCGSTAB, with A sparse and close to an M-matrix. B has three
-/// columns; one pass over the matrix serves all three. The right preconditioner is a
+/// or four columns; one pass over the matrix serves all of them. The right preconditioner is a
 /// smoothed-aggregation multigrid of A, or of its transpose for the transposed system. Source: van
 /// der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644.
 ///
@@ -41,8 +42,13 @@ public:
   /// (|A| |x| + |b|), the best x is returned and the residual reported. An iteration is one
   /// application of the preconditioner. Throws Error of kind NoConvergence, with the residual,
   /// after `maxIterations` or on overflow.
+  ///@{
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  /// The same for up to four columns, without copies.
+  Report solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const;
+  ///@}
 
   /// Solves A^T x = b. The first call makes and keeps the transposes, 0.4 kB a row of a hexahedral
   /// mesh.

@@ -53,7 +53,7 @@ Gmres::Gmres(const CsrMatrix& matrix)
 
 Gmres::~Gmres() = default;
 
-int Gmres::run(const Points& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
+int Gmres::run(const MultiVector& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
   MultiVector& x, Monitor& monitor)
 {
   monitor.check();
@@ -61,16 +61,16 @@ int Gmres::run(const Points& b, const MultiVectorRow& norm2, const MultiVectorRo
   Preconditioner& preconditioner = solver.preconditioner();
   preconditioner.monitor = &monitor;
   int most = 1;
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 4; ++c)
   {
     if (!(norm2[c] > goal2[c] && std::isfinite(norm2[c])))
     {
       continue;
     }
-    const Eigen::VectorXd column = b.col(c);
-    Eigen::VectorXd guess(column.size());
+    Eigen::VectorXd column(static_cast<Index>(b.size())), guess(column.size());
     for (Index i = 0; i < guess.size(); ++i)
     {
+      column[i] = b[i][c];
       guess[i] = x[i][c];
     }
     solver.setTolerance(std::sqrt(goal2[c]) / column.norm());

@@ -23,8 +23,8 @@ public:
   /// Makes up to 30 iterations for each column above its goal. `norm2` and `goal2`: squared norms
   /// per column, of the residual b - A x and of what it should be; `x`: the guess in, the solution
   /// out. Returns the most iterations made for a column, at least 1.
-  int run(const Points& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2, MultiVector& x,
-    Monitor& monitor);
+  int run(const MultiVector& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
+    MultiVector& x, Monitor& monitor);
 
 private:
   struct Implementation;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
 
 #include <Eigen/Core>
 
@@ -10,7 +12,7 @@
 
 namespace morph
 {
-/// One row of three right-hand sides, and a zero: a matrix entry multiplies all three at once.
+/// One row of four right-hand sides, or of three and a zero: a matrix entry multiplies all at once.
 using MultiVectorRow = Eigen::Vector4d;
 using MultiVector = std::vector<MultiVectorRow>;
 /// A MultiVector in single precision: one SSE register a row.
@@ -22,12 +24,41 @@ MultiVectorRow toRow(const Values& row)
   return MultiVectorRow(row[0], row[1], row[2], 0);
 }
 
+/// Copies three right-hand sides, and back.
+///@{
+inline MultiVector toRows(const Points& columns, Monitor& monitor)
+{
+  MultiVector rows(static_cast<std::size_t>(columns.rows()));
+  monitor.parallelFor(columns.rows(), 4096,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        rows[i] = toRow(columns.row(i));
+      }
+    });
+  return rows;
+}
+inline void fromRows(const MultiVector& rows, Points& columns, Monitor& monitor)
+{
+  columns.resize(static_cast<Index>(rows.size()), 3);
+  monitor.parallelFor(columns.rows(), 4096,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        columns.row(i) = rows[i].head<3>();
+      }
+    });
+}
+///@}
+
 /// Returns a / b per column, 0 for columns that have stopped.
 inline MultiVectorRow ratio(
   const MultiVectorRow& a, const MultiVectorRow& b, const Eigen::Array4i& running)
 {
   MultiVectorRow result = MultiVectorRow::Zero();
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 4; ++c)
   {
     if (running[c])
     {
@@ -37,10 +68,10 @@ inline MultiVectorRow ratio(
   return result;
 }
 
-/// Returns the maximum of sqrt(a / b) over the three columns.
+/// Returns the maximum of sqrt(a / b) over the columns.
 inline double largestRatio(const MultiVectorRow& a, const MultiVectorRow& b)
 {
-  return std::sqrt((a.array() / b.array().max(1e-300)).head<3>().maxCoeff());
+  return std::sqrt((a.array() / b.array().max(1e-300)).maxCoeff());
 }
 
 /// Computes (A x)_i for x in double or single precision.

@@ -36,11 +36,11 @@ RowComponents rowComponents(const CsrMatrix& matrix)
   return result;
 }
 
-MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
+MultiVectorRow keepBetterGuess(const RowComponents& components, const MultiVector& b,
   const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
   MultiVector& residual, Monitor& monitor)
 {
-  const Index rows = b.rows();
+  const auto rows = static_cast<Index>(b.size());
   const bool single = components.ofRow.empty();
   std::vector<MultiVectorRow> ofB(single ? 1 : components.count, bNorm2),
     ofResidual(ofB.size(), norm2);
@@ -50,7 +50,7 @@ MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
     std::fill(ofResidual.begin(), ofResidual.end(), MultiVectorRow::Zero());
     for (Index i = 0; i < rows; ++i)
     {
-      ofB[components.ofRow[i]] += toRow(b.row(i)).cwiseAbs2();
+      ofB[components.ofRow[i]] += b[i].cwiseAbs2();
       ofResidual[components.ofRow[i]] += residual[i].cwiseAbs2();
     }
   }
@@ -72,12 +72,12 @@ MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
     [&](Index i)
     {
       const Eigen::Array4i& dropped = drop[components.of(i)];
-      for (int j = 0; j < 3; ++j)
+      for (int j = 0; j < 4; ++j)
       {
         if (dropped[j])
         {
           solution[i][j] = 0;
-          residual[i][j] = b(i, j);
+          residual[i][j] = b[i][j];
         }
       }
       return MultiVectorRow(residual[i].cwiseAbs2());

@@ -26,7 +26,7 @@ RowComponents rowComponents(const CsrMatrix& matrix);
 /// solution, without an iteration. `solution`, `residual`: of the guess. `bNorm2`, `norm2`: squared
 /// norms of b and of the residual per column. Returns the new squared norm of the residual. Cost: a
 /// comparison, and a pass over the vectors if there are several components.
-MultiVectorRow keepBetterGuess(const RowComponents& components, const Points& b,
+MultiVectorRow keepBetterGuess(const RowComponents& components, const MultiVector& b,
   const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
   MultiVector& residual, Monitor& monitor);
 }

@@ -24,8 +24,7 @@ using Rows = MultiVector;
 struct Workspace
 {
   explicit Workspace(const Multigrid& multigrid, std::size_t n)
-    : solution(n)
-    , residual(n)
+    : residual(n)
     , direction(n)
     , image(n)
     , residual32(n)
@@ -34,7 +33,7 @@ struct Workspace
   {
   }
 
-  Rows solution, residual, direction, image;
+  Rows residual, direction, image;
   Multigrid::Vector residual32, step32;
   Multigrid::Workspace multigrid;
 };
@@ -82,6 +81,7 @@ struct SpdSolver::Implementation
   CsrMatrix A;
   RowComponents components;
   Multigrid preconditioner;
+  double unit = 1; ///< the preconditioner is that of A over this
 
   // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
   // has no effect.
@@ -101,9 +101,10 @@ struct SpdSolver::Implementation
   }
 
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
-  Row trueResidual(const Points& b, Workspace& work, Monitor& monitor) const;
-  SolveReport iterate(
-    const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const;
+  Row trueResidual(
+    const MultiVector& b, const Rows& solution, Workspace& work, Monitor& monitor) const;
+  SolveReport iterate(const MultiVector& b, Rows& solution, Workspace& work, double tolerance,
+    int maxIterations, Monitor& monitor) const;
   SolveReport iterateConstrained(const Points& b, const RowConstraints& constraints, Rows& solution,
     double tolerance, int maxIterations, Monitor& monitor) const;
 };
@@ -141,35 +142,35 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
     throw SingularRows(notPositive);
   }
   fresh->components = rowComponents(fresh->A);
+  fresh->unit = diagonal.maxCoeff();
   fresh->preconditioner.prepare(
-    fresh->A, Multigrid::Symmetry::Symmetric, diagonal.maxCoeff(), coordinates, monitor);
+    fresh->A, Multigrid::Symmetry::Symmetric, fresh->unit, coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
 Row SpdSolver::Implementation::trueResidual(
-  const Points& b, Workspace& work, Monitor& monitor) const
+  const MultiVector& b, const Rows& solution, Workspace& work, Monitor& monitor) const
 {
   return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index i)
     {
-      work.residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, work.solution);
+      work.residual[i] = b[i] - rowProduct(this->A, i, solution);
       work.direction[i] = Row::Zero();
       return Row(work.residual[i].cwiseAbs2());
     });
 }
 
-SolveReport SpdSolver::Implementation::iterate(
-  const Points& b, Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
+SolveReport SpdSolver::Implementation::iterate(const MultiVector& b, Rows& solution,
+  Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
-  Rows &solution = work.solution, &residual = work.residual, &direction = work.direction,
-       &image = work.image;
+  Rows &residual = work.residual, &direction = work.direction, &image = work.image;
   const Row zero = Row::Zero();
 
   const Row bNorm2 =
-    reproducibleSum(n, monitor, zero, [&](Index i) { return Row(toRow(b.row(i)).cwiseAbs2()); });
-  Row norm2 = keepBetterGuess(
-    this->components, b, bNorm2, this->trueResidual(b, work, monitor), solution, residual, monitor);
+    reproducibleSum(n, monitor, zero, [&](Index i) { return Row(b[i].cwiseAbs2()); });
+  Row norm2 = keepBetterGuess(this->components, b, bNorm2,
+    this->trueResidual(b, solution, work, monitor), solution, residual, monitor);
   if (!bNorm2.allFinite() || !norm2.allFinite())
   {
     throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
@@ -193,7 +194,7 @@ SolveReport SpdSolver::Implementation::iterate(
 
     // The preconditioner has single precision: scales each column's residual to about 1.
     Row scale = zero, unscale = zero;
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 4; ++c)
     {
       if (norm2[c] > goal2[c])
       {
@@ -214,7 +215,7 @@ SolveReport SpdSolver::Implementation::iterate(
     for (bool first = true;; first = false)
     {
       Eigen::Array4i running = Eigen::Array4i::Zero();
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 4; ++c)
       {
         running[c] = !(norm2[c] <= goal2[c]);
       }
@@ -267,11 +268,11 @@ SolveReport SpdSolver::Implementation::iterate(
         monitor.progress(std::clamp(1 - std::log(left) / std::log(atStart), 0., 1.));
       }
     }
-    norm2 = this->trueResidual(b, work, monitor);
+    norm2 = this->trueResidual(b, solution, work, monitor);
     requireFinite(norm2, report.iterations);
   }
 
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 4; ++c)
   {
     // A residual of 1e-13 of the whole is rounding, however small the column is.
     if (bNorm2[c] > floor2 && norm2[c] > 100 * floor2)
@@ -382,18 +383,43 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
 SolveReport SpdSolver::solveConstrained(const Points& b, const RowConstraints& constraints,
   Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
-  Rows solution(x.rows());
-  for (Index i = 0; i < x.rows(); ++i)
-  {
-    solution[i] = toRow(x.row(i));
-  }
+  Rows solution = toRows(x, monitor);
   const SolveReport report = this->implementation_->iterateConstrained(
     b, constraints, solution, tolerance, maxIterations, monitor);
-  for (Index i = 0; i < x.rows(); ++i)
-  {
-    x.row(i) = solution[i].head<3>();
-  }
+  fromRows(solution, x, monitor);
   return report;
+}
+
+void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
+{
+  const Index n = from.rows();
+  std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
+  // Single precision: scales the numbers to about 1.
+  const double norm2 =
+    reproducibleSum(n, monitor, 0., [&](Index i) { return from.row(i).squaredNorm(); });
+  const double unscale = norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) : 1;
+  // The hierarchy is that of A over its largest diagonal entry.
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>();
+      }
+    });
+  this->implementation_->preconditioner.apply(
+    work->residual32, work->step32, work->multigrid, monitor);
+  const double factor = unscale / this->implementation_->unit;
+  to.resize(n, 3);
+  monitor.parallelFor(n, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        to.row(i) = factor * work->step32[i].head<3>().cast<double>();
+      }
+    });
+  this->implementation_->giveBack(std::move(work));
 }
 
 Points SpdSolver::product(const Points& x, Monitor& monitor) const
@@ -415,20 +441,22 @@ Points SpdSolver::product(const Points& x, Monitor& monitor) const
 }
 
 SolveReport SpdSolver::solve(
-  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
-  for (Index i = 0; i < x.rows(); ++i)
-  {
-    work->solution[i] = Row(x(i, 0), x(i, 1), x(i, 2), 0);
-  }
   const SolveReport report =
-    this->implementation_->iterate(b, *work, tolerance, maxIterations, monitor);
-  for (Index i = 0; i < x.rows(); ++i)
-  {
-    x.row(i) = work->solution[i].head<3>();
-  }
+    this->implementation_->iterate(b, x, *work, tolerance, maxIterations, monitor);
   this->implementation_->giveBack(std::move(work));
+  return report;
+}
+
+SolveReport SpdSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  MultiVector rows = toRows(x, monitor);
+  const SolveReport report =
+    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+  fromRows(rows, x, monitor);
   return report;
 }
 
@@ -447,6 +475,6 @@ std::size_t SpdSolver::memory() const
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
          4 * my.components.ofRow.size() + my.preconditioner.memory() +
-         my.A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+         my.A.rows() * (3 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MultiVector.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Monitor.h"
@@ -23,8 +24,8 @@ struct RowConstraints
 };
 
 /// Solves A X = B by conjugate gradients, with A sparse, symmetric positive definite. B has three
-/// columns; one pass over the matrix serves all three. The preconditioner is a smoothed-aggregation
-/// multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
+/// or four columns; one pass over the matrix serves all of them. The preconditioner is a
+/// smoothed-aggregation multigrid (Vanek, Mandel, Brezina, Computing 56 (1996) 179-196).
 class SpdSolver
 {
 public:
@@ -43,8 +44,13 @@ public:
   /// Norms are over all rows. If rounding keeps the residual above this, the best x is returned and
   /// the residual reported. Throws Error of kind NoConvergence, with the residual, after
   /// `maxIterations` or on overflow.
+  ///@{
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  /// The same for up to four columns, without copies; what `x` is after an error has no meaning.
+  SolveReport solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const;
+  ///@}
 
   /// Solves P A x = P b for the x that differ from the guess by vectors of P's range, where P
   /// projects the constrained rows onto their directions. The columns are coupled there, so all
@@ -53,6 +59,9 @@ public:
   /// the number of cells across the mesh.
   SolveReport solveConstrained(const Points& b, const RowConstraints& constraints, Points& x,
     double tolerance, int maxIterations, Monitor& monitor) const;
+  /// Computes `to` = B `from`, #rows x 3, with the multigrid cycle B. It is symmetric and positive
+  /// definite, and near A^-1; single precision.
+  void precondition(const Points& from, Points& to, Monitor& monitor) const;
   /// Returns A x, #rows x 3.
   Points product(const Points& x, Monitor& monitor) const;
 

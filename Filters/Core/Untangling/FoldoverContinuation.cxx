@@ -122,6 +122,7 @@ MeshEnergy::State FoldoverContinuation::minimize(Points& points, int steps, Moni
 {
   MinimizerLimits limits;
   limits.steps = steps;
+  limits.preconditioner = this->preconditioner_;
   if (this->minimizer_ == Minimizer::Newton)
   {
     newton(this->energy_, points, limits, this->matrix_, this->effort_, monitor);

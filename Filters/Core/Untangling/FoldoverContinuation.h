@@ -18,9 +18,12 @@ public:
     LimitedMemoryBfgs ///< needs no matrix; as fast for about 10,000 cells, slower for more
   };
 
-  FoldoverContinuation(MeshEnergy& energy, Minimizer minimizer)
+  /// `preconditioner`: for Newton's linear systems, by the rows of `energy`; null: none.
+  FoldoverContinuation(
+    MeshEnergy& energy, Minimizer minimizer, const NodePreconditioner* preconditioner = nullptr)
     : energy_(energy)
     , minimizer_(minimizer)
+    , preconditioner_(preconditioner)
   {
   }
 
@@ -45,6 +48,7 @@ private:
 
   MeshEnergy& energy_;
   Minimizer minimizer_;
+  const NodePreconditioner* preconditioner_;
   BlockCsr3f matrix_;
   MinimizerEffort effort_;
 };

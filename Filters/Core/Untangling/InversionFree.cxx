@@ -2,6 +2,7 @@
 #include "Untangling/InversionFree.h"
 
 #include "LinearMethods/GraphLaplace.h"
+#include "Mesh/UnknownOrdering.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -36,6 +37,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
     this->validAtRest_ = this->minimumAtRest_ > 0;
     this->hasFemWarp_ = false;
     this->hasSimplexLinear_ = false;
+    this->preconditioner_.reset();
     return;
   }
 
@@ -72,9 +74,16 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
 {
   this->hasFemWarp_ = true;
+  this->preconditioner_.reset();
   try
   {
     this->femWarp_.prepare(rest, this->partition(), monitor);
+    if (this->femWarp_.rows() == unknownOrdering(this->referenceMesh_, this->partition().free) &&
+        this->femWarp_.solver().matrix().rows() ==
+          static_cast<Index>(this->partition().free.size()))
+    {
+      this->preconditioner_ = std::make_unique<WarpPreconditioner>(this->femWarp_);
+    }
   }
   catch (const Error& error)
   {
@@ -107,6 +116,7 @@ MeshImprovement InversionFree::improvement() const
   options.refreshes = this->refreshes_;
   options.validAtRest = this->validAtRest_;
   options.minimumAtRest = this->minimumAtRest_;
+  options.preconditioner = this->preconditioner_.get();
   return { this->referenceMesh_, this->orientation_, this->partition(), this->boundary_,
     this->geometry_, options };
 }

@@ -78,7 +78,7 @@ bool MeshImprovement::minimizeEnergy(const MovableQuality& quality, double goal,
   const Aim& aim, Points& points, Outcome& outcome, Monitor& monitor) const
 {
   MeshEnergy energy(this->mesh_, this->partition_.free, this->communicator_);
-  FoldoverContinuation stages(energy, this->options_.minimizer);
+  FoldoverContinuation stages(energy, this->options_.minimizer, this->options_.preconditioner);
   const bool isTangled = best <= 0;
   monitor.check();
   ProgressRange untangle(monitor, 0.1, 0.7);

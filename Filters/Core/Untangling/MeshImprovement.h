@@ -26,6 +26,8 @@ struct ImprovementOptions
   int refreshes = 2;     ///< how often stretched targets are recomputed from the current mesh
   bool validAtRest = true;
   double minimumAtRest = 0; ///< scaled Jacobian of the undeformed mesh
+  /// for Newton's linear systems of the whole mesh, by unknownOrdering(); null: none
+  const NodePreconditioner* preconditioner = nullptr;
 };
 
 /// Untangles and improves a mesh whose boundary has moved: the stages of InversionFree.h. On

@@ -25,6 +25,12 @@ constexpr double Promising = 30;
 constexpr double NearBound = 5e-3;
 constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
 
+// After the last power those from 64 on run again, as long as that raises the minimum by this: by
+// then other cells are the worst, and other nodes move. Without it rounding decides how high the
+// search comes.
+constexpr int RepeatedSquarings = 6, Repetitions = 3;
+constexpr double WorthRepeating = 1.003;
+
 int stepsOf(int squarings)
 {
   return squarings <= LowSquarings ? 60 : 100;
@@ -114,6 +120,7 @@ struct Limits
 {
   int squarings;          ///< of the first power, at least
   double cellEvaluations; ///< in all
+  int repetitions;        ///< of the high powers, at most
 };
 
 /// Raises the minimum as raiseMinimumQuality() does, and adds to `effort`.
@@ -137,15 +144,32 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   Points trial = points;
   const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
   int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse));
+  double best = quality.minimum; // of `points`; `quality` is that of `trial`
   // Once a power's second round has gained little, those of higher powers do.
   bool repeats = true, isRepeated = false;
   const auto canGain = [&]
+  { return !hasReached(best, goal) && best + significantGain(best) < goal; };
+  double before = best; // the repetition of the high powers
+  int repetitions = 0;
+  for (int round = 0; round < Rounds && canGain(); ++round)
   {
-    return !hasReached(quality.minimum, goal) &&
-           quality.minimum + significantGain(quality.minimum) < goal;
-  };
-  for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
-  {
+    if (squarings > LastSquarings)
+    {
+      if (repetitions == limits.repetitions || best < WorthRepeating * before)
+      {
+        break;
+      }
+      ++repetitions;
+      before = best;
+      squarings = RepeatedSquarings;
+      repeats = true;
+      isRepeated = false;
+      if (quality.minimum < best)
+      {
+        trial = points;
+        quality = measured.measure(trial, monitor);
+      }
+    }
     const KRing patch =
       kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings, communicator);
     const auto cells = communicator.sum(static_cast<double>(patch.cells.size()));
@@ -164,21 +188,17 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     effort.squarings = squarings;
     MovableQuality::Result next = measured.measure(trial, monitor);
     const double gain = next.minimum - quality.minimum, least = significantGain(quality.minimum);
-    const bool gained = gain > least;
     const bool isPromising = gain > Promising * least;
     const bool more = isPromising && steps.steps >= stepLimits.steps && repeats;
     repeats = repeats && (isPromising || !isRepeated);
     isRepeated = more;
-    if (gained)
+    // A low power's norm can be lower with a lower minimum. The next power still starts there.
+    quality = std::move(next);
+    if (quality.minimum > best + significantGain(best))
     {
-      points(patch.nodes, allColumns) = trial(patch.nodes, allColumns);
-      quality = std::move(next);
+      points = trial;
+      best = quality.minimum;
       ++effort.rounds;
-    }
-    else
-    {
-      // A lower norm can have a lower minimum. The next power starts from the best mesh.
-      trial(patch.nodes, allColumns) = points(patch.nodes, allColumns);
     }
     if (!more)
     {
@@ -186,7 +206,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     }
     if (isOfTetrahedra)
     {
-      squarings = std::max(squarings, firstSquarings(quality.minimum, goal, ofUse));
+      squarings = std::max(squarings, firstSquarings(best, goal, ofUse));
     }
   }
 }
@@ -196,8 +216,8 @@ AscentEffort raiseMinimumQuality(
   const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
 {
   AscentEffort effort;
-  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity() }, points,
-    effort, monitor);
+  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), Repetitions },
+    points, effort, monitor);
   return effort;
 }
 
@@ -212,7 +232,7 @@ AscentEffort raiseNextWorst(
   const double passes = isOfTetrahedra ? FewPassesOfTetrahedra : FewPasses;
   // Its mesh is the best for the powers that are done.
   const Limits limits{ std::max(FirstSquarings, before.squarings),
-    std::max(part * before.cellEvaluations, passes * cells) };
+    std::max(part * before.cellEvaluations, passes * cells), 0 };
   AscentEffort effort;
   raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);

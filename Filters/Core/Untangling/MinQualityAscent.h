@@ -30,10 +30,11 @@ struct AscentEffort
 /// there, and stays so. Nodes within five rings of the worst cells (three in a mesh of tetrahedra)
 /// move to lower their WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners
 /// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a
-/// round gains little or has converged, twice in a mesh of tetrahedra. A round ends as soon as its
-/// cells are at `goal`, and all end there or after the highest power. A mesh that has reached it,
-/// see hasReached(), is left as it is. `points`: #nodes x 3, start and best
-/// result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
+/// round gains little or has converged, twice in a mesh of tetrahedra. Each starts where the last
+/// one ended, even if its minimum is lower. The two highest powers are repeated up to three times,
+/// as long as that gains 0.3 %. A round ends as soon as its cells are at `goal`, and all end there.
+/// A mesh that has reached it, see hasReached(), is left as it is. `points`: #nodes x 3, start and
+/// best result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
 AscentEffort raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 

@@ -73,15 +73,6 @@ std::vector<std::array<double, Columns>> rowsOf(
   return rows;
 }
 
-/// Null, or as a reader leaves it on an MPI process that has no part of the data.
-bool isEmpty(vtkDataObject* given)
-{
-  auto* table = vtkTable::SafeDownCast(given);
-  auto* points = vtkPointSet::SafeDownCast(given);
-  return !given || (table && table->GetNumberOfColumns() == 0) ||
-         (points && points->GetNumberOfPoints() == 0);
-}
-
 vtkPointSet* pointsOf(vtkDataObject* given)
 {
   auto* points = vtkPointSet::SafeDownCast(given);
@@ -144,11 +135,19 @@ void addTo(Points& displacements, const std::array<double, 6>& row, const std::a
 
 namespace ControlPoints
 {
+bool AreNone(vtkDataObject* given)
+{
+  auto* table = vtkTable::SafeDownCast(given);
+  auto* points = vtkPointSet::SafeDownCast(given);
+  return !given || (table && table->GetNumberOfColumns() == 0) ||
+         (points && points->GetNumberOfPoints() == 0);
+}
+
 std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed)
 {
   std::vector<Handle> result;
   std::transform(listed.begin(), listed.end(), std::back_inserter(result), handleOf);
-  if (isEmpty(given))
+  if (AreNone(given))
   {
     return result;
   }
@@ -185,14 +184,14 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
     addTo(result, row, size);
   }
   auto* table = vtkTable::SafeDownCast(given);
-  if (table && !isEmpty(given))
+  if (table && !AreNone(given))
   {
     for (const auto& row : rowsOf<6>(table, { "i", "j", "k", "dx", "dy", "dz" }))
     {
       addTo(result, row, size);
     }
   }
-  else if (!isEmpty(given))
+  else if (!AreNone(given))
   {
     vtkPointSet* points = pointsOf(given);
     if (points->GetNumberOfPoints() != count)
@@ -228,7 +227,7 @@ vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given)
 vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size)
 {
   std::vector<Handle> handles;
-  const Points displacements = isEmpty(given) ? Points() : Lattice(given, {}, size);
+  const Points displacements = AreNone(given) ? Points() : Lattice(given, {}, size);
   for (Index i = 0; i < displacements.rows(); ++i)
   {
     handles.push_back({ Eigen::RowVector3d::Zero(), displacements.row(i), 0 });

@@ -16,6 +16,9 @@ class vtkPolyData;
 /// a vtkTable, may be null; see vtkDisplacementAlgorithm::SetControlPointsData().
 namespace morph::filters::ControlPoints
 {
+/// Whether nothing is given. A reader leaves such data on an MPI process that has no part of them.
+bool AreNone(vtkDataObject* given);
+
 /// The handles of both. `listed`: place, displacement, radius. Throws morph::Error for data of
 /// another type, and for arrays or columns that are missing, not numeric or too short.
 std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed);

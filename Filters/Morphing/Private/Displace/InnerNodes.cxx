@@ -276,6 +276,8 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   const Choice::Result& choice, const Options& options, Surroundings::Result& result,
   morph::Monitor& monitor)
 {
+  const std::vector<Index>& outer = model.Faces().nodes;
+  const Points before = result.Moved(outer, morph::allColumns);
   if (options.KeepLayers > 0)
   {
     this->KeepLayers(grid, model, choice, options, result);
@@ -308,12 +310,17 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
       this->MoveRigidly(zone, model, result, monitor);
     }
   }
+  this->HasMovedOuter = before != result.Moved(outer, morph::allColumns);
 }
 
 void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
   const Points& targets, const Surroundings::Options& options, Surroundings::Result& result,
   morph::Monitor& monitor)
 {
+  if (!this->HasMovedOuter)
+  {
+    return;
+  }
   const auto isPlaced = [&result](Index node)
   {
     return result.Roles[node] == Surroundings::IsZone ||

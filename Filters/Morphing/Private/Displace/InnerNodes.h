@@ -52,8 +52,9 @@ public:
   /// constrained.
   void Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice::Result& choice,
     const Options& options, Surroundings::Result& result, morph::Monitor& monitor);
-  /// Moves the rest of the boundary again, since surfaces around layers and zones follow their
-  /// outer nodes, too. After Place(), which made `result`. `targets`: of choice.Moving.
+  /// Moves the rest of the boundary again where Place() has put outer nodes elsewhere than the
+  /// first time: surfaces around layers and zones follow them, too. After Place(), which made
+  /// `result`. `targets`: of choice.Moving. Cost: nothing where no outer node was put elsewhere.
   void SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
     const morph::Points& targets, const Surroundings::Options& options,
     Surroundings::Result& result, morph::Monitor& monitor);
@@ -104,6 +105,7 @@ private:
   std::vector<morph::Index> PointOf; ///< on ranks: of the piece, of each node behind the model's
   std::map<morph::Index, morph::Index> NumberOf; ///< in PointOf, of those points
   Surroundings Around;                           ///< of what Place() moves
+  bool HasMovedOuter = false;                    ///< Place() has put outer nodes elsewhere
   std::vector<morph::Index> FrozenNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;

@@ -20,6 +20,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <utility>
 
@@ -361,7 +362,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   {
     alike([&] { this->Inner.Append(grid, this->Model, result, output); });
   }
-  this->Count(filter);
+  this->Count(filter, hasInner);
 }
 
 void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filter,
@@ -410,26 +411,37 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
   }
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Count(vtkBoundaryDisplacement* filter) const
+void vtkBoundaryDisplacement::vtkInternals::Count(
+  vtkBoundaryDisplacement* filter, bool hasInner) const
 {
   using filters::Surroundings;
   const std::vector<signed char>& roles = this->Displaced.Roles;
-  // All processes have the nodes of the boundary, and each has its own inner ones.
-  const auto inner = roles.begin() + this->Model.Points().rows();
+  std::array<morph::Index, Surroundings::IsLayer + 1> count = {}, inside = {};
+  const auto whole = static_cast<std::size_t>(this->Model.Points().rows());
+  // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.
+  for (std::size_t i = 0; hasInner && i < whole; ++i)
+  {
+    ++count[roles[i]];
+  }
+  for (std::size_t i = 0; !hasInner && i < this->Model.Faces().nodes.size(); ++i)
+  {
+    ++count[roles[this->Model.Faces().nodes[i]]];
+  }
+  // All processes have the nodes of the boundary, and each has its own inner ones behind them.
+  for (std::size_t i = whole; i < roles.size(); ++i)
+  {
+    ++inside[roles[i]];
+  }
   const filters::RankGroup processes(
     this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
-  const auto count = [&](Surroundings::Role role)
-  {
-    morph::Index inside = std::count(inner, roles.end(), role);
-    processes.Sum(&inside, 1);
-    return std::count(roles.begin(), inner, role) + inside;
-  };
-  filter->MovingPoints = count(Surroundings::Moves);
-  filter->HeldPoints = count(Surroundings::IsHeld);
-  filter->FollowingPoints = count(Surroundings::Follows);
-  filter->FreePoints = count(Surroundings::IsFree);
-  filter->ZonePoints = count(Surroundings::IsZone);
-  filter->LayerPoints = count(Surroundings::IsLayer);
+  processes.Sum(inside.data(), inside.size());
+  const auto both = [&](Surroundings::Role role) { return count[role] + inside[role]; };
+  filter->MovingPoints = both(Surroundings::Moves);
+  filter->HeldPoints = both(Surroundings::IsHeld);
+  filter->FollowingPoints = both(Surroundings::Follows);
+  filter->FreePoints = both(Surroundings::IsFree);
+  filter->ZonePoints = both(Surroundings::IsZone);
+  filter->LayerPoints = both(Surroundings::IsLayer);
 }
 
 /// A selection's ids are those of a process's piece, so each process evaluates its own.
@@ -470,7 +482,8 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
   }
   this->Whole->Take(piece, monitor);
   const bool byHandles = filter->Motion == MOTION_HANDLES;
-  if (filter->Moving == MOVE_SELECTION || (byHandles && filter->SelectedHandles))
+  if (filter->Moving == MOVE_SELECTION ||
+      (filter->Moving != MOVE_NOTHING && byHandles && filter->SelectedHandles))
   {
     this->SelectOnRanks(piece, extras.Selection);
   }

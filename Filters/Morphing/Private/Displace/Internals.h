@@ -130,7 +130,7 @@ private:
   void Write(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
     const Moves& moves, bool hasInner, bool hasRounds, vtkPolyData* output,
     morph::filters::Monitor& monitor);
-  void Count(vtkBoundaryDisplacement* filter) const;
+  void Count(vtkBoundaryDisplacement* filter, bool hasInner) const;
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
   morph::filters::InnerNodes::Options InnerOptions(
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);

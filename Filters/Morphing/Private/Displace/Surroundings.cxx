@@ -2,6 +2,7 @@
 #include "Private/Displace/Surroundings.h"
 
 #include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Support/Error.h"
 
@@ -27,6 +28,27 @@ Points rowsOf(const Points& all, const std::vector<Index>& ids)
   }
   return some;
 }
+
+/// The shapes along which surfaces slide, as a target.
+class ShapeTarget : public morph::ProjectionTarget
+{
+public:
+  /// `shapes`: one for each surface, null where it does not slide.
+  explicit ShapeTarget(std::vector<const SurfaceShape*> shapes)
+    : Shapes(std::move(shapes))
+  {
+  }
+  bool holds(Index surface) const override { return this->Shapes[surface] != nullptr; }
+  bool closestOnSurface(Index surface, const Row& x, const Row&, Row& y) const override
+  {
+    y = this->Shapes[surface]->Closest(x);
+    return true;
+  }
+  bool closestOnFeatures(const Row&, Row&) const override { return false; }
+
+private:
+  std::vector<const SurfaceShape*> Shapes;
+};
 
 /// The part of the largest displacement by which a surface may leave its shape, and is still said
 /// to keep it.
@@ -351,7 +373,8 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
   morph::morphCurves(local.Geometry(), options.unattached, motion, monitor);
   const morph::SurfaceMorphReport report =
     morph::morphSurfaces(local.Faces(), local.Geometry(), options, motion, monitor, &this->Weights);
-  if (options.method == morph::SurfaceMorphOptions::Method::HarmonicExtension && !options.linear)
+  using Method = morph::SurfaceMorphOptions::Method;
+  if (options.method != Method::WeightedResidual && !options.linear)
   {
     morph::smoothSurfaces(local.Faces(), local.Geometry(), nullptr, motion, monitor);
   }
@@ -380,6 +403,10 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
     sliding.insert(sliding.end(), able.begin(), able.end());
   }
   this->Slide(model, sliding, { Follows }, result);
+  if (options.method == Method::MeshSmoothing)
+  {
+    this->SmoothMeshes(model, sliding, motion, result, monitor);
+  }
   if (!report.reflected.empty())
   {
     std::vector<Index> ids;
@@ -390,6 +417,37 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
     monitor.warn("The motion reflects or flattens surfaces, which follow the nearest rotation and "
                  "scale instead: surface ids " +
                  morph::listIds(ids) + ".");
+  }
+}
+
+void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<Index>& sliding,
+  morph::BoundaryMotion& motion, Result& result, morph::Monitor& monitor)
+{
+  const LocalBoundary& local = this->Local;
+  for (std::size_t i = 0; i < local.Nodes().size(); ++i)
+  {
+    const Index here = static_cast<Index>(i);
+    if (result.Roles[local.Nodes()[i]] == Follows)
+    {
+      motion.displacement.row(here) = result.Moved.row(local.Nodes()[i]) - local.Points().row(here);
+    }
+  }
+  std::vector<const SurfaceShape*> shapes(model.Geometry().surfaces.size(), nullptr);
+  for (const Index s : sliding)
+  {
+    shapes[s] = &this->ShapeOf(model, s);
+  }
+  const ShapeTarget target(std::move(shapes));
+  const Points before = motion.displacement;
+  morph::smoothSurfaceMeshes(local.Faces(), local.Geometry(), &target, motion, monitor);
+  const Points moved = motion.moved();
+  for (std::size_t i = 0; i < local.Nodes().size(); ++i)
+  {
+    const Index here = static_cast<Index>(i);
+    if (motion.displacement.row(here) != before.row(here))
+    {
+      result.Moved.row(local.Nodes()[i]) = moved.row(here);
+    }
   }
 }
 

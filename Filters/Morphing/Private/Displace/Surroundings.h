@@ -110,6 +110,9 @@ private:
   /// Puts nodes of these roles onto the shapes of the surfaces that they are on.
   void Slide(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
     const std::vector<Role>& roles, Result& result);
+  /// Smooths the meshes of surfaces that followed; those in `sliding` keep to their shapes.
+  void SmoothMeshes(const BoundaryModel& model, const std::vector<morph::Index>& sliding,
+    morph::BoundaryMotion& motion, Result& result, morph::Monitor& monitor);
   /// Does all of Spread() but the free surfaces.
   void Place(const BoundaryModel& model, const Choice::Result& choice, const Options& options,
     Result& result, morph::Monitor& monitor);

@@ -4,6 +4,7 @@
 #include "Private/Data/AffineArrays.h"
 
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 
@@ -30,9 +31,15 @@ std::optional<AffineHandle> AffineHandle::Of(vtkPointSet* boundary,
   size += before;
   const bool isSingle = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
   const double tolerance = AffineArrays::Rounding(size, isSingle);
+  auto* doubles = vtkDoubleArray::FastDownCast(found->Fields);
+  const double* fields = doubles ? doubles->GetPointer(0) : nullptr;
   for (morph::Index i = 0; i < handle.Fields.rows(); ++i)
   {
-    if (match.Sources[i] >= 0)
+    if (match.Sources[i] >= 0 && fields)
+    {
+      std::copy_n(fields + 4 * match.Sources[i], 4, handle.Fields.row(i).data());
+    }
+    else if (match.Sources[i] >= 0)
     {
       found->Fields->GetTuple(match.Sources[i], handle.Fields.row(i).data());
     }

@@ -3,6 +3,7 @@
 
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Version.h"
+#include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/SurfaceGrid.h"
 #include "Private/Displace/Zones.h"
@@ -115,6 +116,32 @@ void vtkMorphMesh::vtkInternals::TakeControlPoints(vtkDataObject* points)
   this->Displacement->SetControlPointsData(this->ControlPoints.Update(points));
 }
 
+bool vtkMorphMesh::vtkInternals::HasHandles(bool anySelection) const
+{
+  const bool areConnected = !filters::ControlPoints::AreNone(this->ControlPoints.Copy);
+  return filters::Ranks::Count(areConnected) > 0 || !this->Handles.empty() ||
+         (this->Filter->SelectedHandles && anySelection);
+}
+
+std::string vtkMorphMesh::vtkInternals::Advice() const
+{
+  const std::string none = "Nothing moves yet. ";
+  if (this->NeedsHandles)
+  {
+    return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
+                  "points and tick Selected points are handles.";
+  }
+  if (this->Filter->Moving == MOVE_SELECTION)
+  {
+    return none + "Select points or cells in the view, and press Copy Active Selection.";
+  }
+  if (this->Filter->Displacement == DISPLACEMENT_TARGET && !this->Target.Copy)
+  {
+    return none + "Choose the Target, a surface such as an STL file.";
+  }
+  return none + "Tick surfaces, or select cells in the view and press Add selected surfaces.";
+}
+
 void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
 {
   const vtkMorphMesh* from = this->Filter;
@@ -135,7 +162,10 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
     anySelection ? vtkBoundaryDisplacement::MOVE_SELECTION : vtkBoundaryDisplacement::MOVE_NOTHING,
     vtkBoundaryDisplacement::MOVE_REGION, vtkBoundaryDisplacement::MOVE_EVERYTHING,
     vtkBoundaryDisplacement::MOVE_ARRAY };
-  to->SetMoving(moving[from->Moving]);
+  this->NeedsHandles =
+    from->Displacement == DISPLACEMENT_HANDLES && !this->HasHandles(anySelection);
+  to->SetMoving(
+    this->NeedsHandles ? int(vtkBoundaryDisplacement::MOVE_NOTHING) : moving[from->Moving]);
   to->SetSelectionData(anySelection ? selection : nullptr);
   using Filter = vtkBoundaryDisplacement;
   pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
@@ -490,6 +520,7 @@ std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformat
   {
     filters::SurfaceGrid::Write(this->Rest, this->BoundaryOfGrid(), output);
     filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);
+    this->Results.SetText("Advice", this->Advice());
     this->Results.Write(output);
     return {};
   }

@@ -90,8 +90,13 @@ private:
   morph::filters::BlockSelection ZoneSelected;
   vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept
+  bool NeedsHandles = false;                 ///< DISPLACEMENT_HANDLES has none
 
   void ConfigureDisplacement(vtkSelection* selection);
+  /// Whether DISPLACEMENT_HANDLES has handles. Collective.
+  bool HasHandles(bool anySelection) const;
+  /// What to do where nothing moves.
+  std::string Advice() const;
   /// `soft`: SoftCells().
   void ConfigureMorph(vtkDataArray* soft, morph::Monitor& monitor);
   /// The factors of soft zones, one a cell; null where there are none. Throws morph::Error.

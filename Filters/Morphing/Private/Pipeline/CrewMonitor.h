@@ -7,7 +7,8 @@
 
 namespace morph::filters
 {
-/// A monitor for iterative methods, which have hundreds of short loops. Where the backend of
+/// A monitor for iterative methods, which have hundreds of short loops, and for a drag, in which
+/// each loop is short. Where the backend of
 /// vtkSMPTools is Sequential it has threads of its own, which start with the first loop and end
 /// with the monitor. STDThread starts its threads for each loop, which costs 70 microseconds: a
 /// third of an evaluation on a mesh of 130,000 nodes. A backend that the user chose is used as it

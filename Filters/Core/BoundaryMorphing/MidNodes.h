@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMorphing/BoundaryProjection.h"
+
+#include <vector>
+
+namespace morph
+{
+/// Moves mid-side and face nodes that their surface moved (state OnSurface) with their corners: by
+/// the mean shift of these since `before` (#nodes x 3, moved positions), and onto the `target`, if
+/// not null. `normals`: of surfaceNodeNormals(), read with a target alone. Returns the ids of moved
+/// nodes, ascending.
+std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
+  const ProjectionTarget* target, const Points& normals, const Points& before,
+  BoundaryMotion& motion);
+}
