@@ -14,22 +14,6 @@ namespace
 const std::string Prefix = "Surface ";
 constexpr std::size_t Most = 24;
 
-/// Twelve that can be told apart, and again lighter.
-std::array<double, 3> colorOf(std::size_t place)
-{
-  constexpr double colors[12][3] = { { 0.30, 0.47, 0.66 }, { 0.95, 0.56, 0.17 },
-    { 0.35, 0.63, 0.31 }, { 0.88, 0.34, 0.35 }, { 0.46, 0.72, 0.70 }, { 0.93, 0.79, 0.28 },
-    { 0.69, 0.48, 0.63 }, { 1.00, 0.62, 0.65 }, { 0.61, 0.46, 0.37 }, { 0.47, 0.44, 0.43 },
-    { 0.00, 0.62, 0.87 }, { 0.55, 0.82, 0.49 } };
-  std::array<double, 3> color;
-  const double white = place < 12 ? 0 : 0.5;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    color[i] = white + (1 - white) * colors[place % 12][i];
-  }
-  return color;
-}
-
 /// The ids of the surfaces, as texts.
 std::vector<std::string> idsOf(vtkSMProxy* filter)
 {
@@ -65,6 +49,22 @@ bool isOfUser(const vtkSMPropertyHelper& annotations)
 }
 }
 
+std::array<double, 3> SurfaceColors::ColorOf(std::size_t place)
+{
+  // Twelve, and again lighter.
+  constexpr double colors[12][3] = { { 0.30, 0.47, 0.66 }, { 0.95, 0.56, 0.17 },
+    { 0.35, 0.63, 0.31 }, { 0.88, 0.34, 0.35 }, { 0.46, 0.72, 0.70 }, { 0.93, 0.79, 0.28 },
+    { 0.69, 0.48, 0.63 }, { 1.00, 0.62, 0.65 }, { 0.61, 0.46, 0.37 }, { 0.47, 0.44, 0.43 },
+    { 0.00, 0.62, 0.87 }, { 0.55, 0.82, 0.49 } };
+  std::array<double, 3> color;
+  const double white = place < 12 ? 0 : 0.5;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    color[i] = white + (1 - white) * colors[place % 12][i];
+  }
+  return color;
+}
+
 void SurfaceColors::Name(vtkSMProxy* table, vtkSMProxy* filter)
 {
   const std::vector<std::string> ids = idsOf(filter);
@@ -81,7 +81,7 @@ void SurfaceColors::Name(vtkSMProxy* table, vtkSMProxy* filter)
     const auto place = static_cast<unsigned int>(i);
     annotations.Set(2 * place, ids[i].c_str());
     annotations.Set(2 * place + 1, (Prefix + ids[i]).c_str());
-    const std::array<double, 3> color = colorOf(i);
+    const std::array<double, 3> color = ColorOf(i);
     for (unsigned int k = 0; k < 3; ++k)
     {
       colors.Set(3 * place + k, color[k]);

@@ -147,6 +147,20 @@ TEST(SurfaceMeshSmoothing, FoldsOpen)
   }
 }
 
+// As a surface without volume cells has them.
+TEST(SurfaceMeshSmoothing, FacesNeedNoCells)
+{
+  Case c(shapes::boxWithHole(16, 3, 2));
+  Monitor monitor;
+  const BoundaryMotion start = c.follow(holeMoved(0.3), monitor);
+  BoundaryMotion expected = start, motion = start;
+  EXPECT_GT(c.smooth(expected, monitor).steps, 0);
+  c.faces.cells = {};
+  c.faces.sides = {};
+  c.smooth(motion, monitor);
+  EXPECT_EQ(motion.moved(), expected.moved());
+}
+
 TEST(SurfaceMeshSmoothing, NeverWorse)
 {
   std::mt19937 random(meshes::seed());

@@ -9,6 +9,7 @@ Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -s "-screen 0 1280x1
 import os
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,14 @@ DISTANCES = ("MaxTargetDistanceBefore", "MeanTargetDistanceBefore", "MaxTargetDi
 TOP, UP = "Surface 1", "0.2"
 LID = "Surface 3"
 REGION = f"Region/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveBox/{BOX_FIELDS}"
+
+
+def series_colors(state):
+    """Of the lines of the chart, from a state."""
+    root = ElementTree.parse(state).getroot()
+    found = root.findall(".//Property[@name='SeriesColor']/Element")
+    texts = [element.get("value") for element in found]
+    return {name: tuple(texts[4 * i + 1:4 * i + 4]) for i, name in enumerate(texts[::4])}
 
 
 def updated(morph):
@@ -279,7 +288,13 @@ class FirstTasks(unittest.TestCase):
         self.events.apply()
         self.events.done()
         self.events.expect(f"{PANEL}BestMethod/BestMethod", best)
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
         self.play({"compare the methods": 7})
+        colors = series_colors(state)
+        methods = [name for name in colors if name.endswith(", Absolute")]
+        self.assertEqual(len(methods), 8)
+        self.assertEqual(len({colors[name] for name in methods}), 8)  # told apart
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ def watch():
     from paraview import servermanager, simple
     simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
     simple.Show(simple.OpenDataFile(str(Path(os.environ["MORPH_SOURCE"]) / MESH)))
+    simple.ResetCamera()
     manager = servermanager.ProxyManager()
 
     def write(*_):

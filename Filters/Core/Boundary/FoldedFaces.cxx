@@ -78,7 +78,7 @@ std::vector<Index> foldedFaces(const ConstPoints& rest, const ConstPoints& moved
 {
   const auto nodesOf = [&](Index f) { return faces.connectivity.data() + faces.offsets[f]; };
   const auto sizeOf = [&](Index f) { return faces.offsets[f + 1] - faces.offsets[f]; };
-  std::vector<State> state(faces.cells.size(), State::Straight);
+  std::vector<State> state(geometry.surfaceOfFace.size(), State::Straight);
   const std::vector<Index> candidates = faceQuality(rest, moved, faces, geometry).folded;
   std::vector<Index> folded, patch;
   for (Index f : candidates)

@@ -22,7 +22,7 @@ constexpr int Layers = 30;
 std::vector<std::uint8_t> foldedMask(const Points& rest, const Points& moved,
   const BoundaryFaces& faces, const Classification& geometry)
 {
-  std::vector<std::uint8_t> isFolded(faces.cells.size(), 0);
+  std::vector<std::uint8_t> isFolded(geometry.surfaceOfFace.size(), 0);
   for (const Index f : foldedFaces(rest, moved, faces, geometry))
   {
     isFolded[f] = 1;
