@@ -250,8 +250,8 @@ double SurfaceMeshSmoother::meanEdge(const Points& points) const
 bool SurfaceMeshSmoother::untangle(FaceEnergy& energy)
 {
   FaceDensity density;
-  FaceEnergy::State state = energy.evaluate(this->points_, this->monitor_);
-  FaceEnergy::State best = state;
+  EnergyState state = energy.evaluate(this->points_, this->monitor_);
+  EnergyState best = state;
   MinimizerLimits limits;
   limits.steps = UntangleSteps;
   int idle = 0;

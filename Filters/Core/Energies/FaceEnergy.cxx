@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace morph
@@ -31,20 +30,6 @@ Plane tangents(const Eigen::RowVector3d& normal)
   plane.col(1) = normal.cross(plane.col(0).transpose()).transpose();
   return plane;
 }
-
-struct Sum
-{
-  double energy = 0;
-  double least = std::numeric_limits<double>::infinity();
-  Index inverted = 0;
-  Sum& operator+=(const Sum& other)
-  {
-    this->energy += other.energy;
-    this->least = std::min(this->least, other.least);
-    this->inverted += other.inverted;
-    return *this;
-  }
-};
 }
 
 FaceEnergy::FaceEnergy(std::vector<FaceCorner> corners, const std::vector<Index>& free, Index nodes)
@@ -77,21 +62,22 @@ Eigen::Matrix2d FaceEnergy::jacobian(Index corner, const Points& points) const
   return this->planes_[corner].transpose() * edges * own.inverse;
 }
 
-FaceEnergy::State FaceEnergy::evaluate(const Points& points, Monitor& monitor) const
+EnergyState FaceEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const Sum sum = reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, Sum(),
-    [&](Index c)
-    {
-      const Eigen::Matrix2d J = this->jacobian(c, points);
-      const double d = J.determinant();
-      return Sum{ this->corners_[c].weight * this->density_.value(J), d, Index(!(d > 0)) };
-    });
-  return { sum.energy, sum.least, sum.inverted };
+  const EnergySum sum =
+    reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, EnergySum(),
+      [&](Index c)
+      {
+        const Eigen::Matrix2d J = this->jacobian(c, points);
+        const double d = J.determinant();
+        return EnergySum{ this->corners_[c].weight * this->density_.value(J), d, d > 0 ? 0. : 1. };
+      });
+  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
 }
 
 Objective::Value FaceEnergy::value(const Points& points, Monitor& monitor) const
 {
-  const State state = this->evaluate(points, monitor);
+  const EnergyState state = this->evaluate(points, monitor);
   return { state.energy, this->density_.epsilon > 0 || state.minimumDeterminant > 0 };
 }
 

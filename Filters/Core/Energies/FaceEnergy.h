@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Energies/EnergyState.h"
 #include "Energies/FaceDensity.h"
 #include "Optimization/Objective.h"
 #include "Support/Adjacency.h"
@@ -38,13 +39,7 @@ public:
 
   const std::vector<FaceCorner>& corners() const { return this->corners_; }
 
-  struct State
-  {
-    double energy = 0;
-    double minimumDeterminant = 0; ///< relative to the targets
-    Index inverted = 0;            ///< corners whose determinant is not positive
-  };
-  State evaluate(const Points& points, Monitor& monitor) const;
+  EnergyState evaluate(const Points& points, Monitor& monitor) const;
 
   const std::vector<Index>& free() const override { return this->free_; }
   /// Without a regularisation no step may end with an inverted corner.

@@ -17,25 +17,11 @@ using namespace foldover;
 // with less regularisation, every inverted tetrahedron has infinite energy
 constexpr double Barrier = 1e-9;
 
-struct Sum
-{
-  double energy = 0;
-  double least = std::numeric_limits<double>::infinity();
-  double inverted = 0;
-  Sum& operator+=(const Sum& other)
-  {
-    this->energy += other.energy;
-    this->least = std::min(this->least, other.least);
-    this->inverted += other.inverted;
-    return *this;
-  }
-};
-
 struct BatchEnergy
 {
   template <typename Density>
-  static MORPH_SIMD_INLINE void run(
-    Index batch, const CellBatches& batches, const Density& density, const Points& points, Sum& sum)
+  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Density& density,
+    const Points& points, EnergySum& sum)
   {
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
@@ -108,19 +94,19 @@ MeshEnergy::MeshEnergy(
   this->share(communicator, this->free_);
 }
 
-MeshEnergy::State MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
+EnergyState MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const Sum sum =
+  const EnergySum sum =
     this->isCondition_
-      ? sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, ConditionDensity(), points)
-      : sumOverBatches<BatchEnergy, Sum>(this->batches_, monitor, this->density_, points);
+      ? sumOverBatches<BatchEnergy, EnergySum>(this->batches_, monitor, ConditionDensity(), points)
+      : sumOverBatches<BatchEnergy, EnergySum>(this->batches_, monitor, this->density_, points);
   const Communicator& all = this->communicator();
   return { all.sum(sum.energy), all.minimum(sum.least), all.sum(static_cast<Index>(sum.inverted)) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 {
-  const State state = this->evaluate(points, monitor);
+  const EnergyState state = this->evaluate(points, monitor);
   const bool isFinite = !this->isCondition_ && this->density_.epsilon > Barrier;
   return { state.energy, isFinite || state.minimumDeterminant > 0 };
 }

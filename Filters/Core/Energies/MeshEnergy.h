@@ -3,6 +3,7 @@
 
 #include "Energies/CellBatches.h"
 #include "Energies/ConditionDensity.h"
+#include "Energies/EnergyState.h"
 #include "Energies/FoldoverDensity.h"
 #include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
@@ -43,14 +44,7 @@ public:
   /// The foldover-free density that was last set, with the targets' theta.
   const FoldoverDensity& density() const { return this->density_; }
 
-  struct State
-  {
-    double energy = 0;
-    /// minimum, relative to the targets; positive: no tetrahedron is inverted
-    double minimumDeterminant = 0;
-    Index inverted = 0; ///< tetrahedra whose determinant is not positive
-  };
-  State evaluate(const Points& points, Monitor& monitor) const;
+  EnergyState evaluate(const Points& points, Monitor& monitor) const;
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;

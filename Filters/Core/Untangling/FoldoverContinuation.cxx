@@ -73,14 +73,14 @@ private:
 class Stagnation
 {
 public:
-  explicit Stagnation(const MeshEnergy::State& start)
+  explicit Stagnation(const EnergyState& start)
     : inverted_(start.inverted)
     , least_(start.minimumDeterminant)
   {
   }
 
   /// Call it after each stage. `decrease`: of the stage's energy, relative.
-  bool gaveUp(const MeshEnergy::State& state, double decrease)
+  bool gaveUp(const EnergyState& state, double decrease)
   {
     const bool isProgress = state.minimumDeterminant > 0 || state.inverted < this->inverted_ ||
                             state.minimumDeterminant > this->least_ + Gain * std::abs(this->least_);
@@ -112,13 +112,13 @@ void FoldoverContinuation::include(const MinimizerEffort& effort)
   this->effort_.evaluations += effort.evaluations;
 }
 
-MeshEnergy::State FoldoverContinuation::evaluate(const Points& points, Monitor& monitor)
+EnergyState FoldoverContinuation::evaluate(const Points& points, Monitor& monitor)
 {
   ++this->effort_.evaluations;
   return this->energy_.evaluate(points, monitor);
 }
 
-MeshEnergy::State FoldoverContinuation::minimize(Points& points, int steps, Monitor& monitor)
+EnergyState FoldoverContinuation::minimize(Points& points, int steps, Monitor& monitor)
 {
   MinimizerLimits limits;
   limits.steps = steps;
@@ -138,7 +138,7 @@ MeshEnergy::State FoldoverContinuation::minimize(Points& points, int steps, Moni
 bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages)
 {
   this->setDensity(Valid);
-  MeshEnergy::State state = this->evaluate(points, monitor);
+  EnergyState state = this->evaluate(points, monitor);
   Regularisation regularisation;
   double epsilon = regularisation.first(state.minimumDeterminant);
   double settled = std::numeric_limits<double>::infinity();

@@ -43,8 +43,8 @@ public:
 
 private:
   void setDensity(double epsilon);
-  MeshEnergy::State evaluate(const Points& points, Monitor& monitor);
-  MeshEnergy::State minimize(Points& points, int steps, Monitor& monitor);
+  EnergyState evaluate(const Points& points, Monitor& monitor);
+  EnergyState minimize(Points& points, int steps, Monitor& monitor);
 
   MeshEnergy& energy_;
   Minimizer minimizer_;
