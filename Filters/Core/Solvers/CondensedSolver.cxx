@@ -232,11 +232,7 @@ void CondensedSolver::prepare(CsrMatrix& matrix, const std::vector<bool>& remova
 SolveReport CondensedSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
-  MultiVector rows = toRows(x, monitor);
-  const SolveReport report =
-    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
-  fromRows(rows, x, monitor);
-  return report;
+  return solveColumns(*this, b, x, tolerance, maxIterations, monitor);
 }
 
 SolveReport CondensedSolver::solve(

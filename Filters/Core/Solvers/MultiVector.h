@@ -53,6 +53,17 @@ inline void fromRows(const MultiVector& rows, Points& columns, Monitor& monitor)
 }
 ///@}
 
+/// Solves for three columns by the solver's solve() of rows. `x`: the first guess, then the result.
+template <typename Solver>
+auto solveColumns(const Solver& solver, const Points& b, Points& x, double tolerance,
+  int maxIterations, Monitor& monitor)
+{
+  MultiVector rows = toRows(x, monitor);
+  const auto report = solver.solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+  fromRows(rows, x, monitor);
+  return report;
+}
+
 /// Returns a / b per column, 0 for columns that have stopped.
 inline MultiVectorRow ratio(
   const MultiVectorRow& a, const MultiVectorRow& b, const Eigen::Array4i& running)

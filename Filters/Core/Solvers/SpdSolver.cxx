@@ -453,11 +453,7 @@ SolveReport SpdSolver::solve(
 SolveReport SpdSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
-  MultiVector rows = toRows(x, monitor);
-  const SolveReport report =
-    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
-  fromRows(rows, x, monitor);
-  return report;
+  return solveColumns(*this, b, x, tolerance, maxIterations, monitor);
 }
 
 const CsrMatrix& SpdSolver::matrix() const
