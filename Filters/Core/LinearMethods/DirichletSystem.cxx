@@ -201,6 +201,36 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
     });
 }
 
+bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,
+  Monitor& monitor, const std::function<void(const MultiVector&, MultiVector&)>& solver) const
+{
+  constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
+  const double affine = AffineShare * tolerance;
+  const AffineGuess::Fits fits = this->guess.fits(prescribed);
+  firstGuess(this->points, this->rows, this->guess, fits, x, monitor);
+  if ((!this->isUniform || this->affineResidual <= affine) &&
+      this->guess.agree(this->points, this->partition, prescribed, fits, affine))
+  {
+    return false;
+  }
+  MultiVector rhs, fitted;
+  if (this->isUniform)
+  {
+    rightHandSide(this->coupling, prescribed, rhs, monitor);
+  }
+  else
+  {
+    this->guess.takeOff(
+      this->points, this->partition, this->coupling, prescribed, fits, rhs, x, fitted, monitor);
+  }
+  solver(rhs, x);
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+  {
+    x[i] += fitted[i];
+  }
+  return true;
+}
+
 double affineResidual(const Points& points, const std::vector<Index>& rows,
   const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)

@@ -9,6 +9,7 @@
 #include "Solvers/RowComponents.h"
 #include "Support/Monitor.h"
 
+#include <functional>
 #include <vector>
 
 namespace morph
@@ -87,6 +88,24 @@ void rightHandSide(
 /// Sets `x` to the first guess, #rows.
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
+
+/// Equations A_I U_I = -A_B U_B with their guess. It has references alone.
+struct DirichletEquations
+{
+  const Points& points; ///< undeformed
+  const NodePartition& partition;
+  const std::vector<Index>& rows;
+  const CsrMatrix& coupling; ///< A_B
+  const AffineGuess& guess;
+  bool isUniform;        ///< affine motions solve them, but for rounding
+  double affineResidual; ///< affineResidual(), where they are uniform
+
+  /// Solves to `tolerance`, and sets `x`, #rows. `solver(rhs, x)` solves A_I X = rhs from the guess
+  /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is
+  /// not called then, as a pass over the matrix takes longer than all else.
+  bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
+    const std::function<void(const MultiVector&, MultiVector&)>& solver) const;
+};
 
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
 /// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.

@@ -15,7 +15,6 @@ namespace morph
 namespace
 {
 constexpr int MaxIterations = 2000;
-constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
 }
 
 void FemWarp::setTolerance(double tolerance)
@@ -76,30 +75,18 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
-  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
-  firstGuess(this->restPoints(), this->rows_, this->guess_, fits, x, monitor);
-  // Without iterations: a pass over the matrix takes longer than all else.
-  const double tolerance = AffineShare * this->tolerance_;
-  if ((!this->isUniform_ || this->affineResidual_ <= tolerance) &&
-      this->guess_.agree(this->restPoints(), this->partition(), prescribed, fits, tolerance))
+  SolveReport report;
+  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
+    this->coupling_, this->guess_, this->isUniform_, this->affineResidual_ };
+  const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
+    [&](const MultiVector& rhs, MultiVector& solution)
+    {
+      report = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
+      reportRounding(report, this->tolerance_, monitor);
+    });
+  if (!iterates)
   {
     return { 0, 0, static_cast<double>((sizeof(MultiVectorRow) + 24) * x.size()), {} };
-  }
-  MultiVector rhs, fitted;
-  if (this->isUniform_)
-  {
-    rightHandSide(this->coupling_, prescribed, rhs, monitor);
-  }
-  else
-  {
-    this->guess_.takeOff(this->restPoints(), this->partition(), this->coupling_, prescribed, fits,
-      rhs, x, fitted, monitor);
-  }
-  const SolveReport report = this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  reportRounding(report, this->tolerance_, monitor);
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-  {
-    x[i] += fitted[i];
   }
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
 }

@@ -15,7 +15,6 @@ namespace morph
 namespace
 {
 constexpr int MaxIterations = 2000;
-constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
 
 void requireWeights(const LogBarrierSystem& system, bool relax)
 {
@@ -97,30 +96,12 @@ EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monit
 EvaluateReport LogBarrierWarp::solve(
   const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
-  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
-  firstGuess(this->restPoints(), this->rows_, this->guess_, fits, x, monitor);
-  const double tolerance = AffineShare * this->tolerance_;
-  if ((!this->isUniform_ || this->affineResidual_ <= tolerance) &&
-      this->guess_.agree(this->restPoints(), this->partition(), prescribed, fits, tolerance))
-  {
-    return this->report({}, monitor);
-  }
-  MultiVector rhs, fitted;
-  if (this->isUniform_)
-  {
-    rightHandSide(this->coupling_, prescribed, rhs, monitor);
-  }
-  else
-  {
-    this->guess_.takeOff(this->restPoints(), this->partition(), this->coupling_, prescribed, fits,
-      rhs, x, fitted, monitor);
-  }
-  const GeneralSolver::Report solved =
-    this->solver_.solve(rhs, x, this->tolerance_, MaxIterations, monitor);
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-  {
-    x[i] += fitted[i];
-  }
+  GeneralSolver::Report solved;
+  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
+    this->coupling_, this->guess_, this->isUniform_, this->affineResidual_ };
+  equations.solve(prescribed, this->tolerance_, x, monitor,
+    [&](const MultiVector& rhs, MultiVector& solution)
+    { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
   return this->report(solved, monitor);
 }
 
