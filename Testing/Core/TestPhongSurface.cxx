@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 
-#include "Boundary/Classification.h"
 #include "BoundaryMorphing/PhongSurface.h"
 
 #include <Eigen/Geometry>
@@ -15,20 +14,7 @@ using shapes::Row;
 
 namespace
 {
-struct Case
-{
-  Mesh mesh;
-  Monitor monitor;
-  BoundaryFaces faces;
-  Classification geometry;
-
-  explicit Case(const Mesh& m)
-    : mesh(m)
-  {
-    this->faces = boundaryFaces(this->mesh, this->monitor);
-    this->geometry = classify(this->mesh, this->faces, {}, this->monitor);
-  }
-};
+using Case = shapes::ClassifiedShape;
 
 /// The largest distance of `x` from the sphere of radius 1, after random steps along it.
 double worstOnBall(int n, double& ofFacets)

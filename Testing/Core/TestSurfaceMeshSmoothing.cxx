@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/CurveMorph.h"
@@ -19,37 +19,14 @@ using Map = std::function<Row(const Row&)>;
 
 namespace
 {
-struct Case
+struct Case : shapes::ClassifiedShape
 {
-  Mesh mesh;
-  BoundaryFaces faces;
-  Classification geometry;
-
-  explicit Case(const Mesh& m)
-    : mesh(m)
-  {
-    Monitor monitor;
-    this->faces = boundaryFaces(this->mesh, monitor);
-    this->geometry = classify(this->mesh, this->faces, {}, monitor);
-  }
+  using ClassifiedShape::ClassifiedShape;
 
   /// Nodes of vertices and curves moved by `map`, then surfaces by their displacement alone.
   BoundaryMotion follow(const Map& map, Monitor& monitor) const
   {
-    std::vector<Index> ids;
-    for (Index node : this->faces.nodes)
-    {
-      if (this->geometry.dimension[node] < 2)
-      {
-        ids.push_back(node);
-      }
-    }
-    Points targets(static_cast<Index>(ids.size()), 3);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      targets.row(static_cast<Index>(i)) = map(this->mesh.points.row(ids[i]));
-    }
-    BoundaryMotion motion = beginMotion(this->mesh, this->faces, this->geometry, ids, targets);
+    BoundaryMotion motion = this->withEdgesMoved(map);
     SurfaceMorphOptions options;
     options.method = SurfaceMorphOptions::Method::MeshSmoothing;
     morphCurves(this->geometry, options.unattached, motion, monitor);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/CurveMorph.h"
@@ -16,37 +16,16 @@ using shapes::Row;
 
 namespace
 {
-struct Case
+struct Case : shapes::ClassifiedShape
 {
-  Mesh mesh;
-  Monitor monitor;
-  BoundaryFaces faces;
-  Classification geometry;
+  using ClassifiedShape::ClassifiedShape;
 
-  explicit Case(const Mesh& m)
-    : mesh(m)
-  {
-    this->faces = boundaryFaces(this->mesh, this->monitor);
-    this->geometry = classify(this->mesh, this->faces, {}, this->monitor);
-  }
+  Monitor monitor;
 
   /// All nodes known; those of surfaces by their surface.
   BoundaryMotion moved(const std::function<Row(const Row&)>& map) const
   {
-    std::vector<Index> ids;
-    for (Index node : this->faces.nodes)
-    {
-      if (this->geometry.dimension[node] < 2)
-      {
-        ids.push_back(node);
-      }
-    }
-    Points targets(static_cast<Index>(ids.size()), 3);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      targets.row(static_cast<Index>(i)) = map(this->mesh.points.row(ids[i]));
-    }
-    BoundaryMotion motion = beginMotion(this->mesh, this->faces, this->geometry, ids, targets);
+    BoundaryMotion motion = this->withEdgesMoved(map);
     for (Index node : this->faces.nodes)
     {
       if (this->geometry.dimension[node] == 2)

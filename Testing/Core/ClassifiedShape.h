@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryShapes.h"
+
+#include "Boundary/Classification.h"
+#include "BoundaryMorphing/BoundaryMotion.h"
+#include "Mesh/Topology.h"
+
+namespace shapes
+{
+/// A mesh with its boundary, classified at the default angles.
+struct ClassifiedShape
+{
+  morph::Mesh mesh;
+  morph::BoundaryFaces faces;
+  morph::Classification geometry;
+
+  explicit ClassifiedShape(const morph::Mesh& m);
+
+  /// A motion that prescribes vertices and curves, where `map` takes them. Surfaces are not moved.
+  morph::BoundaryMotion withEdgesMoved(const std::function<Row(const Row&)>& map) const;
+};
+}
