@@ -3,11 +3,9 @@
 
 #include "SurfaceColors.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -15,7 +13,6 @@
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVDataSetAttributesInformation.h>
-#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMTransferFunctionManager.h>
@@ -27,15 +24,6 @@
 
 namespace
 {
-bool isWanted(pqDataRepresentation* representation)
-{
-  pqOutputPort* port = representation->getOutputPortFromInput();
-  vtkPVXMLElement* hints = port ? port->getSource()->getProxy()->GetHints() : nullptr;
-  return hints && hints->FindNestedElementByName("ActiveColors") &&
-         representation->getProxy()->GetProperty("ColorArrayName") &&
-         representation->getProxy()->GetProperty("LookupTable");
-}
-
 /// Shows the legend of `table` in a view in place of that of `before`, unless that one was hidden.
 void showLegend(vtkSMProxy* before, vtkSMProxy* table, const char* title, vtkSMProxy* view)
 {
@@ -76,25 +64,10 @@ vtkPVArrayInformation* activeScalars(vtkPVDataInformation* data, int& associatio
 }
 }
 
-void ActiveColors::startup()
+void ActiveColors::updated(pqDataRepresentation* representation, vtkPVXMLElement*)
 {
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
-    SIGNAL(representationAdded(pqRepresentation*)), this, SLOT(added(pqRepresentation*)));
-}
-
-void ActiveColors::added(pqRepresentation* representation)
-{
-  auto* data = qobject_cast<pqDataRepresentation*>(representation);
-  if (data)
-  {
-    QObject::connect(data, SIGNAL(dataUpdated()), this, SLOT(dataUpdated()));
-  }
-}
-
-void ActiveColors::dataUpdated()
-{
-  auto* representation = qobject_cast<pqDataRepresentation*>(this->sender());
-  if (representation && isWanted(representation))
+  vtkSMProxy* const proxy = representation->getProxy();
+  if (proxy->GetProperty("ColorArrayName") && proxy->GetProperty("LookupTable"))
   {
     this->color(representation);
   }

@@ -2,30 +2,27 @@
 #ifndef ActiveColors_h
 #define ActiveColors_h
 
-#include <QObject>
-#include <QSet>
+#include "HintedResults.h"
 
-class pqDataRepresentation;
-class pqRepresentation;
+#include <QSet>
 
 /// Keeps a filter's results coloured in the window. ParaView chooses the colours when it first
 /// shows an output. Where that was empty, or had another array, later results would be white. A
 /// filter asks for it by the hint <ActiveColors/>; its results are then coloured by their active
 /// scalars, unless the user has chosen an array that is there, or a solid colour.
-class ActiveColors : public QObject
+class ActiveColors : public HintedResults
 {
   Q_OBJECT
 
 public:
-  ActiveColors() = default;
+  ActiveColors()
+    : HintedResults("ActiveColors")
+  {
+  }
   ~ActiveColors() override = default;
 
-  void startup();
-  void shutdown() {}
-
-private Q_SLOTS:
-  void added(pqRepresentation* representation);
-  void dataUpdated();
+protected:
+  void updated(pqDataRepresentation* representation, vtkPVXMLElement* hint) override;
 
 private:
   void color(pqDataRepresentation* representation);

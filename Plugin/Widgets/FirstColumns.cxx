@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FirstColumns.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
-#include <pqOutputPort.h>
-#include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 #include <vtkPVXMLElement.h>
-#include <vtkSMProxy.h>
 
 #include <QAbstractItemModel>
 #include <QHeaderView>
@@ -17,19 +12,6 @@
 
 namespace
 {
-/// What the hint of the filter names; empty without.
-QStringList namesFor(pqOutputPort* port)
-{
-  vtkPVXMLElement* const hints = port->getSource()->getProxy()->GetHints();
-  vtkPVXMLElement* const hint = hints ? hints->FindNestedElementByName("FirstColumns") : nullptr;
-  int wanted = -1;
-  if (!hint || !hint->GetScalarAttribute("port", &wanted) || wanted != port->getPortNumber())
-  {
-    return {};
-  }
-  return QString(hint->GetAttribute("names")).split(' ');
-}
-
 int columnOf(const QAbstractItemModel* model, const QString& name)
 {
   for (int column = 0; column < model->columnCount(); ++column)
@@ -43,28 +25,12 @@ int columnOf(const QAbstractItemModel* model, const QString& name)
 }
 }
 
-void FirstColumns::startup()
+void FirstColumns::updated(pqDataRepresentation* shown, vtkPVXMLElement* hint)
 {
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
-    SIGNAL(representationAdded(pqRepresentation*)), this, SLOT(added(pqRepresentation*)));
-}
-
-void FirstColumns::added(pqRepresentation* representation)
-{
-  if (qobject_cast<pqDataRepresentation*>(representation))
-  {
-    QObject::connect(representation, SIGNAL(dataUpdated()), this, SLOT(dataUpdated()));
-  }
-}
-
-void FirstColumns::dataUpdated()
-{
-  auto* const shown = qobject_cast<pqDataRepresentation*>(this->sender());
-  pqOutputPort* const port = shown ? shown->getOutputPortFromInput() : nullptr;
-  const QStringList names = port ? namesFor(port) : QStringList();
-  pqView* const view = shown ? shown->getView() : nullptr;
+  const QStringList names = QString(hint->GetAttribute("names")).split(' ');
+  pqView* const view = shown->getView();
   auto* const table = view && view->widget() ? view->widget()->findChild<QTableView*>() : nullptr;
-  if (names.isEmpty() || !table || !table->model() || this->Known.contains(table))
+  if (!table || !table->model() || this->Known.contains(table))
   {
     return;
   }

@@ -2,31 +2,30 @@
 #ifndef FirstColumns_h
 #define FirstColumns_h
 
-#include <QObject>
+#include "HintedResults.h"
+
 #include <QSet>
 #include <QStringList>
 
-class pqRepresentation;
 class QHeaderView;
 
 /// Puts columns of a table first where a spreadsheet shows it: ParaView orders them by the
 /// alphabet. A filter asks for it by a hint, in the order that is wanted:
 ///
 ///     <FirstColumns port="2" names="Rank Method"/>
-class FirstColumns : public QObject
+class FirstColumns : public HintedResults
 {
   Q_OBJECT
 
 public:
-  FirstColumns() = default;
+  FirstColumns()
+    : HintedResults("FirstColumns")
+  {
+  }
   ~FirstColumns() override = default;
 
-  void startup();
-  void shutdown() {}
-
-private Q_SLOTS:
-  void added(pqRepresentation* representation);
-  void dataUpdated();
+protected:
+  void updated(pqDataRepresentation* shown, vtkPVXMLElement* hint) override;
 
 private:
   QSet<QObject*> Known; ///< tables that are looked after

@@ -3,15 +3,11 @@
 
 #include "SurfaceColors.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
-#include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVDataSetAttributesInformation.h>
-#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
@@ -20,14 +16,6 @@
 
 namespace
 {
-bool isWanted(pqOutputPort* port)
-{
-  vtkPVXMLElement* const hints = port->getSource()->getProxy()->GetHints();
-  vtkPVXMLElement* const hint = hints ? hints->FindNestedElementByName("SeriesColors") : nullptr;
-  int wanted = -1;
-  return hint && hint->GetScalarAttribute("port", &wanted) && wanted == port->getPortNumber();
-}
-
 /// A name, red, green and blue for each column.
 std::vector<std::string> colorsOf(vtkPVDataSetAttributesInformation* columns)
 {
@@ -44,33 +32,14 @@ std::vector<std::string> colorsOf(vtkPVDataSetAttributesInformation* columns)
 }
 }
 
-void SeriesColors::startup()
+void SeriesColors::updated(pqDataRepresentation* shown, vtkPVXMLElement*)
 {
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
-    SIGNAL(representationAdded(pqRepresentation*)), this, SLOT(added(pqRepresentation*)));
-}
-
-void SeriesColors::added(pqRepresentation* representation)
-{
-  // A state that is loaded brings its own colors.
-  if (qobject_cast<pqDataRepresentation*>(representation) &&
-      !pqApplicationCore::instance()->isLoadingState())
-  {
-    QObject::connect(representation, SIGNAL(dataUpdated()), this, SLOT(dataUpdated()));
-  }
-}
-
-void SeriesColors::dataUpdated()
-{
-  auto* const shown = qobject_cast<pqDataRepresentation*>(this->sender());
-  pqOutputPort* const port = shown ? shown->getOutputPortFromInput() : nullptr;
-  if (!port || this->Known.contains(shown) || !shown->getProxy()->GetProperty("SeriesColor") ||
-      !isWanted(port))
+  if (this->Known.contains(shown) || !shown->getProxy()->GetProperty("SeriesColor"))
   {
     return;
   }
   const std::vector<std::string> texts =
-    colorsOf(port->getDataInformation()->GetRowDataInformation());
+    colorsOf(shown->getOutputPortFromInput()->getDataInformation()->GetRowDataInformation());
   if (texts.empty())
   {
     return; // nothing is computed yet

@@ -2,29 +2,27 @@
 #ifndef SeriesColors_h
 #define SeriesColors_h
 
-#include <QObject>
-#include <QSet>
+#include "HintedResults.h"
 
-class pqRepresentation;
+#include <QSet>
 
 /// Gives each line of a chart a color of its own where it is first shown: ParaView has seven, and
 /// begins again. A filter asks for it by a hint:
 ///
 ///     <SeriesColors port="1"/>
-class SeriesColors : public QObject
+class SeriesColors : public HintedResults
 {
   Q_OBJECT
 
 public:
-  SeriesColors() = default;
+  SeriesColors()
+    : HintedResults("SeriesColors", OfStates::Left) // a state brings its own colors
+  {
+  }
   ~SeriesColors() override = default;
 
-  void startup();
-  void shutdown() {}
-
-private Q_SLOTS:
-  void added(pqRepresentation* representation);
-  void dataUpdated();
+protected:
+  void updated(pqDataRepresentation* shown, vtkPVXMLElement* hint) override;
 
 private:
   QSet<QObject*> Known; ///< charts that have their colors

@@ -56,6 +56,7 @@ if (PARAVIEW_USE_QT)
   endif ()
   list(APPEND widget_sources
     Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
+    Widgets/HintedResults.cxx Widgets/HintedResults.h
     Widgets/LiveDrag.cxx Widgets/LiveDrag.h
     Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h
     Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h)
