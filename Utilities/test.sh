@@ -14,19 +14,19 @@ site_budget=2
 usage() {
   cat <<END
 Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--no-package]
-               [--no-debian13] [--no-site] [--labels REGEX] [-j N]
+               [--no-debian13] [--no-site] [--limit MINUTES] [--labels REGEX] [-j N]
 From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
-- builds with sanitizers (preset asan) and runs core, fuzz and the library of MPI ranks on two of
-  them, and filters where half of the budget of $sanitizer_budget minutes is left;
-- on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
-  plain-vtk), and runs core, filters, fuzz, programs and install;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
 - on Debian 12 builds the site (site.sh), and checks its links and pictures;
 - on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
   other-debian.sh), without the labels fuzz and programs. Where none can be made, the summary says
-  so.
+  so;
+- builds with sanitizers (preset asan) and runs core, fuzz and the library of MPI ranks on two of
+  them, and filters where half of the budget of $sanitizer_budget minutes is left;
+- on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
+  plain-vtk), and runs filters, fuzz, programs and install. The core knows no VTK.
 The summaries and the minutes of each stage come last. The exit status is 0 if every test passed; a
 stage that takes longer than its budget is named, but is no failure.
   --no-install    leave the packages alone
@@ -36,6 +36,8 @@ stage that takes longer than its budget is named, but is no failure.
   --no-package    leave the Debian package out
   --no-debian13   leave Debian 13 out
   --no-site       leave the site out
+  --limit MINUTES leave out, or stop, what is not through after so many minutes; the summary names
+                  it. The first build and its tests are never left out
   --labels REGEX  of the preset paraview run the tests with these labels alone
   -j N            processes to build and to test with (default: all cores)
 END
@@ -44,26 +46,24 @@ END
 install=yes
 package=yes
 asan_filters=no
-presets=(paraview asan plain-vtk)
+asan=yes
+plain_vtk=yes
 debian13=yes
 site=yes
+limit=none
 labels=()
 jobs=$(nproc)
-leave_out() {
-  for i in "${!presets[@]}"; do
-    if [ "${presets[$i]}" = "$1" ]; then unset "presets[$i]"; fi
-  done
-}
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --no-install) install=no ;;
-    --no-asan) leave_out asan ;;
+    --no-asan) asan=no ;;
     --asan-filters) asan_filters=yes ;;
-    --no-plain-vtk) leave_out plain-vtk ;;
+    --no-plain-vtk) plain_vtk=no ;;
     --no-package) package=no ;;
     --no-debian13) debian13=no ;;
     --no-site) site=no ;;
+    --limit) shift; limit=${1:?"--limit needs minutes"} ;;
     --labels) shift; labels=(-L "${1:?"--labels needs a regular expression"}") ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
@@ -72,7 +72,7 @@ while [ $# -gt 0 ]; do
 done
 
 if [ "$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")" != "debian 12" ]; then
-  leave_out plain-vtk
+  plain_vtk=no
   debian13=no
   site=no
 fi
@@ -93,13 +93,43 @@ seconds_of() {
 }
 minutes() { awk -v seconds="$1" 'BEGIN { printf "%.1f", seconds / 60 }'; }
 
+# Runs a command, and stops it where the limit is reached: then the exit status is 124.
+limited() {
+  if [ "$limit" = none ]; then "$@"; return; fi
+  local left=$((limit * 60 - SECONDS))
+  if [ "$left" -le 0 ]; then return 124; fi
+  timeout "$left" "$@"
+}
 status=0
-build() { cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
+# Runs a function that may be left out: optional <its minutes> <name> <function>. The shell does not
+# stop at an error in it.
+optional() {
+  local budget=$1 name=$2 result=0
+  if [ "$limit" != none ] && [ $((SECONDS / 60 + budget)) -gt "$limit" ]; then
+    left_out+=("$name: $((SECONDS / 60)) of $limit minutes were over, and it takes $budget")
+    return
+  fi
+  "$3" || result=$?
+  case "$result" in
+    0) ;;
+    124) left_out+=("$name: stopped, $limit minutes were over") ;;
+    *) status=1 ;;
+  esac
+}
+
+configured=()
+configure() {
+  cmake --preset "$@" && rm -f "build/$1/ctest.log" && configured+=("$1")
+}
+build() { limited cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
 # The log of several runs of one preset is one: they are summed up together. Not by the preset,
-# whose labels would win over these.
+# whose labels would win over these. A test that fails does not keep the next ones from running.
 tests() {
-  ctest --test-dir "build/$1" --output-on-failure -j "$jobs" "${@:2}" 2>&1 |
-    tee -a "build/$1/ctest.log"
+  local result=0
+  limited ctest --test-dir "build/$1" --output-on-failure -j "$jobs" "${@:2}" 2>&1 |
+    tee -a "build/$1/ctest.log" || result=$?
+  if [ "$result" -eq 124 ]; then return 124; fi
+  if [ "$result" -ne 0 ]; then status=1; fi
 }
 
 # CTest's summary, and the end of what the failed tests said.
@@ -115,13 +145,15 @@ summary() {
 }
 
 sanitized() {
+  configure asan || return
   stage sanitizers "build asan (core, fuzz)" \
-    build asan --target MeshMorphingCoreTests MeshMorphingFuzz
-  stage sanitizers "tests asan (core)" tests asan -L core || status=1
-  stage sanitizers "tests asan (fuzz)" tests asan -L fuzz || status=1
+    build asan --target MeshMorphingCoreTests MeshMorphingFuzz || return
+  stage sanitizers "tests asan (core)" tests asan -L core || return
+  stage sanitizers "tests asan (fuzz)" tests asan -L fuzz || return
   if grep -q "^build MeshMorphingDistributedTests:" build/asan/build.ninja; then
-    stage sanitizers "build asan (MPI ranks)" build asan --target MeshMorphingDistributedTests
-    stage sanitizers "tests asan (MPI ranks)" tests asan -R '^mpi\.Distributed2$' || status=1
+    stage sanitizers "build asan (MPI ranks)" \
+      build asan --target MeshMorphingDistributedTests || return
+    stage sanitizers "tests asan (MPI ranks)" tests asan -R '^mpi\.Distributed2$' || return
   else
     left_out+=("MPI ranks with sanitizers: this build has no MPI or no hypre")
   fi
@@ -130,13 +162,49 @@ sanitized() {
     return
   fi
   stage sanitizers "build asan (filters)" \
-    build asan --target MeshMorphingFiltersTests MeshMorphingIOTests soak
-  stage sanitizers "tests asan (filters)" tests asan -L filters || status=1
+    build asan --target MeshMorphingFiltersTests MeshMorphingIOTests soak || return
+  stage sanitizers "tests asan (filters)" tests asan -L filters
 }
 
+with_plain_vtk() {
+  stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only || return
+  configure plain-vtk -DMESHMORPHING_TEST_GROUPS="fuzz;soak" || return
+  stage debian "build plain-vtk" build plain-vtk || return
+  stage debian "tests plain-vtk" tests plain-vtk -LE 'slow|benchmark|core|solvers'
+}
+
+package_summary="left out"
 make_package() {
-  { Utilities/package.sh -j "$jobs" && Testing/Install/package.sh build/deb/*.deb; } 2>&1 |
-    tee build/package.log
+  {
+    limited Utilities/package.sh -j "$jobs" && limited Testing/Install/package.sh build/deb/*.deb
+  } 2>&1 | tee build/package.log
+}
+package() {
+  local result=0
+  stage debian "Debian package" make_package || result=$?
+  package_summary=$(tail -n 1 build/package.log)
+  if [ "$result" -eq 77 ]; then return; fi # no right to try it
+  return $result
+}
+
+site_summary="left out"
+make_site() { limited Utilities/site.sh 2>&1 | tee build/site.log; }
+site() {
+  local result=0
+  stage site "site" make_site || result=$?
+  site_summary=$(tail -n 2 build/site.log)
+  return $result
+}
+
+in_debian13() {
+  local result=0
+  stage debian13 "Debian 13" limited Utilities/other-debian.sh trixie test -j "$jobs" \
+    --labels '^(core|filters|install|paraview)$' || result=$?
+  if [ "$result" -eq 77 ]; then
+    left_out+=("Debian 13: no root file system can be made, or the registry does not answer")
+    return
+  fi
+  return $result
 }
 
 if [ "$install" = yes ]; then
@@ -149,58 +217,34 @@ if command -v ccache > /dev/null; then
   # The presets share what they compile alike, such as the core, whatever their build folder is.
   export CCACHE_BASEDIR=$PWD
 fi
-for preset in "${presets[@]}"; do
-  if [ "$preset" = plain-vtk ]; then stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only; fi
-  cmake --preset "$preset"
-  rm -f "build/$preset/ctest.log"
-  if [ "$preset" = asan ]; then
-    sanitized
-  else
-    stage debian "build $preset" build "$preset"
-    if [ "$preset" = paraview ] && [ ${#labels[@]} -gt 0 ]; then
-      stage debian "tests $preset" tests "$preset" "${labels[@]}" -LE 'slow|benchmark' || status=1
-    else
-      stage debian "tests $preset" tests "$preset" -LE 'slow|benchmark|mpi|solvers' || status=1
-      stage mpi "tests $preset (mpi)" tests "$preset" -L mpi || status=1
-      stage solvers "tests $preset (solvers)" tests "$preset" -L solvers || status=1
-    fi
-  fi
-done
-package_summary="left out"
-if [ "$package" = yes ]; then
-  mkdir -p build
-  package_status=0
-  stage debian "Debian package" make_package || package_status=$?
-  package_summary=$(tail -n 1 build/package.log)
-  # 77: no right to try it.
-  if [ "$package_status" -ne 0 ] && [ "$package_status" -ne 77 ]; then status=1; fi
+mkdir -p build
+if [ ${#labels[@]} -gt 0 ]; then
+  groups="" # of test programs that these labels need
+  for label in fuzz:fuzz mpi:ranks filters:soak; do
+    if [[ ${label%:*} =~ ${labels[1]} ]]; then groups+="${label#*:};"; fi
+  done
+  configure paraview -DMESHMORPHING_TEST_GROUPS="$groups"
+  stage debian "build paraview" build paraview
+  stage debian "tests paraview" tests paraview "${labels[@]}" -LE 'slow|benchmark'
+else
+  configure paraview -DMESHMORPHING_TEST_GROUPS="benchmarks;fuzz;ranks;soak"
+  stage debian "build paraview" build paraview
+  stage debian "tests paraview" tests paraview -LE 'slow|benchmark|mpi|solvers'
+  stage mpi "tests paraview (mpi)" tests paraview -L mpi
+  stage solvers "tests paraview (solvers)" tests paraview -L solvers
 fi
+if [ "$package" = yes ]; then optional 3 "Debian package" package; fi
+if [ "$site" = yes ]; then optional $site_budget "site" site; fi
+if [ "$debian13" = yes ]; then optional $debian13_budget "Debian 13" in_debian13; fi
+if [ "$asan" = yes ]; then optional $sanitizer_budget "sanitizers" sanitized; fi
+if [ "$plain_vtk" = yes ]; then optional 9 "VTK 9.1" with_plain_vtk; fi
 
-site_summary="left out"
-if [ "$site" = yes ]; then
-  mkdir -p build
-  make_site() { Utilities/site.sh 2>&1 | tee build/site.log; }
-  stage site "site" make_site || status=1
-  site_summary=$(tail -n 2 build/site.log)
-fi
-
-if [ "$debian13" = yes ]; then
-  debian13_status=0
-  stage debian13 "Debian 13" Utilities/other-debian.sh trixie test -j "$jobs" \
-    --labels '^(core|filters|install|paraview)$' || debian13_status=$?
-  if [ "$debian13_status" -eq 77 ]; then
-    left_out+=("Debian 13: no root file system can be made, or the registry does not answer")
-    debian13=no
-  elif [ "$debian13_status" -ne 0 ]; then
-    status=1
-  fi
-fi
-
-if [ "$debian13" = yes ]; then
+debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
+if [ "$debian13" = yes ] && [ -e "$debian13_log" ]; then
   printf '\n== Debian 13, preset paraview\n'
-  summary build/trixie/MeshMorphing/build/paraview/ctest.log
+  summary "$debian13_log"
 fi
-for preset in "${presets[@]}"; do
+for preset in "${configured[@]}"; do
   printf '\n== preset %s\n' "$preset"
   summary "build/$preset/ctest.log"
 done
