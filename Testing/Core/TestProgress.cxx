@@ -7,8 +7,10 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
+#include "Quality/MovableQuality.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
+#include "Untangling/MinQualityAscent.h"
 #include "Untangling/Smoothing.h"
 
 #include <gtest/gtest.h>
@@ -127,6 +129,28 @@ TEST(Progress, OfTheInversionFreeMorphIsSpreadOut)
   monitor.told.clear();
   method.repair(moved, monitor);
   monitor.expectRise("repair");
+}
+
+TEST(Progress, OfRaisingTheMinimumIsTold)
+{
+  Mesh mesh = meshes::hexes(8, 8, 8);
+  // Sheared, so that no mesh reaches the goal and round follows round.
+  for (Index node = 0; node < mesh.numberOfNodes(); ++node)
+  {
+    mesh.points(node, 2) += 0.5 * mesh.points(node, 0);
+  }
+  meshes::jitterInterior(mesh, 0.2, 7);
+  const auto orientation = cellSigns(mesh, connectedComponents(mesh));
+  const NodePartition partition = motions::outerPartition(mesh);
+  const MovableQuality quality(mesh, orientation, partition.free);
+  Recorder monitor;
+  Points points = mesh.points;
+  const AscentEffort effort = raiseMinimumQuality(quality, 1, points, monitor);
+  ASSERT_GE(effort.rounds, 1);
+  ASSERT_GE(monitor.told.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(monitor.told.begin(), monitor.told.end()));
+  EXPECT_GT(monitor.told.back(), monitor.told.front());
+  EXPECT_LE(monitor.told.back(), 1);
 }
 
 TEST(Progress, OfSubStepsRises)

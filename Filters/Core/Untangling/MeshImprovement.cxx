@@ -101,7 +101,8 @@ bool MeshImprovement::minimizeEnergy(const MovableQuality& quality, double goal,
     monitor.progress(0.8);
     if (this->raisesMinimum() && quality.measure(points, monitor).minimum >= WorthRaising * best)
     {
-      raiseMinimumQuality(quality, goal, points, monitor);
+      ProgressRange raise(monitor, 0.8, 0.95);
+      raiseMinimumQuality(quality, goal, points, raise);
     }
     monitor.progress(0.95);
   }
@@ -158,7 +159,8 @@ MeshImprovement::Outcome MeshImprovement::run(
   outcome.untangled = isValid;
   if (isRepair && isValid && raisesFirst && anyInverted)
   {
-    this->raiseNear(inverted, goal, bestPoints, monitor);
+    ProgressRange raise(monitor, 0.3, 0.95);
+    this->raiseNear(inverted, goal, bestPoints, raise);
     points = std::move(bestPoints);
     return outcome;
   }
@@ -170,7 +172,8 @@ MeshImprovement::Outcome MeshImprovement::run(
   // Raising the minimum of a valid mesh costs far less than minimising the energy.
   if (isValid && raisesFirst)
   {
-    const AscentEffort raised = raiseMinimumQuality(quality, goal, bestPoints, monitor);
+    ProgressRange raise(monitor, 0.3, 0.7);
+    const AscentEffort raised = raiseMinimumQuality(quality, goal, bestPoints, raise);
     if (raised.rounds > 0)
     {
       best = quality.measure(bestPoints, monitor);
@@ -182,7 +185,8 @@ MeshImprovement::Outcome MeshImprovement::run(
     {
       if (isAtGoal && best.minimum < enough * this->options_.minimumAtRest)
       {
-        raiseNextWorst(quality, raised, bestPoints, monitor);
+        ProgressRange next(monitor, 0.7, 0.95);
+        raiseNextWorst(quality, raised, bestPoints, next);
       }
       points = std::move(bestPoints);
       return outcome;

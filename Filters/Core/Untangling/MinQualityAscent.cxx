@@ -200,6 +200,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
       best = quality.minimum;
       ++effort.rounds;
     }
+    monitor.progress(1 - std::pow(0.8, round + 1)); // how many rounds there will be is not known
     if (!more)
     {
       squarings += doublings;
