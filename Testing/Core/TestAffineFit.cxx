@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DirectSolutions.h"
 #include "Meshes.h"
 
 #include "Geometry/AffineFit.h"
@@ -40,11 +41,8 @@ TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
     // Without the means, the gradient is a least-squares problem of its own.
     const Eigen::MatrixXd arms = rest.rowwise() - rest.colwise().mean();
     const Eigen::MatrixXd right = u.rowwise() - u.colwise().mean();
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-8);
-    solver.compute(arms);
     const Eigen::MatrixXd gradient =
-      dimension == 0 ? Eigen::MatrixXd::Zero(3, 3) : Eigen::MatrixXd(solver.solve(right));
+      dimension == 0 ? Eigen::MatrixXd::Zero(3, 3) : direct::leastSquares(arms, right, 1e-8);
     EXPECT_LT((fit.gradient() - gradient).norm(), 1e-12) << dimension;
     EXPECT_LT((fit.displacement(rest.colwise().mean()) - u.colwise().mean()).norm(), 1e-13);
   }

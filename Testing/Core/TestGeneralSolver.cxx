@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DirectSolutions.h"
 #include "Solvers/GeneralSolver.h"
 
 #include "Meshes.h"
@@ -7,7 +8,6 @@
 #include "Support/Error.h"
 #include "WatchingMonitor.h"
 
-#include <Eigen/SparseLU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,10 +65,7 @@ Problem lattice(int n, double wind)
 
 Points byLU(const CsrMatrix& A, const Points& b)
 {
-  const Eigen::SparseMatrix<double> columns = A;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(columns);
-  const Eigen::MatrixXd x = lu.solve(Eigen::MatrixXd(b));
-  return x;
+  return direct::solve(Eigen::SparseMatrix<double>(A), b);
 }
 }
 

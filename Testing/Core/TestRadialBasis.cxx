@@ -2,6 +2,7 @@
 // What is particular to radial basis functions; TestLinearMorphers.cxx has what they share with the
 // other linear methods.
 #include "BoundaryShapes.h"
+#include "DirectSolutions.h"
 #include "Meshes.h"
 #include "Motions.h"
 
@@ -91,7 +92,7 @@ Points bySaddlePoint(
     A.col(i).tail<4>() = A.row(i).tail<4>().transpose();
   }
   b.topRows(n) = values;
-  const Eigen::MatrixXd c = A.fullPivLu().solve(b);
+  const Eigen::MatrixXd c = direct::solve(A, b);
   Points result(x.rows(), 3);
   for (Index i = 0; i < x.rows(); ++i)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sliding nodes that FEMWARP does not pull along their surfaces, against a dense solution.
+#include "DirectSolutions.h"
 #include "LinearMethods/FemWarpSystem.h"
 #include "LinearMethods/SlidingWarp.h"
 #include "Meshes.h"
@@ -100,7 +101,7 @@ struct Block
     const Eigen::MatrixXd A = Eigen::MatrixXd(system.interior);
     const Points given =
       rows(this->moved, this->prescribed) - rows(this->mesh.points, this->prescribed);
-    const Points b = -(Eigen::MatrixXd(system.coupling) * given);
+    const Points b = -(system.coupling * given);
     const auto n = static_cast<Index>(unknown.size());
     Index held = 0;
     for (const auto& across : this->normals)
@@ -129,7 +130,7 @@ struct Block
         ++at;
       }
     }
-    const Eigen::VectorXd x = all.fullPivLu().solve(right);
+    const Eigen::VectorXd x = direct::solve(all, right);
     Points result = this->moved;
     for (Index i = 0; i < n; ++i)
     {

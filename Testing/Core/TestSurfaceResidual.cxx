@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DirectSolutions.h"
 #include "Meshes.h"
 
 #include "BoundaryMorphing/SurfaceResidual.h"
@@ -217,8 +218,8 @@ TEST(SurfaceResidual, AgreesWithTheEquationsWrittenOut)
   const Points target = apply(s.prescribed, bent);
   Eigen::MatrixXd columns(s.prescribed.rows(), 4);
   columns << s.prescribed, Eigen::VectorXd::Ones(s.prescribed.rows());
-  const Eigen::MatrixXd gamma = columns.colPivHouseholderQr().solve(target);
-  const Eigen::MatrixXd residual = target - columns * gamma;
+  const Eigen::MatrixXd gamma = direct::leastSquares(columns, target);
+  const Eigen::MatrixXd residual = target - direct::product(columns, gamma);
   for (Index neighbors : { 20, 100 })
   {
     const Points moved = morphed(s, target, neighbors).moved;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DirectSolutions.h"
 #include "Meshes.h"
 
 #include "LinearMethods/WeightedResidual.h"
@@ -98,8 +99,8 @@ Eigen::RowVector3d byTheBook(
   // (3) to (5): x' = Gamma x + translation by least squares.
   Eigen::MatrixXd columns(rest.rows(), 4);
   columns << rest, Eigen::VectorXd::Ones(rest.rows());
-  const Eigen::MatrixXd gamma = columns.colPivHouseholderQr().solve(moved);
-  const Eigen::MatrixXd residual = moved - columns * gamma;
+  const Eigen::MatrixXd gamma = direct::leastSquares(columns, moved);
+  const Eigen::MatrixXd residual = moved - direct::product(columns, gamma);
   // (6)
   std::vector<std::pair<double, Index>> near;
   for (Index k = 0; k < rest.rows(); ++k)
