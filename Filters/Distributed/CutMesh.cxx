@@ -9,7 +9,7 @@
 
 namespace morph::distributed
 {
-CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor, bool cutsAll)
+CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
   : whole_(&whole)
 {
   std::unique_ptr<PolyhedronPieces> cut;
@@ -17,11 +17,15 @@ CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor, boo
     [&]
     {
       monitor.check();
-      cut = std::make_unique<PolyhedronPieces>(whole.mesh(), monitor, cutsAll);
+      cut = std::make_unique<PolyhedronPieces>(whole.mesh(), monitor);
     });
   Piece piece = this->ownPieces(*cut);
   this->pieces_ =
     std::make_unique<DistributedMesh>(whole.ranks(), std::move(piece), layers, monitor);
+  // Each rank sums up a centre in its own order: all take the bits of its owner.
+  Points points = this->pieces_->mesh().points;
+  this->pieces_->halo().update(whole.ranks(), points);
+  *this->pieces_ = this->pieces_->at(std::move(points));
 }
 
 Piece CutMesh::ownPieces(const PolyhedronPieces& cut)
@@ -228,17 +232,16 @@ Points CutMesh::extend(const Points& points) const
   return all;
 }
 
-Points CutMesh::reduce(const Points& all) const
+Points CutMesh::reduce(const Points& all, Points points) const
 {
   const DistributedMesh& whole = *this->whole_;
-  Points result = whole.mesh().points;
   for (std::size_t n = 0; n < this->wholeNode_.size(); ++n)
   {
-    result.row(this->wholeNode_[n]) = all.row(static_cast<Index>(n));
+    points.row(this->wholeNode_[n]) = all.row(static_cast<Index>(n));
   }
-  whole.halo().update(whole.ranks(), result);
-  whole.copyToDoubles(result);
-  return result;
+  whole.halo().update(whole.ranks(), points);
+  whole.copyToDoubles(points);
+  return points;
 }
 
 Points CutMesh::extendTranspose(const Points& all) const

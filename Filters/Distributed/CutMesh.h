@@ -21,9 +21,9 @@ namespace morph::distributed
 class CutMesh
 {
 public:
-  /// `whole` has to outlive this object. `layers`: of ghosts around the pieces. `cutsAll`: see
-  /// PolyhedronPieces. Throws Error on all ranks.
-  CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor, bool cutsAll = false);
+  /// `whole` has to outlive this object. `layers`: of ghosts around the pieces. Throws Error on all
+  /// ranks.
+  CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor);
 
   const DistributedMesh& mesh() const { return *this->pieces_; }
   /// The node of the pieces that a node of the whole mesh is; -1 for one that no own cell has.
@@ -33,8 +33,8 @@ public:
   /// whole mesh; returns #local nodes x 3 of the pieces, ghosts as their owners have them.
   Points extend(const Points& points) const;
   /// Returns the rows of the nodes without the centres, ghosts as their owners have them: #local
-  /// nodes x 3 of the whole mesh. Nodes of no cell get their undeformed positions. Collective.
-  Points reduce(const Points& all) const;
+  /// nodes x 3 of the whole mesh. `points`, of that size, has those of nodes of no cell. Collective.
+  Points reduce(const Points& all, Points points) const;
   /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the
   /// result are to be added to their owners'. Not collective.
   Points extendTranspose(const Points& all) const;

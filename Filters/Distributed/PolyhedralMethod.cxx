@@ -7,9 +7,8 @@
 
 namespace morph::distributed
 {
-PolyhedralMethod::PolyhedralMethod(std::unique_ptr<Method> method, bool cutsAll)
+PolyhedralMethod::PolyhedralMethod(std::unique_ptr<Method> method)
   : method_(std::move(method))
-  , cutsAll_(cutsAll)
 {
   if (const auto* system = dynamic_cast<const SystemMethod*>(this->method_.get()))
   {
@@ -31,7 +30,7 @@ void PolyhedralMethod::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& whole = this->mesh();
   requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
-  this->cut_ = std::make_unique<CutMesh>(whole, this->method_->layers(), monitor, this->cutsAll_);
+  this->cut_ = std::make_unique<CutMesh>(whole, this->method_->layers(), monitor);
   if (whole.ranks().sum(static_cast<Index>(this->reference_.rows())) > 0)
   {
     this->method_->setReference(this->cut_->extend(this->reference_));

@@ -16,7 +16,7 @@ class PolyhedralMethod : public Method
 {
 public:
   /// `method`: with the options that prepare() reads, not prepared.
-  explicit PolyhedralMethod(std::unique_ptr<Method> method, bool cutsAll = false);
+  explicit PolyhedralMethod(std::unique_ptr<Method> method);
 
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override;
@@ -32,7 +32,6 @@ protected:
 
 private:
   std::unique_ptr<Method> method_;
-  bool cutsAll_;
   CellStiffness stiffness_; ///< with values of the cells that the pieces are cut from
   Points reference_;
   std::unique_ptr<CutMesh> cut_;

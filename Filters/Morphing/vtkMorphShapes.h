@@ -36,8 +36,7 @@
  * row, and at each the weights are those of its row. A shape without a column has its own weight.
  *
  * On several MPI ranks each blends the nodes of its piece. Numbers, ranges and derivatives are
- * those of the whole mesh, the same on each rank. One rank alone may have the table. Polyhedra
- * need one rank.
+ * those of the whole mesh, the same on each rank. One rank alone may have the table.
  *
  * A shape is taken at its input's own time. Errors are those of vtkMorphAlgorithm, with the shape's
  * name; output 0 is then the undeformed mesh, MorphStatus is "Failed", and InvertedCells and

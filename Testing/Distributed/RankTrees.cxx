@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RankTrees.h"
 
+#include "BlockGrids.h"
+
 #include <vtkCellData.h>
 #include <vtkDataObjectTreeIterator.h>
 #include <vtkDataSet.h>
@@ -79,5 +81,33 @@ vtkSmartPointer<vtkDataObjectTree> part(
     result->SetDataSetFrom(item, cellsOf(data, mine));
   }
   return result;
+}
+
+vtkSmartPointer<vtkDataObjectTree> wholeLeaves(
+  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole)
+{
+  const auto result = vtkSmartPointer<vtkDataObjectTree>::Take(whole->NewInstance());
+  result->ShallowCopy(whole);
+  const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(whole->NewTreeIterator());
+  int leaf = 0;
+  for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
+  {
+    if (leaf++ % ranks.count() != ranks.rank())
+    {
+      result->SetDataSetFrom(item, nullptr);
+    }
+  }
+  return result;
+}
+
+double distance(const morph::distributed::Ranks& ranks, vtkDataObject* mine,
+  const std::map<vtkIdType, grids::Row>& whole)
+{
+  double most = 0;
+  for (const auto& [number, x] : blocks::pointsByNumber(mine))
+  {
+    most = std::max(most, (x - whole.at(number)).norm());
+  }
+  return ranks.maximum(most);
 }
 }

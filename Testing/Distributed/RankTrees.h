@@ -2,9 +2,12 @@
 #pragma once
 
 #include "Distributed/Ranks.h"
+#include "TestGrids.h"
 
 #include <vtkDataObjectTree.h>
 #include <vtkSmartPointer.h>
+
+#include <map>
 
 class vtkDataSet;
 class vtkIdList;
@@ -20,4 +23,12 @@ vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids);
 /// leaves of polygons whole, or -1 for a random partition of these, too.
 vtkSmartPointer<vtkDataObjectTree> part(
   const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole, unsigned seed, int ofSets = -1);
+
+/// This rank's part of `whole`: each leaf is whole on one rank, and null on the others.
+vtkSmartPointer<vtkDataObjectTree> wholeLeaves(
+  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole);
+
+/// The largest distance on any rank of points from those with the same number in `whole`.
+double distance(const morph::distributed::Ranks& ranks, vtkDataObject* mine,
+  const std::map<vtkIdType, grids::Row>& whole);
 }

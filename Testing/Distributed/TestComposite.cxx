@@ -35,6 +35,7 @@ namespace
 using grids::Row;
 using morph::Index;
 using morph::distributed::Ranks;
+using rank_trees::distance;
 
 using Tree = vtkSmartPointer<vtkDataObjectTree>;
 
@@ -136,17 +137,6 @@ Tree blocksOf(vtkUnstructuredGrid* whole, Kind kind, bool withIds)
   tree->SetPartitionedDataSet(3, set);
   tree->GetMetaData(3u)->Set(vtkCompositeDataSet::NAME(), "wall");
   return tree.Get();
-}
-
-/// The largest distance on any rank of points from those with the same number in `whole`.
-double distance(const Ranks& ranks, vtkDataObject* mine, const std::map<vtkIdType, Row>& whole)
-{
-  double most = 0;
-  for (const auto& [number, x] : blocks::pointsByNumber(mine))
-  {
-    most = std::max(most, (x - whole.at(number)).norm());
-  }
-  return ranks.maximum(most);
 }
 
 /// Cells of this rank whose value differs from that of the whole, NaN being equal to nothing.

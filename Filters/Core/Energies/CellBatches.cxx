@@ -98,7 +98,6 @@ bool CellBatches::moves(Index batch, int lane, const int* corner) const
 
 void CellBatches::setTargets(const TargetMatrices& targets)
 {
-  this->theta_ = targets.theta;
   this->target_.assign(this->size(), Targets{});
   this->targetCorner_.assign(this->places() / SimdWidth, TargetCorners{});
   for (Index index = 0; index < this->size(); ++index)

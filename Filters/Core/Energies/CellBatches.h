@@ -65,7 +65,6 @@ public:
   {
     return this->targetCorner_.data() + this->firstPlace(batch) / SimdWidth;
   }
-  double theta() const { return this->theta_; }
 
 private:
   struct Batch
@@ -83,6 +82,5 @@ private:
   Adjacency uses_;
   std::vector<Targets> target_;             ///< of each batch
   std::vector<TargetCorners> targetCorner_; ///< as batchOf_
-  double theta_ = 0;
 };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/BlockCsr3f.h"
 
+#include "Support/Error.h"
 #include "Support/Simd.h"
 #include "Support/SimdDispatch.h"
 #include "Support/SimdMath.h"
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <iterator>
 #include <numeric>
+#include <string>
 
 namespace morph
 {
@@ -410,6 +412,11 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
   bool isDefinite = whole != nullptr;
   if (whole)
   {
+    if (whole->rows() != this->rows())
+    {
+      throw Error("The preconditioner has " + std::to_string(whole->rows()) + " rows, the matrix " +
+                  std::to_string(this->rows()) + ".");
+    }
     iterations = conjugateGradients(*this, TwoLevels(*this, *whole, inverse, monitor), b, x,
       tolerance, most, monitor, copies, isDefinite);
   }

@@ -16,6 +16,7 @@ public:
   virtual void apply(const Points& from, Points& to, Monitor& monitor) const = 0;
   /// The diagonal of K, all positive.
   virtual double diagonal(Index row) const = 0;
+  /// The number of nodes: that of the block rows of the matrix that it is for.
   virtual Index rows() const = 0;
 };
 }

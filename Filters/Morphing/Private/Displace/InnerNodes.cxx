@@ -127,7 +127,7 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   this->Whole = whole;
   if (whole)
   {
-    this->FindOnRanks(grid, model, options);
+    this->FindOnRanks(grid, model, blocks, options);
     return;
   }
   const morph::Mesh& mesh = model.Mesh();
@@ -155,12 +155,13 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   }
 }
 
-void InnerNodes::FindOnRanks(
-  vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options)
+void InnerNodes::FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+  const MergedBlocks* blocks, const Options& options)
 {
   const WholeVolume volume(*this->Whole);
   WholeVolume::Flags isTaken(volume.Piece().numberOfNodes(), 0);
-  for (const Zones::Part& part : Zones::FindOnRanks(Zones::Frozen, grid, volume, options.Zones))
+  for (const Zones::Part& part :
+    Zones::FindOnRanks(Zones::Frozen, grid, volume, blocks, options.Zones))
   {
     for (std::size_t n = 0; n < isTaken.size(); ++n)
     {
@@ -168,7 +169,8 @@ void InnerNodes::FindOnRanks(
     }
   }
   this->FrozenNodes = this->NodesOf(model, isTaken);
-  for (const Zones::Part& part : Zones::FindOnRanks(Zones::Rigid, grid, volume, options.Zones))
+  for (const Zones::Part& part :
+    Zones::FindOnRanks(Zones::Rigid, grid, volume, blocks, options.Zones))
   {
     Zone& zone = this->RigidZones.emplace_back();
     WholeVolume::Flags isEdge(isTaken.size(), 0), isNew = part.IsNode;

@@ -80,7 +80,8 @@ private:
     std::vector<morph::Index> Edge;    ///< those with a cell outside the zone; not on ranks
     WholeVolume::Flags IsNode, IsEdge; ///< the same of the piece's points, on ranks
   };
-  void FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Options& options);
+  void FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
+    const MergedBlocks* blocks, const Options& options);
   /// The nodes here of those of the whole mesh that the piece's flags tell. Collective.
   std::vector<morph::Index> NodesOf(const BoundaryModel& model, const WholeVolume::Flags& ofPiece);
   Eigen::RowVector3d RestOf(const BoundaryModel& model, morph::Index node) const;

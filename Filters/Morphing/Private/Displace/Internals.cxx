@@ -456,6 +456,7 @@ void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
     {
       if (hasAny || !isAnywhere) // which throws
       {
+        selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
         isSelected = filters::Selection::Points(piece, selection, this->Extractor);
       }
     });

@@ -89,13 +89,28 @@ bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
   return found;
 }
 
+[[noreturn]] void throwUnknown(const Part& part, const MergedBlocks* blocks)
+{
+  std::string names;
+  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+  {
+    names += blocks->All[b].IsMesh ? (names.empty() ? "" : ", ") + blocks->All[b].Name : "";
+  }
+  throw Error("The zone '" + part.Name +
+              "' is neither a point array, a cell array nor a block of the input" +
+              (names.empty() ? "" : ", whose blocks are " + names) +
+              ". A zone is where an array is not zero, or a block.");
+}
+
+/// `isPart`: whether other processes may have the block.
 void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks,
-  bool isEmptyPart, Part& part)
+  bool isPart, Part& part)
 {
   vtkDataArray* ofPoints = grid->GetPointData()->GetArray(part.Name.c_str());
   vtkDataArray* ofCells = grid->GetCellData()->GetArray(part.Name.c_str());
-  if (isEmptyPart)
+  if (isPart && mesh.numberOfCells() == 0)
   {
+    part.IsKnown = false;
     takeCells(mesh, Flags(), part);
   }
   else if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
@@ -108,15 +123,12 @@ void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedB
   }
   else if (!takeBlock(mesh, blocks, part))
   {
-    std::string names;
-    for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+    if (!isPart || !blocks)
     {
-      names += blocks->All[b].IsMesh ? (names.empty() ? "" : ", ") + blocks->All[b].Name : "";
+      throwUnknown(part, blocks);
     }
-    throw Error("The zone '" + part.Name +
-                "' is neither a point array, a cell array nor a block of the input" +
-                (names.empty() ? "" : ", whose blocks are " + names) +
-                ". A zone is where an array is not zero, or a block.");
+    part.IsKnown = false;
+    takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
   }
 }
 
@@ -151,7 +163,6 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   const MergedBlocks* blocks, const Options& options)
 {
   std::vector<Part> parts;
-  const bool isEmptyPart = options.IsPart && mesh.numberOfCells() == 0;
   const auto take = [&](const std::string& name, const auto& fill)
   {
     Part& part = parts.emplace_back();
@@ -167,7 +178,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
                                                 : options.Soft;
   for (const std::string& name : names)
   {
-    take(name, [&](Part& part) { takeNamed(grid, mesh, blocks, isEmptyPart, part); });
+    take(name, [&](Part& part) { takeNamed(grid, mesh, blocks, options.IsPart, part); });
   }
   if (options.RegionKind == kind)
   {
@@ -191,8 +202,8 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   return parts;
 }
 
-std::vector<Part> FindOnRanks(
-  Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume, Options options)
+std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume,
+  const MergedBlocks* blocks, Options options)
 {
   // A selection that is nowhere is an error, as on one process.
   const bool isSelected = options.Selection && options.Selection->GetNumberOfNodes() > 0;
@@ -205,10 +216,14 @@ std::vector<Part> FindOnRanks(
       {
         Selection::Evaluate(grid, nullptr, nullptr); // which throws
       }
-      parts = Find(kind, grid, volume.Piece(), nullptr, options);
+      parts = Find(kind, grid, volume.Piece(), blocks, options);
     });
   for (Part& part : parts)
   {
+    if (Ranks::Count(part.IsKnown) == 0)
+    {
+      Ranks::Together([&] { throwUnknown(part, blocks); });
+    }
     Flags isNode = volume.AnyFlags(part.IsNode);
     if (Ranks::Count(!isNowhere(part)) == 0)
     {

@@ -58,6 +58,7 @@ struct Part
   std::vector<std::uint8_t> IsNode; ///< #nodes: the zone's, and those of its cells
   std::vector<std::uint8_t> IsCell; ///< #cells: the zone's, or those whose nodes all are
   bool ByNodes = false;             ///< whether the zone has nodes of its own, not cells
+  bool IsKnown = true;              ///< whether this process has an array or a block of the name
 };
 
 /// Finds the zones of that kind, in the order of their names, then those of region and selection.
@@ -66,8 +67,8 @@ struct Part
 /// is not given, and a zone without a node. Cost: a pass over the mesh for each.
 std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const MergedBlocks* blocks, const Options& options);
-/// The same of a mesh on several MPI processes, of which `grid` is a piece. Flags are of its points
-/// and cells. Collective.
-std::vector<Part> FindOnRanks(
-  Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume, Options options);
+/// The same of a mesh on several MPI processes, of which `grid` is a piece, merged from this
+/// process's `blocks`. Flags are of its points and cells. Collective.
+std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume,
+  const MergedBlocks* blocks, Options options);
 }

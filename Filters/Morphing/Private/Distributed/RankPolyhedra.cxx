@@ -42,7 +42,7 @@ RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
       morph::distributed::repairInverted(cut.mesh(), shapes, ofPieces, all, monitor);
     result.tooLarge = ofRound.tooLarge;
     result.cells = ofRound.cells;
-    morph::Points repaired = cut.reduce(all);
+    morph::Points repaired = cut.reduce(all, points);
     if (mesh.ranks().sum(morph::Index(repaired != points)) == 0)
     {
       break;
@@ -73,7 +73,7 @@ morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
   morph::Points all = cut.extend(moved);
   report = morph::distributed::smoothMesh(
     cut.mesh(), cut.extend(rest), cut.extend(partition), options, all, monitor);
-  morph::Points smoothed = cut.reduce(all);
+  morph::Points smoothed = cut.reduce(all, moved);
   // What is better for the pieces may be worse for the polyhedra.
   const RankQuality::Measured before = RankQuality::Measure(mesh, moved, monitor);
   const RankQuality::Measured after = RankQuality::Measure(mesh, smoothed, monitor);

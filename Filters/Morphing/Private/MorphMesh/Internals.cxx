@@ -201,7 +201,7 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
   if (this->IsDistributed)
   {
     parts = filters::Zones::FindOnRanks(filters::Zones::Soft, this->Rest,
-      filters::WholeVolume(*this->Displacement->Internals->Whole), options);
+      filters::WholeVolume(*this->Displacement->Internals->Whole), this->Blocks.Merged(), options);
   }
   else
   {
