@@ -23,8 +23,10 @@ void MeshMorphingSetDefaultColors()
   // The role of a point or face in a displaced boundary: categories with names.
   const std::string roles = R"({ "array_lookup_tables": { "Role": { "PVLookupTable": {
     "IndexedLookup": 1,
-    "Annotations": [ "0", "Stays", "1", "Moves", "2", "Held", "3", "Follows" ],
-    "IndexedColors": [ 0.75, 0.75, 0.75, 0.85, 0.35, 0.05, 0.3, 0.3, 0.3, 0.35, 0.65, 0.85 ],
+    "Annotations": [ "0", "Stays", "1", "Moves", "2", "Held", "3", "Follows",
+                     "4", "Free", "5", "Zone", "6", "Layer" ],
+    "IndexedColors": [ 0.75, 0.75, 0.75, 0.85, 0.35, 0.05, 0.3, 0.3, 0.3, 0.35, 0.65, 0.85,
+                       0.55, 0.8, 0.45, 0.6, 0.4, 0.7, 0.95, 0.8, 0.3 ],
     "NanColor": [ 1.0, 1.0, 1.0 ] } } } })";
 
   // With a lower priority than the settings of the site and of the user.

@@ -33,7 +33,8 @@ public:
   /// whole mesh; returns #local nodes x 3 of the pieces, ghosts as their owners have them.
   Points extend(const Points& points) const;
   /// Returns the rows of the nodes without the centres, ghosts as their owners have them: #local
-  /// nodes x 3 of the whole mesh. `points`, of that size, has those of nodes of no cell. Collective.
+  /// nodes x 3 of the whole mesh. Nodes of no cell keep their row of `points`, of that size.
+  /// Collective.
   Points reduce(const Points& all, Points points) const;
   /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the
   /// result are to be added to their owners'. Not collective.

@@ -50,6 +50,39 @@ TEST(Ranks, AnErrorOnOneRankIsThrownOnAllWithTheSameMessage)
   EXPECT_EQ(message, "rank " + std::to_string(last) + " says no");
 }
 
+TEST(DistributedMesh, TakesIdsBeyond32Bits)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh whole = meshes::hexes(4, 3, 3);
+  constexpr std::int64_t Far = std::int64_t(1) << 40;
+  Monitor monitor;
+  const auto far = [&](std::int64_t by)
+  {
+    Piece piece = pieces::pieceOf(
+      whole, pieces::randomOwners(whole, ranks.count(), meshes::seed()), ranks.rank());
+    for (std::vector<std::int64_t>* ids : { &piece.nodeIds, &piece.cellIds })
+    {
+      for (std::int64_t& id : *ids)
+      {
+        id += by;
+      }
+    }
+    return piece;
+  };
+  const DistributedMesh mesh(ranks, far(Far), 1, monitor);
+  Index owned = 0;
+  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    owned += mesh.owns(n);
+    ASSERT_GE(mesh.nodeId(n), Far);
+    EXPECT_EQ(mesh.mesh().points.row(n), whole.points.row(mesh.nodeId(n) - Far));
+  }
+  EXPECT_EQ(ranks.sum(owned), whole.numberOfNodes());
+  const std::string message =
+    pieces::messageOf([&] { DistributedMesh(ranks, far(std::int64_t(1) << 52), 1, monitor); });
+  EXPECT_NE(message.find("2^52"), std::string::npos) << message;
+}
+
 TEST(DistributedMesh, OwnsEachNodeOnceAndHasAllCellsAroundItsNodes)
 {
   const Ranks ranks = pieces::world();

@@ -22,7 +22,10 @@ list(LENGTH listed number)
 if (number LESS 15)
   message(FATAL_ERROR "${API} lists ${number} headers of the core.")
 endif ()
-set(code "#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
+# Macros that wingdi.h defines on Windows.
+set(code "#define ABSOLUTE 1
+#define RELATIVE 2
+#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
 #error a core header is on the include path
 #endif
 ")

@@ -273,6 +273,24 @@ class BoundaryDisplacementTests(unittest.TestCase):
         display = simple.Show(self.displacement, simple.CreateRenderView())
         self.assertEqual(list(display.ColorArrayName), ["CELLS", "Role"])
 
+    def test_every_role_has_a_name_and_a_color(self):
+        move = self.displacement
+        move.Moving, move.Patches = "Patches", [self.top_surface()]
+        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
+        move.FreePatches = [name for name in move.GetProperty("FreePatches").Available
+                            if name != self.top_surface()][:1]
+        move.UpdatePipeline()
+        simple.Show(move, simple.CreateRenderView())
+        table = simple.GetColorTransferFunction("Role")
+        names = dict(zip(table.Annotations[::2], table.Annotations[1::2]))
+        self.assertEqual([names[str(role)] for role in range(7)],
+                         ["Stays", "Moves", "Held", "Follows", "Free", "Zone", "Layer"])
+        self.assertEqual(len(table.IndexedColors), 3 * len(names))
+        grid = servermanager.Fetch(move)
+        roles = {int(r) for r in vtk_to_numpy(grid.GetCellData().GetArray("Role"))}
+        self.assertIn(4, roles)
+        self.assertLessEqual({str(r) for r in roles}, set(names))
+
     def test_fit_to_surface(self):
         """The face at the end of z goes onto a square of its size, 0.5 beyond it."""
         high = CELLS + 0.5

@@ -9,6 +9,7 @@ import os
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
@@ -67,12 +68,19 @@ class WindowOnRanks(unittest.TestCase):
             events.do(VIEW, "mouseRelease", place + ",4,0,0)")
             events.apply()
             events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "0")
+            state = folder / "dragged.pvsm"
+            events.save_state(state)
             home = folder / "home"
             home.mkdir()
             code, messages = events.play(home, seconds=200,
                                          arguments=[f"--server-url=cs://localhost:{port}"])
             self.assertEqual(code, 0, messages)
             self.assertNotIn("ERR|", messages)
+            translate = ElementTree.parse(state).find(
+                ".//Proxy[@type='Transform3']/Property[@name='Position']")
+            moved = [float(element.get("value")) for element in translate.iter("Element")
+                     if element.get("index")][:3]
+            self.assertGreater(max(abs(a - b) for a, b in zip(moved, (0, 0, float(UP)))), 1e-3)
 
 
 if __name__ == "__main__":

@@ -179,6 +179,31 @@ class SolverFiles(unittest.TestCase):
                         self.assertAlmostEqual(models.value(found[node, axis]),
                                                models.value(old[node, axis]) + shift, delta=1e-14)
 
+    def test_a_file_of_the_moved_boundary(self):
+        """morph-mesh ORIGINAL moved.vtp OUT: the file of the motion itself, up to its digits."""
+        for extension in WRITERS:
+            with self.subTest(extension=extension):
+                _, pieces, path = self.write(extension)
+                wanted, out = (self.folder / (name + extension) for name in ("wanted", "out"))
+                boundary = self.folder / f"{extension[1:]}.vtp"
+                self.morph(path, wanted)
+                self.assertEqual(run("--extract-boundary", wanted, boundary).returncode, 0)
+                # Its nodes are those of the original by their ids, and at their new places.
+                text, count = re.subn(rb'<DataArray [^>]*Name="RestPosition".*?</DataArray>', b"",
+                                      boundary.read_bytes(), flags=re.S)
+                self.assertEqual(count, 1)
+                boundary.write_bytes(text)
+                result = run(path, boundary, out, "--method", "FEMWARP")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                found = models.coordinates_in(pieces, out.read_bytes())
+                old = models.coordinates_in(pieces, path.read_bytes())
+                moved = 0
+                for key, text in models.coordinates_in(pieces, wanted.read_bytes()).items():
+                    value = models.value(text)
+                    self.assertAlmostEqual(models.value(found[key]), value, delta=1e-5)
+                    moved = max(moved, abs(value - models.value(old[key])))
+                self.assertGreater(moved, 1e-2)
+
     def test_the_output_may_be_the_original(self):
         for extension in WRITERS:
             with self.subTest(extension=extension):
