@@ -371,6 +371,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
   Points gradient, old, direction;
   Objective::Value value = objective.valueAndGradient(points, gradient, monitor);
   inverse.begin(gradient, monitor);
+  int settled = 0; // steps in a row
   for (int step = 0; step < limits.steps; ++step)
   {
     monitor.check();
@@ -403,7 +404,8 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     search.gradient(points, gradient, monitor);
     inverse.remember(gradient, old, direction, search.length(), monitor);
     // The length of a step along the gradient is arbitrary, so it proves nothing.
-    if (progress.settled(before, value.energy, norm) && isScaled)
+    settled = progress.settled(before, value.energy, norm) && isScaled ? settled + 1 : 0;
+    if (settled == limits.settledSteps)
     {
       break;
     }

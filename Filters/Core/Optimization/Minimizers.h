@@ -22,6 +22,9 @@ struct MinimizerLimits
   /// norm of the gradient is below gradientDecrease times the first.
   double slowDecrease = 1e-4;
   double gradientDecrease = 1e-2;
+  /// How many steps in a row have to say so in limitedMemoryBfgs(), which knows the curvature along
+  /// a few directions alone at first.
+  int settledSteps = 1;
   /// for Newton's linear systems, beside their diagonal blocks; null: none
   const NodePreconditioner* preconditioner = nullptr;
 };

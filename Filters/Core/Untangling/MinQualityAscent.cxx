@@ -25,11 +25,12 @@ constexpr double Promising = 30;
 constexpr double NearBound = 5e-3;
 constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
 
-// After the last power those from 64 on run again, as long as that raises the minimum by this: by
-// then other cells are the worst, and other nodes move. Without it rounding decides how high the
-// search comes.
-constexpr int RepeatedSquarings = 6, Repetitions = 3;
+// After the last power those from 16 on run again, as long as that raises the minimum by this: by
+// then other cells are the worst, and other nodes move. Without it, or where a round ends at its
+// first short steps, rounding decides how high the search comes.
+constexpr int RepeatedSquarings = 4, Repetitions = 3;
 constexpr double WorthRepeating = 1.003;
+constexpr int SettledSteps = 5;
 
 int stepsOf(int squarings)
 {
@@ -182,6 +183,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
       quality.minimum, squarings, goal * (1 - NearBound / 2), communicator);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
+    stepLimits.settledSteps = SettledSteps;
     MinimizerEffort steps;
     limitedMemoryBfgs(norm, trial, stepLimits, steps, monitor);
     effort.cellEvaluations += cells * static_cast<double>(steps.evaluations);
