@@ -349,7 +349,10 @@ PatchReport repairPatches(const DistributedMesh& mesh, const Points& reference,
         }
       }
     });
-  report.bytes += static_cast<double>(placed.size() * sizeof(PlacedNode));
+  if (ranks.count() > 1)
+  {
+    report.bytes += static_cast<double>(placed.size() * sizeof(PlacedNode));
+  }
   for (const PlacedNode& node : mesh.directory().route(placed, unknown))
   {
     const Index n = mesh.nodeOf(node.id);
