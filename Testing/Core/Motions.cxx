@@ -75,7 +75,9 @@ double difference(const Points& a, const Points& b)
 
 bool identical(const Points& a, const Points& b)
 {
-  return a.rows() == b.rows() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+  // Without rows there is no memory to compare.
+  return a.rows() == b.rows() &&
+         (a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0);
 }
 
 Error::Kind kindOf(const std::function<void()>& call, std::string& message)
