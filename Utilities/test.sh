@@ -177,7 +177,7 @@ with_plain_vtk() {
   stage setup "VTK 9.1" Utilities/plain-vtk.sh --unpack-only || return
   configure plain-vtk -DMESHMORPHING_TEST_GROUPS="fuzz;soak" || return
   stage debian "build plain-vtk" build plain-vtk || return
-  stage debian "tests plain-vtk" tests plain-vtk -LE 'slow|benchmark|core|solvers'
+  stage debian "tests plain-vtk" tests plain-vtk -LE 'slow|benchmark|core'
 }
 
 package_summary="left out"

@@ -23,9 +23,7 @@ CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
   this->pieces_ =
     std::make_unique<DistributedMesh>(whole.ranks(), std::move(piece), layers, monitor);
   // Each rank sums up a centre in its own order: all take the bits of its owner.
-  Points points = this->pieces_->mesh().points;
-  this->pieces_->halo().update(whole.ranks(), points);
-  *this->pieces_ = this->pieces_->at(std::move(points));
+  *this->pieces_ = this->pieces_->at(this->extend(whole.mesh().points));
 }
 
 Piece CutMesh::ownPieces(const PolyhedronPieces& cut)
