@@ -13,18 +13,13 @@ from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "Data"))
-import Models  # noqa: E402  (needs the path above)
+sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
+import Models  # noqa: E402  (needs the paths above)
 from Models.model_mesh import vtk_points  # noqa: E402
+from demo_picture import producer  # noqa: E402
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 SEED = int(os.environ.get("MORPH_TEST_SEED", 20111))
-
-
-def producer(data):
-    source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
-    return source
 
 
 def minimum(mesh):
