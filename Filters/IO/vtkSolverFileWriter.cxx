@@ -104,7 +104,7 @@ vtkDataArray* displacementOf(vtkPointSet* part)
 {
   vtkDataArray* moved = part->GetPointData()->GetArray("MorphDisplacement");
   const bool fits = moved && moved->GetNumberOfComponents() == 3 &&
-    moved->GetNumberOfTuples() == part->GetNumberOfPoints();
+                    moved->GetNumberOfTuples() == part->GetNumberOfPoints();
   return fits ? moved : nullptr;
 }
 
@@ -121,8 +121,8 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
     nodes.AreOfAnotherReader = nodes.AreOfAnotherReader || !ownNumbersOf(part);
     // A point and its displacement are rounded each.
     const double rounding = part->GetPoints()->GetDataType() == VTK_FLOAT
-      ? double(std::numeric_limits<float>::epsilon())
-      : std::numeric_limits<double>::epsilon();
+                              ? double(std::numeric_limits<float>::epsilon())
+                              : std::numeric_limits<double>::epsilon();
     nodes.Precision = std::max(nodes.Precision, 8 * rounding);
     const std::size_t first = nodes.Numbers.size();
     for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)

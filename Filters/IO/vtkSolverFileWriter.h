@@ -17,10 +17,12 @@
  * kill. FileName may be OriginalFileName.
  *
  * Errors: node numbers that are missing, doubled, or not those of the file; coordinates that are
- * not finite, or that the format has no room for; what vtkSolverFileReader refuses. A mesh of
- * another reader, which has global ids in place of `NodeNumber`, is refused where that reader has
- * added the displacements of an Exodus II file: its points less `MorphDisplacement` are not those of
- * the file. Write() returns 0 then, and writes nothing.
+ * not finite, or that the format has no room for; what vtkSolverFileReader refuses. Write() returns
+ * 0 then, and writes nothing.
+ *
+ * A mesh of another reader has global ids in place of `NodeNumber`. It is refused where that reader
+ * has added the displacements of an Exodus II file: its points less `MorphDisplacement` are not
+ * those of the file.
  *
  * @sa vtkSolverFileReader
  */

@@ -32,7 +32,7 @@ QString fileOf(pqPipelineSource* source)
   {
     vtkSMProxy* const proxy = source->getProxy();
     if (proxy->GetProperty("FileName") &&
-      vtkSMPropertyHelper(proxy, "FileName").GetNumberOfElements() > 0)
+        vtkSMPropertyHelper(proxy, "FileName").GetNumberOfElements() > 0)
     {
       return vtkSMPropertyHelper(proxy, "FileName").GetAsString();
     }
@@ -92,12 +92,12 @@ void SaveCoordinates::save()
     return;
   }
   const QString extension = QFileInfo(original).suffix();
-  const QString formats = extension.isEmpty()
-    ? QString("All files (*)")
-    : QString("Copy of %1 (*.%2)").arg(QFileInfo(original).fileName(), extension);
-  const QString copy = chosen(
-    server, "SaveCoordinatesDialog", "Save coordinates into", original, formats,
-    pqFileDialog::AnyFile);
+  const QString formats =
+    extension.isEmpty()
+      ? QString("All files (*)")
+      : QString("Copy of %1 (*.%2)").arg(QFileInfo(original).fileName(), extension);
+  const QString copy = chosen(server, "SaveCoordinatesDialog", "Save coordinates into", original,
+    formats, pqFileDialog::AnyFile);
   if (copy.isEmpty())
   {
     return;

@@ -193,13 +193,13 @@ void requireOwnCoordinates(const std::string& original, const std::vector<Index>
   }
   if (!other.empty())
   {
-    throw Error("Cannot write the coordinates into a copy of " + original +
-                ": before the morph, nodes were not at the file's own coordinates: " +
-                listIds(other) + ". A reader has added the displacements '" +
-                file->displacements() +
-                "' of the file, or filters moved the mesh more than once. Switch "
-                "Apply Displacements off in that reader, or read the file with Solver File Reader, "
-                "which takes its own coordinates.");
+    throw Error(
+      "Cannot write the coordinates into a copy of " + original +
+      ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
+      ". A reader has added the displacements '" + file->displacements() +
+      "' of the file, or filters moved the mesh more than once. Switch "
+      "Apply Displacements off in that reader, or read the file with Solver File Reader, "
+      "which takes its own coordinates.");
   }
 }
 

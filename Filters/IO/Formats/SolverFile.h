@@ -18,8 +18,8 @@ public:
 
   const SolverMesh& mesh() const { return this->mesh_; }
   const std::string& path() const { return this->path_; }
-  /// The array of displacements of the nodes which other readers add to the coordinates, as ParaView
-  /// does with those of Exodus II. Empty: there is none.
+  /// The array of displacements that other readers add to the coordinates, as ParaView does with
+  /// those of Exodus II. Empty: there is none.
   const std::string& displacements() const { return this->displacements_; }
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
@@ -56,8 +56,8 @@ std::unique_ptr<SolverFile> readSolverFile(const std::string& path);
 double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
 
-/// Throws Error where `original` has displacements, and `coordinates`, which another reader gave, are
-/// not its own: that reader has added them. `precision`: of the coordinates, relative to the largest.
+/// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
+/// are not its own: that reader has added them. `precision`: relative to the largest coordinate.
 void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, double precision);
 
