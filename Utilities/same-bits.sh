@@ -6,9 +6,9 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: same-bits.sh [-j N] [COMPILER [MORPH_MESH]]
-Builds the library and morph-mesh with another compiler, whose warnings are errors, in
-build/COMPILER. Then morphs the small models by each method with it and with MORPH_MESH, and fails
-where one bit of the nodes differs.
+Builds the library, morph-mesh and the core's tests with another compiler, whose warnings are
+errors, in build/COMPILER, and runs these tests. Then morphs the small models by each method with it
+and with MORPH_MESH, and fails where one bit of the nodes differs.
   COMPILER    by default clang++ (Debian package clang)
   MORPH_MESH  by default build/paraview/bin/morph-mesh
   -j N        processes to build with (default: all cores)
@@ -34,9 +34,9 @@ if [ ! -x "$reference" ]; then
 fi
 
 cmake --preset vtk -B "$build" -D CMAKE_CXX_COMPILER="$compiler" \
-  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_BUILD_TESTING=OFF \
-  -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
-cmake --build "$build" -j "$jobs"
+  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
+cmake --build "$build" -j "$jobs" --target morph-mesh MeshMorphingCoreTests
+ctest --test-dir "$build" --output-on-failure -j "$jobs" -L core
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
