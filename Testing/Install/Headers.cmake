@@ -24,7 +24,8 @@ if (number LESS 15)
 endif ()
 # Macros that wingdi.h defines on Windows.
 set(macros "#define ABSOLUTE 1\n#define RELATIVE 2\n")
-set(code "${macros}#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
+set(code "${macros}
+#if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
 #error a core header is on the include path
 #endif
 ")
