@@ -204,8 +204,10 @@ site() {
   return $result
 }
 
+debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
 in_debian13() {
   local result=0
+  rm -f "$debian13_log" # of another run
   stage debian13 "Debian 13" limited Utilities/other-debian.sh trixie test -j "$jobs" \
     --labels '^(core|filters|install|paraview)$' || result=$?
   if [ "$result" -eq 77 ]; then
@@ -252,7 +254,6 @@ if [ "$site" = yes ]; then optional $site_budget "site" site; fi
 if [ "$asan" = yes ]; then optional $sanitizer_budget "sanitizers" sanitized; fi
 if [ "$plain_vtk" = yes ]; then optional 9 "VTK 9.1" with_plain_vtk; fi
 
-debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
 if [ "$debian13" = yes ] && [ -e "$debian13_log" ]; then
   printf '\n== Debian 13, preset paraview\n'
   summary "$debian13_log"
