@@ -188,7 +188,8 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     {
       motion = [](const grids::Row& x)
       {
-        const double r = std::hypot(x[0] - 8, x[1] - 8), dent = std::cos(r / 4 * M_PI / 2);
+        // Off the middle: the search for the highest minimum leaves symmetry by rounding alone.
+        const double r = std::hypot(x[0] - 7.3, x[1] - 8.4), dent = std::cos(r / 4 * M_PI / 2);
         return grids::Row(x[0], x[1], x[2] == 0 && r < 4 ? 3.5 * dent * dent : x[2]);
       };
     }
@@ -207,9 +208,7 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     const auto mine = run(rank_grids::piece(ranks, whole));
     EXPECT_EQ(serial.first, "Valid 0") << name;
     EXPECT_EQ(mine.first, serial.first) << name;
-    // Raising the minimum ends at one of many maxima, and rounding decides at which.
-    const double least = name == "fine" ? 0.8 : 0.99;
-    EXPECT_GT(mine.second, least * serial.second) << name;
+    EXPECT_GT(mine.second, 0.99 * serial.second) << name;
     if (ranks.rank() == 0)
     {
       std::cout << name << ": minimum " << mine.second << ", on one rank " << serial.second << "\n";
