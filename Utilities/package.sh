@@ -5,18 +5,22 @@ cd "$(dirname "$0")/.."
 
 usage() {
   cat <<END
-Usage: package.sh [-j N]
+Usage: package.sh [--from FOLDER] [-j N]
 Builds (preset deb) a Debian package with the plugin where ParaView lists it, the headers, the
 libraries with their CMake package, and morph-mesh; prints its path. Install it with:
 apt-get install <path>
-  -j N   processes to build with (default: all cores)
+  --from FOLDER  take this build of the preset paraview, so that little is compiled again, and
+                 configure it as it was afterwards
+  -j N           processes to build with (default: all cores)
 END
 }
 
+from=
 jobs=$(nproc)
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
+    --from) shift; from=${1:?"--from needs a folder"} ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -24,7 +28,19 @@ while [ $# -gt 0 ]; do
 done
 
 if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
-cmake --preset deb >&2
-cmake --build --preset deb -j "$jobs" >&2
-(cd build/deb && rm -f ./*.deb && cpack -G DEB >&2)
-ls "$PWD"/build/deb/*.deb
+if [ -n "$from" ]; then
+  folder=$from
+  cached() { sed -n "s/^CMAKE_INSTALL_$1:[A-Z]*=//p" "$folder/CMakeCache.txt"; }
+  install_to() { cmake -DCMAKE_INSTALL_PREFIX="$1" -DCMAKE_INSTALL_LIBDIR="$2" "$folder" >&2; }
+  prefix=$(cached PREFIX)
+  libdir=$(cached LIBDIR)
+  trap 'install_to "$prefix" "$libdir"' EXIT
+  install_to /usr "lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)"
+else
+  folder=build/deb
+  cmake --preset deb >&2
+fi
+cmake --build "$folder" -j "$jobs" >&2
+rm -f "$folder"/*.deb
+(cd "$folder" && cpack -G DEB >&2)
+ls "$(realpath "$folder")"/*.deb

@@ -19,11 +19,10 @@ Usage: test.sh [--no-install] [--no-asan] [--asan-filters] [--no-plain-vtk] [--n
 From a bare Debian 12 or 13 to tested builds: installs the packages, then
 - builds the plugin (preset paraview) and runs the tests labelled core, filters, fuzz, programs,
   install and paraview;
+- on Debian 12 does the same in Debian 13, in a root file system of its own (see other-debian.sh),
+  without the labels fuzz and programs. Where none can be made, the summary says so;
 - makes the Debian package, and installs, tries and removes it in a private view of the machine;
 - on Debian 12 builds the site (site.sh), and checks its links and pictures;
-- on Debian 12 does the first of these in Debian 13 as well, in a root file system of its own (see
-  other-debian.sh), without the labels fuzz and programs. Where none can be made, the summary says
-  so;
 - builds with sanitizers (preset asan) and runs core, fuzz and the library of MPI ranks on two of
   them, and filters where half of the budget of $sanitizer_budget minutes is left;
 - on Debian 12 unpacks its VTK 9.1, builds the library and the Python module with it (preset
@@ -127,7 +126,8 @@ optional() {
 
 configured=()
 configure() {
-  cmake --preset "$@" && rm -f "build/$1/ctest.log" && configured+=("$1")
+  cmake --preset "$@" -DMESHMORPHING_PRECOMPILE_HEADERS="$precompile" &&
+    rm -f "build/$1/ctest.log" && configured+=("$1")
 }
 build() { limited cmake --build --preset "$1" -j "$jobs" "${@:2}"; }
 # The log of several runs of one preset is one: they are summed up together. Not by the preset,
@@ -184,7 +184,8 @@ with_plain_vtk() {
 package_summary="left out"
 make_package() {
   {
-    limited Utilities/package.sh -j "$jobs" && limited Testing/Install/package.sh build/deb/*.deb
+    limited Utilities/package.sh --from build/paraview -j "$jobs" &&
+      limited Testing/Install/package.sh build/paraview/*.deb
   } 2>&1 | tee build/package.log
 }
 package() {
@@ -220,7 +221,9 @@ if [ "$install" = yes ]; then
   if [ "$site" = yes ]; then packages+=(--site); fi
   stage setup "packages" "${packages[@]}"
 fi
+precompile=ON # headers, which ccache could not share
 if command -v ccache > /dev/null; then
+  precompile=OFF
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   # The presets share what they compile alike, such as the core, whatever their build folder is.
   export CCACHE_BASEDIR=$PWD
@@ -244,9 +247,9 @@ else
   first mpi "tests paraview (mpi)" tests paraview -L mpi
   first solvers "tests paraview (solvers)" tests paraview -L solvers
 fi
+if [ "$debian13" = yes ]; then optional $debian13_budget "Debian 13" in_debian13; fi
 if [ "$package" = yes ]; then optional 3 "Debian package" package; fi
 if [ "$site" = yes ]; then optional $site_budget "site" site; fi
-if [ "$debian13" = yes ]; then optional $debian13_budget "Debian 13" in_debian13; fi
 if [ "$asan" = yes ]; then optional $sanitizer_budget "sanitizers" sanitized; fi
 if [ "$plain_vtk" = yes ]; then optional 9 "VTK 9.1" with_plain_vtk; fi
 

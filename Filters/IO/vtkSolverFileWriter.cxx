@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -71,11 +72,16 @@ std::string originalOf(
                      "OriginalFileName.");
 }
 
+/// The numbers that vtkSolverFileReader gives; null in a mesh of another reader.
+vtkDataArray* ownNumbersOf(vtkPointSet* part)
+{
+  return part->GetPointData()->GetArray("NodeNumber");
+}
+
 vtkDataArray* numbersOf(vtkPointSet* part)
 {
-  vtkPointData* arrays = part->GetPointData();
-  vtkDataArray* numbers = arrays->GetArray("NodeNumber");
-  numbers = numbers ? numbers : arrays->GetGlobalIds();
+  vtkDataArray* numbers = ownNumbersOf(part);
+  numbers = numbers ? numbers : part->GetPointData()->GetGlobalIds();
   if (!numbers || numbers->GetNumberOfTuples() != part->GetNumberOfPoints())
   {
     throw morph::Error("The mesh has no node numbers (the point array NodeNumber), which tell its "
@@ -88,7 +94,19 @@ struct Nodes
 {
   std::vector<morph::Index> Numbers;
   std::vector<double> Coordinates; ///< 3 x #nodes
+  std::vector<double> Undeformed;  ///< 3 x #nodes, before the last morph
+  double Precision = 0;            ///< of the points, relative to the largest coordinate
+  bool AreOfAnotherReader = false; ///< which may have added displacements
 };
+
+/// What the last morph added to the points; null where none did.
+vtkDataArray* displacementOf(vtkPointSet* part)
+{
+  vtkDataArray* moved = part->GetPointData()->GetArray("MorphDisplacement");
+  const bool fits = moved && moved->GetNumberOfComponents() == 3 &&
+                    moved->GetNumberOfTuples() == part->GetNumberOfPoints();
+  return fits ? moved : nullptr;
+}
 
 /// The nodes of all parts. Nodes of several parts are one; within a part none is.
 Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
@@ -99,6 +117,13 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
   for (vtkPointSet* part : parts)
   {
     vtkDataArray* numbers = numbersOf(part);
+    vtkDataArray* moved = displacementOf(part);
+    nodes.AreOfAnotherReader = nodes.AreOfAnotherReader || !ownNumbersOf(part);
+    // A point and its displacement are rounded each.
+    const double rounding = part->GetPoints()->GetDataType() == VTK_FLOAT
+                              ? double(std::numeric_limits<float>::epsilon())
+                              : std::numeric_limits<double>::epsilon();
+    nodes.Precision = std::max(nodes.Precision, 8 * rounding);
     const std::size_t first = nodes.Numbers.size();
     for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
     {
@@ -110,6 +135,10 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
       {
         nodes.Numbers.push_back(number);
         nodes.Coordinates.insert(nodes.Coordinates.end(), x, x + 3);
+        for (int j = 0; j < 3; ++j)
+        {
+          nodes.Undeformed.push_back(x[j] - (moved ? moved->GetComponent(i, j) : 0.));
+        }
       }
       else if (!std::equal(x, x + 3, nodes.Coordinates.data() + 3 * found->second))
       {
@@ -190,6 +219,10 @@ void vtkSolverFileWriter::WriteCopy(vtkDataObject* input)
   const std::string original = originalOf(input, parts, this->OriginalFileName);
   morph::io::requireWritable(original, this->FileName);
   const Nodes nodes = nodesOf(parts);
+  if (nodes.AreOfAnotherReader)
+  {
+    morph::io::requireOwnCoordinates(original, nodes.Numbers, nodes.Undeformed, nodes.Precision);
+  }
   this->LargestRounding =
     morph::io::writeSolverFile(original, nodes.Numbers, nodes.Coordinates, this->FileName,
       this->HandleSignals ? morph::io::Signals::RemoveTemporaries : morph::io::Signals::Leave);

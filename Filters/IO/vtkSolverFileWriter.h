@@ -20,6 +20,10 @@
  * not finite, or that the format has no room for; what vtkSolverFileReader refuses. Write() returns
  * 0 then, and writes nothing.
  *
+ * A mesh of another reader has global ids in place of `NodeNumber`. It is refused where that reader
+ * has added the displacements of an Exodus II file: its points less `MorphDisplacement` are not
+ * those of the file.
+ *
  * @sa vtkSolverFileReader
  */
 #ifndef vtkSolverFileWriter_h

@@ -290,6 +290,7 @@ void vtkDisplacementAlgorithm::CopyDisplacement(vtkDisplacementAlgorithm* from)
   this->SetScale(from->Scale);
   this->SetAutoCenter(from->AutoCenter);
   this->SetCenter(from->Center);
+  this->SetTransformAboutCenter(from->TransformAboutCenter);
   this->SetRadiusChange(from->RadiusChange);
   this->SetAlignTarget(from->AlignTarget);
   this->SetTargetReach(from->TargetReach);
@@ -346,6 +347,7 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   numbers("Scale", this->Scale, 3);
   os << indent << "AutoCenter: " << this->AutoCenter << "\n";
   numbers("Center", this->Center, 3);
+  os << indent << "TransformAboutCenter: " << this->TransformAboutCenter << "\n";
   os << indent << "RadiusChange: " << this->RadiusChange << "\n";
   os << indent << "AlignTarget: " << this->AlignTarget << "\n";
   os << indent << "TargetReach: " << this->TargetReach << "\n";

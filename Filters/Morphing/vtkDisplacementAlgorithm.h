@@ -208,7 +208,8 @@ public:
   ///@{
   /**
    * The centre about which it is scaled and turned. AutoCenter, the default: the centre of the
-   * bounding box of what moves. Off: Center, by default the origin.
+   * bounding box of what moves. Off: Center, by default the origin. It is that of
+   * MOTION_PLACEMENT and, with TransformAboutCenter, of MOTION_TRANSFORM.
    */
   vtkSetMacro(AutoCenter, bool);
   vtkGetMacro(AutoCenter, bool);
@@ -216,6 +217,16 @@ public:
   virtual void SetCenter(double x, double y, double z);
   virtual void SetCenter(const double vector[3]);
   vtkGetVector3Macro(Center, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether Transform takes the centre as its origin: x goes to centre + Transform(x - centre), the
+   * centre being that of AutoCenter and Center. Off: Transform is used as it is. Default off.
+   */
+  vtkSetMacro(TransformAboutCenter, bool);
+  vtkGetMacro(TransformAboutCenter, bool);
+  vtkBooleanMacro(TransformAboutCenter, bool);
   ///@}
 
   ///@{
@@ -517,6 +528,7 @@ protected:
   double Scale[3] = { 1, 1, 1 };
   bool AutoCenter = true;
   double Center[3] = { 0, 0, 0 };
+  bool TransformAboutCenter = false;
   double RadiusChange = 0;
   bool AlignTarget = false;
   double TargetReach = 0.2;

@@ -62,6 +62,17 @@ BoxAboutCenter::BoxAboutCenter(
       }
     }
   }
+  if (vtkSMProperty* const about = filter->GetProperty("TransformAboutCenter"))
+  {
+    for (const auto event :
+      { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
+    {
+      pqCoreUtilities::connect(about, static_cast<int>(event), this, SLOT(hideWhereAboutCenter()));
+    }
+    QObject::connect(
+      box, SIGNAL(widgetVisibilityToggled(bool)), this, SLOT(hideWhereAboutCenter()));
+    this->hideWhereAboutCenter();
+  }
   for (const char* name : { "rotateX", "rotateY", "rotateZ", "scaleX", "scaleY", "scaleZ" })
   {
     if (auto* const field = box->findChild<QLineEdit*>(name))
@@ -111,6 +122,20 @@ BoxAboutCenter::Triple BoxAboutCenter::center() const
     vtkSMUncheckedPropertyHelper(given).Get(center.data(), 3);
   }
   return center;
+}
+
+bool BoxAboutCenter::isAboutCenter() const
+{
+  return this->Filter->GetProperty("TransformAboutCenter") &&
+         vtkSMUncheckedPropertyHelper(this->Filter, "TransformAboutCenter").GetAsInt() != 0;
+}
+
+void BoxAboutCenter::hideWhereAboutCenter()
+{
+  if (this->isAboutCenter() && this->Box->isWidgetVisible())
+  {
+    this->Box->setWidgetVisible(false);
+  }
 }
 
 vtkBoundingBox BoxAboutCenter::ticked() const
@@ -198,7 +223,7 @@ void BoxAboutCenter::place()
 void BoxAboutCenter::keepCenter()
 {
   const Numbers now = this->read();
-  if (now.Position == this->Before.Position &&
+  if (!this->isAboutCenter() && now.Position == this->Before.Position &&
       (now.Rotation != this->Before.Rotation || now.Scale != this->Before.Scale))
   {
     const Triple before = turned(this->Before.Rotation, this->Before.Scale, this->center());

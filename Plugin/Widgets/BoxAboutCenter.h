@@ -20,6 +20,9 @@ class vtkSMProxy;
 /// a bit larger than the input. When a rotation or a scale is typed, the translation is changed
 /// with it, so that the centre stays where it is. The filter's property Center is the centre where
 /// AutoCenter is off.
+///
+/// With the filter's TransformAboutCenter the numbers are about the centre themselves. The box is
+/// hidden then: ParaView draws it about the origin.
 class BoxAboutCenter : public QObject
 {
   Q_OBJECT
@@ -34,6 +37,7 @@ private Q_SLOTS:
   void placeLater();
   void place();
   void keepCenter();
+  void hideWhereAboutCenter();
 
 private:
   using Triple = std::array<double, 3>;
@@ -53,6 +57,7 @@ private:
   vtkSMProperty* named(vtkPVXMLElement* hint, const char* role) const;
   Numbers read() const;
   Triple center() const;
+  bool isAboutCenter() const;
   /// Around what is ticked; not valid where nothing is.
   vtkBoundingBox ticked() const;
 };

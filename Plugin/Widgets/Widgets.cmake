@@ -36,11 +36,22 @@ macro (morph_auto_start class)
   morph_add_client_class("${class}")
 endmacro ()
 
+# A group of actions, in the menu `place`.
+macro (morph_action_group class place)
+  paraview_plugin_add_action_group(
+    CLASS_NAME "${class}"
+    GROUP_NAME "${place}"
+    INTERFACES widget_interface
+    SOURCES    widget_interface_source)
+  morph_add_client_class("${class}")
+endmacro ()
+
 if (PARAVIEW_USE_QT)
   morph_auto_start(ActiveColors)
   morph_auto_start(FirstColumns)
   morph_auto_start(FirstHit)
   morph_auto_start(SeriesColors)
+  morph_action_group(SaveCoordinates "MenuBar/File")
   morph_property_widget(SurfaceList SurfaceList WIDGET)
   morph_property_widget(SurfacePicker surface_picker WIDGET)
   morph_property_widget(Advice Advice WIDGET)

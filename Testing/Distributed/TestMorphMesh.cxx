@@ -16,6 +16,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
+#include <vtkTransform.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
@@ -70,7 +71,20 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
   ball->SetThetaResolution(40);
   ball->SetPhiResolution(40);
   ball->Update();
+  vtkNew<vtkTransform> turn;
+  turn->Translate(0.1, 0.2, -0.1);
+  turn->RotateZ(10);
+  turn->RotateX(5);
   const std::vector<std::pair<std::string, Configure>> cases = { { "placement", turnAndShift },
+    // No rank has all of what moves, and its centre.
+    { "transform about the centre",
+      [&](vtkMorphMesh* filter)
+      {
+        turnAndShift(filter);
+        filter->SetDisplacementToTransform();
+        filter->SetTransform(turn);
+        filter->TransformAboutCenterOn();
+      } },
     { "sliding",
       [](vtkMorphMesh* filter)
       {

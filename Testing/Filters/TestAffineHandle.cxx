@@ -89,9 +89,10 @@ TEST_P(AffineHandle, GivesTheMeshOfTheDirectEvaluation)
 {
   Drag drag;
   auto described = GetParam().make(), direct = GetParam().make();
-  for (const double size : { 1., -0.5, 2. })
+  for (const double size : { 1., -0.5, 2., 1.5 })
   {
     drag.Move(size);
+    drag.Displaced->SetTransformAboutCenter(size == 1.5);
     const morph::Points a = morphed(described, drag.Grid, drag.Boundary(true));
     const morph::Points b = morphed(direct, drag.Grid, drag.Boundary(false));
     EXPECT_LT((a - b).cwiseAbs().maxCoeff(), GetParam().linear ? 1e-8 : 1e-300) << size;

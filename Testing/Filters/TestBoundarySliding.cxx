@@ -5,6 +5,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkMorphMesh.h"
 
+#include <vtkCylindricalTransform.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -312,6 +313,52 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
   check(Row(0, 0, 0));
   filter->SetCenter(1, 2, 3);
   check(Row(1, 2, 3));
+  // A transform does the same if it is asked to; else it is about the origin.
+  vtkNew<vtkTransform> transform;
+  transform->Translate(0, 0, 1);
+  transform->RotateZ(90);
+  transform->Scale(0.5, 1, 1);
+  filter->SetMotionToTransform();
+  filter->SetTransform(transform);
+  check(Row(0, 0, 0));
+  filter->TransformAboutCenterOn();
+  check(Row(1, 2, 3));
+  filter->AutoCenterOn();
+  check(Row(2, 2, 4));
+  filter->SetScaleFactor(0.5);
+  filter->Update();
+  const morph::Points x = displaced::restPositions(filter->GetOutput());
+  const morph::Points y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const Row d = x.row(i) - Row(2, 2, 4);
+    const Row half =
+      x(i, 2) == 4 ? Row(0.5 * Row(-d[1] - d[0], 0.5 * d[0] - d[1], 1)) : Row(0, 0, 0);
+    EXPECT_LE((y.row(i) - x.row(i) - half).norm(), 1e-14) << x.row(i);
+  }
+}
+
+TEST(BoundarySliding, ANonlinearTransformAboutTheCentreOfWhatMoves)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  vtkNew<vtkCylindricalTransform> polar; // (r, phi, z) to (r cos(phi), r sin(phi), z)
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetMovingToEverything();
+  filter->SetTransform(polar);
+  filter->SetScaleFactor(0.05);
+  filter->TransformAboutCenterOn();
+  filter->Update();
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const Row d = x.row(i) - Row(2, 2, 2);
+    if (d.cwiseAbs().maxCoeff() == 2) // on the boundary
+    {
+      const Row wanted(d[0] * std::cos(d[1]), d[0] * std::sin(d[1]), d[2]);
+      EXPECT_LE((y.row(i) - x.row(i) - 0.05 * (wanted - d)).norm(), 1e-14) << x.row(i);
+    }
+  }
 }
 
 TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)

@@ -144,6 +144,25 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assertEqual(morph.UnmatchedPoints, 0)
         self.assertEqual(morph.PrescribedPoints, (CELLS + 1) ** 3 - (CELLS - 1) ** 3)
 
+    def test_a_rotation_about_the_centre_of_what_moves(self):
+        """By a script alone: a transform, or numbers; a point of the user's, or the origin."""
+        for about, center, motion in (
+                ([3, 3, 6], {}, {"TransformAboutCenter": 1}),
+                ([1, 2, 3], {"AutoCenter": 0, "Center": [1, 2, 3]}, {"TransformAboutCenter": 1}),
+                ([0, 0, 0], {}, {}),
+                ([3, 3, 6], {}, {"Displacement": "Translate, rotate, scale",
+                                 "Rotation": [0, 0, 30], "Translation": [0, 0, 1]})):
+            morph = MorphMesh(Input=self.mesh, Surfaces=[self.top_surface()], Surroundings="Stay",
+                              Validity="None", **center, **motion)
+            morph.Transform.Rotate = [0, 0, 30]
+            morph.Transform.Translate = [0, 0, 1]
+            top = self.rest[:, 2] == CELLS
+            d = self.rest[top] - about
+            cos, sin = np.cos(np.pi / 6), np.sin(np.pi / 6)
+            turned = np.stack([cos * d[:, 0] - sin * d[:, 1], sin * d[:, 0] + cos * d[:, 1],
+                               d[:, 2] + 1], 1) + about
+            np.testing.assert_allclose(points(morph)[top], turned, atol=2e-6)
+
     def test_dragging_the_box_repeats_nothing(self):
         move = self.displacement
         move.Moving = "Patches"

@@ -15,6 +15,7 @@ import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+import ensight
 from versions import blocks_for_exodus, number_points
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
@@ -143,9 +144,16 @@ class FileFormats(unittest.TestCase):
         for name, source, options in (("part.vtu", self.part, ASCII), ("part.vtk", self.part, {}),
                                       ("part.e", self.part, {}), ("blocks.e", self.blocks, {}),
                                       ("blocks.ex2", self.blocks, {}),
-                                      ("part.cgns", self.part, {})):
+                                      ("part.cgns", self.part, {}),
+                                      ("zones.cgns", self.blocks, {}),
+                                      ("parts.case", self.blocks, {})):
             with self.subTest(file=name):
-                simple.SaveData(self.path(name), proxy=source, **options)
+                if name.endswith(".case"):
+                    halves = dict(zip(("lower half", "upper half"), grids(fetched(source))))
+                    ensight.write(self.path(name), halves, ["Node", "FinalDisplacement"],
+                                  ["Element"])
+                else:
+                    simple.SaveData(self.path(name), proxy=source, **options)
                 file = opened(self.path(name))
                 # These blocks are one body, and the file numbers the nodes of each apart.
                 morph = bent(file, "Merge by Position" if source is self.blocks else "Merge")
@@ -153,6 +161,8 @@ class FileFormats(unittest.TestCase):
                 self.assertEqual(data.GetClassName(), before.GetClassName())
                 self.assertEqual(names(data), names(before))
                 self.assertEqual(len(grids(data)), 2 if source is self.blocks else 1)
+                if name.endswith(".case"):
+                    self.assertEqual(names(data), list(halves))
                 self.assertIsMoved(data)
                 element = together(data, "GetCellData", "Element").astype(int)
                 self.assertEqual(sorted(element), list(range(len(element))))

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python examples of the pages in Documentation, run as they stand on the small bore as
-part.vtu: each ends with a valid mesh. Those of HowTo make the pictures they show. (README.md's is
-in readme.py, that of Install.md, for plain VTK, in Testing/Install.)
+part.vtu: each ends with a valid mesh, those of a few indented lines and commands, too. Those of HowTo make
+the pictures they show. (README.md's is in readme.py, those for plain VTK are in Testing/Install.)
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython pages.py
 """
 import os
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -39,8 +40,8 @@ def morphs(names):
             if isinstance(value, servermanager.SourceProxy) and hasattr(value, "MorphStatus")}
 
 
-class Pages(unittest.TestCase):
-    """A test for each page, made below."""
+class InFolder(unittest.TestCase):
+    """In a folder that has the bore as part.vtu."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -75,6 +76,10 @@ class Pages(unittest.TestCase):
             names[name] = BoundaryDisplacement(Input=part, **motion)
         return names
 
+
+class Pages(InFolder):
+    """A test for each page, made below."""
+
     def run_page(self, page):
         names = self.names()
         for number, block in enumerate(PAGES[page], 1):
@@ -93,6 +98,11 @@ class Pages(unittest.TestCase):
         examples = dict(PAGES)
         for path in [ROOT / "README.md", *(ROOT / "Examples").glob("*.py")]:
             examples[path.name] = [path.read_text(encoding="utf-8")]
+        for path in howto_pictures.PAGES.glob("*.md"):
+            # A page is one script.
+            examples[path.name] = ["\n".join(code for _, code in
+                                             howto_pictures.BLOCK.findall(
+                                                 path.read_text(encoding="utf-8")))]
         number = re.compile(r"(MinScaledJacobian|InvertedCells|MeanScaledJacobian)")
         found = 0
         for name, blocks in examples.items():
@@ -101,7 +111,7 @@ class Pages(unittest.TestCase):
                 if first:
                     found += 1
                     self.assertIn("MorphStatus", block[:first.start()], name)
-        self.assertGreater(found, 4)
+        self.assertGreater(found, 12)
 
     def test_compare_morph_methods(self):
         self.run_page("CompareMorphMethods.md")
@@ -111,6 +121,94 @@ class Pages(unittest.TestCase):
         names = self.run_page("MorphMesh.md")
         self.assertLess(names["fit"].MaxTargetDistance, 1e-5)
         self.assertGreater(names["fit"].MaxTargetDistanceBefore, 0.1)
+
+
+def indented(page):
+    """The lines of a page's indented examples: (commands of morph-mesh, Python)."""
+    text = (ROOT / "Documentation" / page).read_text(encoding="utf-8")
+    outside = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    lines = [line[4:] for block in re.findall(r"(?<=\n\n)(?: {4}.*\n)+", outside)
+             for line in block.splitlines()]
+    commands = [line for line in lines if line.startswith("morph-mesh ")]
+    return commands, "\n".join(line for line in lines if line not in commands)
+
+
+class Indented(InFolder):
+    """Examples that are a few indented lines, on the small bore; as a part of Abaqus, wing.inp."""
+
+    def status_of(self, code, **more):
+        names = {**self.names(), **more}
+        exec(compile(code, "indented example", "exec"), names)
+        found = morphs(names)
+        self.assertGreater(len(found), 0)
+        for name, proxy in found.items():
+            proxy.UpdatePipeline()
+            self.assertIn(proxy.MorphStatus, DONE, name)
+            self.assertEqual(proxy.InvertedCells, 0, name)
+        return names
+
+    def test_fit(self):
+        names = self.status_of(indented("Tutorial.md")[1])
+        self.assertLess(names["fit"].MaxTargetDistance, 1e-2)
+
+    def test_zones(self):
+        part = simple.XMLUnstructuredGridReader(FileName=["part.vtu"])
+        part.UpdatePipeline()
+        low, high = part.GetDataInformation().GetBounds()[4:]
+        bolt = simple.Calculator(Input=part, ResultArrayName="bolt",
+                                 Function=f"if(coordsZ < {low + 0.1 * (high - low)}, 1, 0)")
+        middle = (f"if(coordsZ > {low + 0.4 * (high - low)}, "
+                  f"if(coordsZ < {low + 0.6 * (high - low)}, 1, 0), 0)")
+        zones = simple.Calculator(Input=bolt, ResultArrayName="insert", Function=middle)
+        names = self.status_of(indented("ZonesAndLayers.md")[1], mesh=zones)
+        data = servermanager.Fetch(names["moved"]).GetPointData()
+        moves = vtk_to_numpy(data.GetArray("MorphDisplacement"))
+        self.assertEqual(abs(moves[vtk_to_numpy(data.GetArray("bolt")) != 0]).max(), 0)
+        self.assertGreater(abs(moves).max(), 0.1)
+
+    def test_solver_file(self):
+        self.write_wing()
+        code = PAGES["SolverFiles.md"][0]
+        self.assertIn("SolverFileReader", code)
+        # No writer of ParaView names a set of Exodus II.
+        self.status_of(code.replace("wing.exo", "wing.inp").replace(
+            "wing-moved.exo", "wing-moved.inp").replace('"wall"', '"Wall"'))
+        self.assertTrue(Path("wing-moved.inp").exists())
+
+    def write_wing(self):
+        grid = servermanager.Fetch(self.names()["part"])
+        points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+        cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8) + 1
+        top = points[:, 2] > points[:, 2].max() - 1e-6
+        rows = ["*NODE", *(f"{i}, {x!r}, {y!r}, {z!r}"
+                           for i, (x, y, z) in enumerate(points.tolist(), 1)),
+                "*ELEMENT, TYPE=C3D8, ELSET=Body",
+                *(", ".join(map(str, (i, *cell))) for i, cell in enumerate(cells.tolist(), 1)),
+                "*NSET, NSET=Wall", *(f"{i + 1}," for i in top.nonzero()[0])]
+        Path("wing.inp").write_text("\n".join(rows) + "\n", encoding="utf-8")
+
+    def test_commands(self):
+        """Those of morph-mesh, but for the one that needs a case of OpenFOAM."""
+        names = self.names()
+        self.write_wing()
+        simple.SaveData("moved.vtp", proxy=names["moved"], DataMode="Ascii")
+        lid = simple.Threshold(Input=BoundaryDisplacement(Input=names["part"]),
+                               Scalars=["CELLS", "GeometryId"], LowerThreshold=3, UpperThreshold=3)
+        simple.SaveData("lid.stl", proxy=simple.ExtractSurface(Input=simple.Calculator(
+            Input=lid, CoordinateResults=1, Function="coords*1.02 + 0.1*kHat")))
+        Path("nodes.csv").write_text("id,dx,dy,dz\n0,0.01,0,0\n", encoding="utf-8")
+        commands = [line for page in ("Tutorial.md", "Install.md", "SolverFiles.md")
+                    for line in indented(page)[0] if "polyMesh" not in line]
+        self.assertGreaterEqual(len(commands), 10)
+        path = howto_pictures.search_path(PLUGIN)
+        for line in commands:
+            with self.subTest(command=line):
+                # The shell ends a line at its comment.
+                done = subprocess.run(["bash", "-c", line], env={**os.environ, "PATH": path},
+                                      capture_output=True, text=True, timeout=120, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                if "--list-surfaces" not in line and "--extract-boundary" not in line:
+                    self.assertRegex(done.stdout, r"(?m)^inverted cells +0 +0$")
 
 
 class Gallery(unittest.TestCase):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""morph-mesh on .pvtu and .vtm: the pieces are written again with moved points, and with their
-cells and arrays as they were. The morph is that of the mesh in one piece.
+"""morph-mesh on files of VTK: they are written again with moved points, and with their cells and
+arrays as they were. The morph of the pieces of a .pvtu or .vtm is that of the mesh in one piece.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython pieces.py
 """
@@ -17,6 +17,7 @@ from vtkmodules.vtkCommonCore import vtkIdList, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkFiltersCore import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader, vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import (
     vtkXMLGenericDataObjectReader, vtkXMLMultiBlockDataReader, vtkXMLMultiBlockDataWriter,
     vtkXMLUnstructuredGridWriter)
@@ -33,7 +34,8 @@ def run(*arguments, **options):
 
 
 def read(path):
-    reader = vtkXMLGenericDataObjectReader()
+    reader = (vtkGenericDataObjectReader() if Path(path).suffix == ".vtk"
+              else vtkXMLGenericDataObjectReader())
     reader.SetFileName(str(path))
     reader.Update()
     return reader.GetOutput()
@@ -55,16 +57,21 @@ def cells_of(grid, ids):
 
 
 def arrays(data):
-    """Names, types and values of all arrays, and the cells."""
+    """Names, types, roles and bytes of all arrays, and the cells."""
     found = []
     for attributes in (data.GetPointData(), data.GetCellData(), data.GetFieldData()):
         for i in range(attributes.GetNumberOfArrays()):
             array = attributes.GetAbstractArray(i)
             values = ([array.GetValue(k) for k in range(array.GetNumberOfValues())]
-                      if array.IsA("vtkStringArray") else vtk_to_numpy(array).tolist())
-            found.append((array.GetName(), array.GetClassName(), values))
+                      if array.IsA("vtkStringArray") else vtk_to_numpy(array).tobytes())
+            role = -1 if attributes.IsA("vtkFieldData") and not attributes.IsA(
+                "vtkDataSetAttributes") else attributes.IsArrayAnAttribute(i)
+            found.append((array.GetName(), array.GetDataType(), array.GetNumberOfComponents(),
+                          [array.GetComponentName(k)
+                           for k in range(array.GetNumberOfComponents())], role, values))
     cells = data.GetPolys() if data.IsA("vtkPolyData") else data.GetCells()
-    return found, vtk_to_numpy(cells.GetConnectivityArray()).tolist()
+    types = [data.GetCellType(i) for i in range(data.GetNumberOfCells())]
+    return found, types, vtk_to_numpy(cells.GetConnectivityArray()).tolist()
 
 
 class Pieces(unittest.TestCase):
@@ -211,6 +218,64 @@ class Pieces(unittest.TestCase):
         self.assertEqual(blocks.GetMetaData(1).Get(blocks.NAME()), "skin")
         self.assertEqual(blocks.GetNumberOfPoints(),
                          sum(read(path.parent / s).GetNumberOfPoints() for s in sources))
+
+    def rich_grid(self):
+        """The mesh with arrays of each type of number, and of text."""
+        grid = self.whole.NewInstance()
+        grid.DeepCopy(self.whole)
+        random = np.random.default_rng(24)
+        for attributes, count in ((grid.GetPointData(), grid.GetNumberOfPoints()),
+                                  (grid.GetCellData(), grid.GetNumberOfCells()),
+                                  (grid.GetFieldData(), 5)):
+            for number, kind in enumerate(("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4",
+                                           "f8")):
+                components = 1 + number % 4
+                values = random.integers(0, 127, (count, components)).astype(kind)
+                if kind[0] == "f":
+                    values = random.standard_normal((count, components)).astype(kind)
+                    values[:3, 0] = 1.5e30, -0.0, 2.5e-30  # VTK's text holds no infinity
+                array = numpy_to_vtk(values, deep=True)
+                array.SetName(f"array {kind}")
+                attributes.AddArray(array)
+        for name, attributes, count in (("notes", grid.GetFieldData(), 3),
+                                        ("marks", grid.GetCellData(), grid.GetNumberOfCells())):
+            text = vtkStringArray()
+            text.SetName(name)
+            for i in range(count):
+                text.InsertNextValue(f"text {i % 7}")
+            attributes.AddArray(text)
+        grid.GetPointData().SetActiveScalars("array f8")
+        grid.GetPointData().SetActiveVectors("array i2")
+        grid.GetCellData().SetActiveScalars("array u1")
+        return grid
+
+    def test_a_grid_keeps_its_arrays(self):
+        """Files of VTK: .vtu in each mode, .vtk as text and binary."""
+        grid = self.rich_grid()
+        for extension, Writer, modes in (
+                (".vtu", vtkXMLUnstructuredGridWriter, ("SetDataModeToAscii",
+                                                        "SetDataModeToBinary")),
+                (".vtk", vtkUnstructuredGridWriter, ("SetFileTypeToASCII", "SetFileTypeToBinary"))):
+            for mode in modes:
+                with self.subTest(extension=extension, mode=mode):
+                    path, out = (self.folder / (name + extension) for name in ("grid", "out"))
+                    writer = Writer()
+                    writer.SetFileName(str(path))
+                    writer.SetInputData(grid)
+                    getattr(writer, mode)()
+                    writer.Write()
+                    self.assertGreater(len(arrays(read(path))[0]), 30)
+                    self.morph(path, out)
+                    before, after = read(path), read(out)
+                    self.assertEqual(arrays(before), arrays(after))
+                    self.assertEqual(points(before).dtype, points(after).dtype)
+                    self.assertGreater(abs(points(before) - points(after)).max(), 0.09)
+                    if "Binary" in mode:  # text rounds the points that are morphed
+                        self.compare(path, out)
+                    # The output may be the original.
+                    self.morph(path, path)
+                    self.assertEqual(arrays(read(path)), arrays(before))
+                    np.testing.assert_array_equal(points(read(path)), points(after))
 
     def test_single_precision_stays(self):
         path, sources = self.write_pvtu()

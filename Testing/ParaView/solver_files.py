@@ -16,6 +16,8 @@ from pathlib import Path
 import numpy as np
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "Programs"))
@@ -229,6 +231,88 @@ class SolverFiles(unittest.TestCase):
                 ["ncdump", file], capture_output=True, text=True, check=True).stdout).partition(
                     "{")[2] for file in (path, self.folder / "out.exo")]
             self.assertEqual(*texts)
+
+    def write_copy(self, proxy, name, original):
+        """Writes a copy through the writer's proxy; returns the errors' text and the file."""
+        errors = []
+
+        @calldata_type(VTK_STRING)
+        def keep(*details):
+            errors.append(details[-1])
+        writer = servermanager.writers.SolverFileWriter(
+            Input=proxy, FileName=str(self.folder / name), OriginalFileName=str(original))
+        writer.GetClientSideObject().AddObserver("ErrorEvent", keep)
+        writer.UpdatePipeline()
+        return "\n".join(errors), self.folder / name
+
+    @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
+    def test_exodus_by_readers_that_add_displacements(self):
+        """ParaView's two readers, before and after a morph: a copy gets the file's own coordinates
+        and the morph, or nothing."""
+        path = self.exodus()
+        model, _ = models.random_model("paraview open")
+        own = np.array([model.points[n] for n in model.order])
+        for Reader, rounding in ((simple.IOSSReader, 1e-14), (simple.ExodusIIReader, 1e-6)):
+            for shift in (SHIFT, 0 * SHIFT):
+                for applied in (1, 0):
+                    with self.subTest(reader=Reader.__name__, shift=shift, applied=applied):
+                        reader = Reader(FileName=[str(path)])
+                        reader.ApplyDisplacements = applied
+                        morph = MorphMesh(Input=reader, Moving="Everything", Displacement="Vector",
+                                          Vector=list(shift), CoincidentPoints="Merge by Position",
+                                          Validity="Report") if shift.any() else reader
+                        morph.UpdatePipeline(0.0)
+                        error, out = self.write_copy(morph, "out.exo", path)
+                        if applied:
+                            self.assertRegex(error, "nodes were not at the file's own .*: [0-9].*"
+                                             "the displacements 'displ_x' .*Apply Displacements")
+                            self.assertFalse(out.exists())
+                            continue
+                        self.assertEqual(error, "")
+                        read = fetched(SolverFileReader(FileName=str(out)))
+                        np.testing.assert_allclose(vtk_to_numpy(read.GetPoints().GetData()),
+                                                   own + shift, rtol=0, atol=rounding)
+                        out.unlink()
+
+    @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
+    def test_each_kind_of_name_moves_its_nodes(self):
+        """By Boundary Displacement and by Morph Mesh, which offer the file's names."""
+        files = {extension: self.write(extension) for extension in (".inp", ".su2", ".msh")}
+        exodus = self.exodus()
+        model, rng = models.random_model("paraview foam", kind="hexahedra")
+        models.OpenFoam(model, rng).write(self.folder / "case")
+        of_exodus = models.random_model("paraview open")[0]
+        for kind, model, path, name, faces in (
+                ("side set", of_exodus, exodus, "wall", of_exodus.wall),
+                ("node set", of_exodus, exodus, "wall nodes", of_exodus.wall),
+                ("patch", model, self.folder / "case", "inlet", model.inlet),
+                *((kind, files[extension][0], files[extension][2], name,
+                   getattr(files[extension][0], name.lower())) for kind, extension, name in (
+                       ("*SURFACE", ".inp", "Inlet"), ("*NSET", ".inp", "Wall"),
+                       ("physical group", ".msh", "outlet"), ("marker", ".su2", "outlet")))):
+            with self.subTest(kind=kind, name=name):
+                reader = SolverFileReader(FileName=str(path))
+                reader.UpdatePipeline()
+                rest = vtk_to_numpy(fetched(reader).GetPoints().GetData())
+                nodes = {n for _, _, corners in faces for n in corners}
+                of_set = np.array([n in nodes for n in model.order])
+                boundary = BoundaryDisplacement(Input=reader, Moving="Patches", Patches=[name],
+                                                Motion="Vector", Vector=list(SHIFT))
+                boundary.UpdatePipeline()
+                self.assertIn(name, boundary.GetProperty("Patches").GetAvailable())
+                moved = fetched(boundary)
+                ids = vtk_to_numpy(moved.GetPointData().GetArray("MorphPointId"))
+                shift = vtk_to_numpy(moved.GetPoints().GetData()) - rest[ids]
+                moving = vtk_to_numpy(moved.GetPointData().GetArray("Role")) == 1
+                self.assertEqual(set(ids[moving]), set(np.flatnonzero(of_set)))
+                np.testing.assert_allclose(shift[of_set[ids]], np.tile(SHIFT, (sum(of_set), 1)),
+                                           rtol=0, atol=1e-14)
+                morph = MorphMesh(Input=reader, Moving="Surfaces", Surfaces=[name],
+                                  Displacement="Vector", Vector=list(SHIFT), Validity="Report")
+                shift = vtk_to_numpy(fetched(morph).GetPoints().GetData()) - rest
+                np.testing.assert_allclose(shift[of_set], np.tile(SHIFT, (sum(of_set), 1)),
+                                           rtol=0, atol=1e-14)
+                self.assertEqual((abs(shift[~of_set]).max(1) == 0).any(), True)
 
     @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
     def test_the_example_of_the_page(self):

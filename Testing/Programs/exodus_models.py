@@ -41,7 +41,7 @@ def exodus(model, together=False, single=False, names=True):
     faces = (("wall", model.wall), ("inlet", model.inlet), ("outlet", model.outlet))
     dimensions = {"len_string": 33, "num_dim": 3, "num_nodes": len(model.order),
                   "num_elem": len(model.cells), "num_el_blk": len(blocks), "num_side_sets": 3,
-                  "num_node_sets": 1, "num_nod_ns1": len(model.wall_nodes), "num_nod_var": 1}
+                  "num_node_sets": 1, "num_nod_ns1": len(model.wall_nodes), "num_nod_var": 3}
     variables, data = [], []
 
     def add(declaration, values):
@@ -80,13 +80,15 @@ def exodus(model, together=False, single=False, names=True):
             numbers([number(c, nodes) for c, _, nodes in sides]))
     add("int node_ns1(num_nod_ns1) ;", numbers([rank[n] for n in model.wall_nodes]))
     add("double time_whole(time_step) ;", "0., 0.5")
-    # Displacements, which VTK's reader would add to the coordinates.
-    add("double vals_nod_var1(time_step, num_nodes) ;",
-        numbers([0.1 * i for i in range(2 * len(model.order))]))
-    add("char name_nod_var(num_nod_var, len_string) ;", '"displ_x"')
+    # Displacements, which VTK's readers would add to the coordinates.
+    for axis in (1, 2, 3):
+        add(f"double vals_nod_var{axis}(time_step, num_nodes) ;",
+            numbers([1e-3 * axis + 1e-5 * i for i in range(2 * len(model.order))]))
+    add("char name_nod_var(num_nod_var, len_string) ;", '"displ_x", "displ_y", "displ_z"')
     return ("netcdf model {\ndimensions:\n" +
             "".join(f"{name} = {length} ;\n" for name, length in dimensions.items()) +
             "time_step = UNLIMITED ;\nvariables:\n" + "\n".join(variables) +
             "\n// global attributes:\n:api_version = 5.14f ;\n:version = 5.14f ;\n"
-            ":floating_point_word_size = " + ("4" if single else "8") + " ;\n:title = \"A model\" ;"
+            ":floating_point_word_size = " + ("4" if single else "8") +
+            f" ;\n:file_size = {0 if together else 1} ;\n" + ":title = \"A model\" ;"
             "\ndata:\n" + "\n".join(data) + "\n}\n")

@@ -5,6 +5,7 @@ exit status.
 Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models>
          python3 morph_mesh.py
 """
+import math
 import os
 import re
 import struct
@@ -105,6 +106,35 @@ class MorphMesh(unittest.TestCase):
                 (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
+
+    def test_a_surface_turns_about_a_point(self):
+        """Its centre, as it is listed, against Rodrigues' formula; its area stays."""
+        def surface(path):
+            _, _, _, area, centre = run("--list-surfaces", path).stdout.splitlines()[2].split(None, 4)
+            return float(area), [float(x) for x in centre.split(",")]
+
+        def cross(a, b):
+            return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+
+        area, centre = surface(BORE)
+        about = (0.3, -0.2, 1)
+        for number, axis in enumerate("xyz"):
+            for degrees in (7, -12):
+                out = self.folder / "turned.vtu"
+                result = run("--move", "Surface 1", "--rotate", f"{axis},{degrees}", "--center",
+                             ",".join(map(str, about)), BORE, out)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                k = [float(i == number) for i in range(3)]
+                angle = math.radians(degrees)
+                v = [x - p for x, p in zip(centre, about)]
+                wanted = [p + math.cos(angle) * a + math.sin(angle) * b
+                          + (1 - math.cos(angle)) * v[number] * c
+                          for p, a, b, c in zip(about, v, cross(k, v), k)]
+                turned_area, turned = surface(out)
+                for found, expected in zip(turned, wanted):
+                    self.assertAlmostEqual(found, expected, delta=1e-4)
+                self.assertAlmostEqual(turned_area, area, delta=1e-4 * area)
+                self.assertGreater(max(abs(a - b) for a, b in zip(turned, centre)), 0.01)
 
     def test_steps_are_written_one_by_one(self):
         result = run("--move=Surface 1", "--translate=0,0,0.2", "--steps=2", BORE,

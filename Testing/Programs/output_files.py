@@ -29,7 +29,7 @@ import vtk_pieces
 PROGRAM = os.environ["MORPH_MESH"]
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 GRID = str(MODELS / "canister_hex_small.vtu")
-KILLS = int(os.environ.get("MORPH_TEST_KILLS", "60"))
+KILLS = int(os.environ.get("MORPH_TEST_KILLS", "120"))
 SEED = os.environ.get("MORPH_TEST_SEED", "1")
 # From the third on: each is morphed from an original of its own.
 OUTPUTS = ["out.vtu", "out.vtk", "out.inp", "out.bdf", "out.su2", "out.msh", "points", "points.gz",

@@ -225,12 +225,13 @@ def nastran_number(x, width):
     raise ValueError(f"{x} does not fit into {width} characters")
 
 
-def nastran(model, rng, end="\n"):
-    """Pieces of a file of Nastran: all three forms of fields, in one file."""
+def nastran(model, rng, end="\n", only=None):
+    """Pieces of a file of Nastran: all three forms of fields of GRID in one file, or one of them:
+    small, large or free."""
     out = [f"$ A model of the tests{end}SOL 101{end}CEND{end}TITLE = GRID, 1{end}BEGIN BULK{end}"]
     for node in model.order:
         x, number = model.points[node], model.numbers[node]
-        form = rng.choice(("small", "large", "free"))
+        form = only or rng.choice(("small", "large", "free"))
         if rng.random() < 0.05:
             out.append(f"$GRID    1       2       3.0{end}")
         if form == "small":

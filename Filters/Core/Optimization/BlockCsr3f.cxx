@@ -405,7 +405,7 @@ private:
 };
 
 int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor,
-  const CopiedRows& copies, const NodePreconditioner* whole) const
+  const CopiedRows& copies, const NodePreconditioner* whole, double wholeTolerance) const
 {
   const std::vector<InverseBlock> inverse = this->inverseDiagonal(monitor, copies);
   int iterations = 0;
@@ -418,7 +418,7 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
                   std::to_string(this->rows()) + ".");
     }
     iterations = conjugateGradients(*this, TwoLevels(*this, *whole, inverse, monitor), b, x,
-      tolerance, most, monitor, copies, isDefinite);
+      wholeTolerance, most, monitor, copies, isDefinite);
   }
   if (!isDefinite)
   {

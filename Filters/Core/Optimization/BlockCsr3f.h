@@ -87,11 +87,12 @@ public:
   ///
   /// `whole`: on one process, makes iterations nearly independent of the mesh's size: the
   /// preconditioner is then a step by the diagonal blocks, this one scaled to the diagonal, and a
-  /// step again. An iteration takes three passes and that of `whole`. Null: none. Where the
-  /// combination is not positive definite, the diagonal blocks alone start again.
+  /// step again. An iteration takes three passes and that of `whole`. Null: none. It stops at
+  /// `wholeTolerance` instead. Where the combination is not positive definite, the diagonal blocks
+  /// alone start again, to `tolerance`.
   int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor,
-    const CopiedRows& copies = CopiedRows::alone(),
-    const NodePreconditioner* whole = nullptr) const;
+    const CopiedRows& copies = CopiedRows::alone(), const NodePreconditioner* whole = nullptr,
+    double wholeTolerance = 0) const;
 
 private:
   struct Chunk;

@@ -67,11 +67,10 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
     {
       break;
     }
-    // The diagonal blocks alone need the tolerance: looser steps miss what is smooth.
-    const double tolerance = limits.preconditioner ? forcing.next(norm) : LinearTolerance;
     objective.hessian(points, matrix, monitor);
-    effort.linearIterations += matrix.solve(gradient, direction, tolerance, MostLinearIterations,
-      monitor, objective.rows(), limits.preconditioner);
+    // The diagonal blocks alone need the tolerance: looser steps miss what is smooth.
+    effort.linearIterations += matrix.solve(gradient, direction, LinearTolerance,
+      MostLinearIterations, monitor, objective.rows(), limits.preconditioner, forcing.next(norm));
     direction *= -1;
     const double slope = objective.rows().dot(gradient, direction, monitor);
     const double before = value.energy;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
@@ -39,6 +40,7 @@ public:
     this->readBlocks(file);
     this->readNodeSets(file);
     this->readSideSets(file);
+    this->findDisplacements(file);
   }
 
   std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
@@ -54,6 +56,7 @@ private:
     const std::vector<Index>& elementNumbers);
   void readNodeSets(const NetCdf& file);
   void readSideSets(const NetCdf& file);
+  void findDisplacements(const NetCdf& file);
   std::vector<Index> numbersOf(const NetCdf& file, std::initializer_list<const char*> variables,
     Index count, const char* what) const;
 
@@ -340,6 +343,22 @@ void ExodusFile::readSideSets(const NetCdf& file)
       this->mesh_.warnings.push_back(
         this->path() + ": " + std::to_string(edges) + " sides of the side set " + set.name +
         " are no faces. They stay in the file, and are left out of the mesh.");
+    }
+  }
+}
+
+/// Of the variables of nodes: VTK's reader takes those as displacements whose names begin so.
+void ExodusFile::findDisplacements(const NetCdf& file)
+{
+  for (const std::string& name : file.texts("name_nod_var", file.dimension("num_nod_var")))
+  {
+    std::string start = name.substr(0, 3);
+    std::transform(start.begin(), start.end(), start.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (start == "dis")
+    {
+      this->displacements_ = name;
+      return;
     }
   }
 }

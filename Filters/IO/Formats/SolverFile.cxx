@@ -12,6 +12,7 @@
 #include "Support/Error.h"
 #include "Text/Printable.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace morph::io
@@ -160,6 +161,46 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
   replaceFiles(
     file->withCoordinates(inOrder(*file, numbers, coordinates), target, largestRounding), signals);
   return largestRounding;
+}
+
+void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
+  const std::vector<double>& coordinates, double precision)
+{
+  const std::unique_ptr<SolverFile> file = requireFormat(original).read(original);
+  if (file->displacements().empty())
+  {
+    return;
+  }
+  const std::vector<double> given = inOrder(*file, numbers, coordinates);
+  const std::vector<double>& own = file->mesh().coordinates;
+  double largest = 0;
+  for (std::size_t i = 0; i < own.size(); ++i)
+  {
+    largest = std::max({ largest, std::abs(own[i]), std::abs(given[i]) });
+  }
+  std::vector<Index> other;
+  for (std::size_t i = 0; i < own.size(); i += 3)
+  {
+    double difference = 0;
+    for (std::size_t j = i; j < i + 3; ++j)
+    {
+      difference = std::max(difference, std::abs(given[j] - own[j]));
+    }
+    if (difference > precision * largest)
+    {
+      other.push_back(file->mesh().nodeNumbers[i / 3]);
+    }
+  }
+  if (!other.empty())
+  {
+    throw Error(
+      "Cannot write the coordinates into a copy of " + original +
+      ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
+      ". A reader has added the displacements '" + file->displacements() +
+      "' of the file, or filters moved the mesh more than once. Switch "
+      "Apply Displacements off in that reader, or read the file with Solver File Reader, "
+      "which takes its own coordinates.");
+  }
 }
 
 void requireWritable(const std::string& original, const std::string& out)

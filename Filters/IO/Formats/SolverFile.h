@@ -18,6 +18,9 @@ public:
 
   const SolverMesh& mesh() const { return this->mesh_; }
   const std::string& path() const { return this->path_; }
+  /// The array of displacements that other readers add to the coordinates, as ParaView does with
+  /// those of Exodus II. Empty: there is none.
+  const std::string& displacements() const { return this->displacements_; }
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
   /// mesh()), the one of `out` last. Nothing else differs. Sets the largest difference between a
@@ -33,6 +36,7 @@ protected:
   [[noreturn]] void fail(const std::string& reason) const;
 
   SolverMesh mesh_;
+  std::string displacements_;
 
 private:
   std::string path_;
@@ -51,6 +55,11 @@ std::unique_ptr<SolverFile> readSolverFile(const std::string& path);
 /// they are not all nodes of the file, or a coordinate is not finite, or does not fit.
 double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
+
+/// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
+/// are not its own: that reader has added them. `precision`: relative to the largest coordinate.
+void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
+  const std::vector<double>& coordinates, double precision);
 
 /// Throws Error unless a copy of `original` can be written to `out`, so that the error comes before
 /// the work.

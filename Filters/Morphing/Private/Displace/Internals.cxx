@@ -278,6 +278,7 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   std::copy(filter->Scale, filter->Scale + 3, motion.Scale.begin());
   motion.AutoCenter = filter->AutoCenter;
   std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
+  motion.TransformAboutCenter = filter->TransformAboutCenter;
   motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
   moves.Targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);

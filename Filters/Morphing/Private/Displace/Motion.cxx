@@ -26,12 +26,16 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 
-Points transformed(const Points& from, vtkAbstractTransform* transform)
+/// centre + transform(x - centre); a null transform is the identity.
+Points transformed(
+  const Points& from, vtkAbstractTransform* transform, const Eigen::RowVector3d& centre)
 {
   Points to = from;
   for (Index i = 0; transform && i < to.rows(); ++i)
   {
-    transform->TransformPoint(from.row(i).data(), to.row(i).data());
+    const Eigen::RowVector3d offset = from.row(i) - centre;
+    transform->TransformPoint(offset.data(), to.row(i).data());
+    to.row(i) += centre;
   }
   return to;
 }
@@ -88,17 +92,23 @@ Eigen::RowVector3d centreOf(const Points& points)
   return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
 }
 
-/// Scales and turns about the centre, and translates. `from`: what moves.
-vtkSmartPointer<vtkTransform> placement(const Points& from, const Motion::Options& options)
+/// The point that is the origin of the transform. `from`: what moves.
+Eigen::RowVector3d turningPoint(const Points& from, const Motion::Options& options)
 {
-  Eigen::RowVector3d center(options.Center[0], options.Center[1], options.Center[2]);
-  if (options.AutoCenter)
+  if (options.How == Motion::Kind::Transform && !options.TransformAboutCenter)
   {
-    center = centreOf(from);
+    return Eigen::RowVector3d::Zero();
   }
+  return options.AutoCenter
+           ? centreOf(from)
+           : Eigen::RowVector3d(options.Center[0], options.Center[1], options.Center[2]);
+}
+
+/// Scales and turns about the origin, and translates.
+vtkSmartPointer<vtkTransform> placement(const Motion::Options& options)
+{
   auto transform = vtkSmartPointer<vtkTransform>::New();
   transform->Translate(options.Translation.data());
-  transform->Translate(center.data());
   transform->RotateZ(options.Rotation[2]);
   transform->RotateX(options.Rotation[0]);
   transform->RotateY(options.Rotation[1]);
@@ -109,7 +119,6 @@ vtkSmartPointer<vtkTransform> placement(const Points& from, const Motion::Option
     scale->SetElement(i, i, options.Scale[i]);
   }
   transform->Concatenate(scale);
-  transform->Translate(-center[0], -center[1], -center[2]);
   return transform;
 }
 
@@ -176,7 +185,7 @@ std::optional<morph::AffineMotion> affineMotion(
       motion.col(0) << options.Vector[0], options.Vector[1], options.Vector[2];
       return motion;
     case Motion::Kind::Placement:
-      linear = placement(from, options);
+      linear = placement(options);
       break;
     case Motion::Kind::Transform:
       linear = vtkLinearTransform::SafeDownCast(options.Transform);
@@ -197,7 +206,7 @@ std::optional<morph::AffineMotion> affineMotion(
     }
     motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
   }
-  motion.col(0) += motion.rightCols<3>() * centre.transpose();
+  motion.col(0) += motion.rightCols<3>() * (centre - turningPoint(from, options)).transpose();
   return motion;
 }
 
@@ -215,7 +224,7 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
     case Motion::Kind::Array:
       return from + arrayRows(input, options.ArrayName, choice.Moving);
     case Motion::Kind::Placement:
-      return transformed(from, placement(from, options));
+      return transformed(from, placement(options), turningPoint(from, options));
     case Motion::Kind::Radius:
       return withRadius(model, choice, from, options.RadiusChange);
     case Motion::Kind::Target:
@@ -225,7 +234,7 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
     case Motion::Kind::Transform:
       break;
   }
-  return transformed(from, options.Transform);
+  return transformed(from, options.Transform, turningPoint(from, options));
 }
 
 void requireModerate(const Points& targets, const std::vector<Index>& nodes, const char* property)

@@ -40,6 +40,7 @@ struct Options
   std::array<double, 3> Scale = { 1, 1, 1 };
   bool AutoCenter = true; ///< the centre of the bounding box of what moves, not Center
   std::array<double, 3> Center = { 0, 0, 0 };
+  bool TransformAboutCenter = false; ///< the centre is the origin of Transform
   double RadiusChange = 0;
   /// Of Target, Handles and Lattice: the positions, #Moving x 3.
   const morph::Points* Given = nullptr;
