@@ -7,7 +7,8 @@ It fails, and names file and line, for an include that no arrow allows, a file i
 table does not have, a header that does not exist, a folder without a README.md of at most ten
 lines, and arrows in a circle. It also fails where the picture in CONTRIBUTING.md, or a README's
 last line, is not what the table says, and where the headers at the top of Filters/Morphing are not
-those of its public classes, or name what is private.
+those of its public classes, or name what is private. And where any C++ file of the project but
+Version.h asks for the release of VTK or ParaView.
   --source FOLDER        the project (default: where this script lies)
   --write                writes the picture into CONTRIBUTING.md, and each README.md's last line
   --try-wrong-includes   shows that each kind of wrong include is found, in a copy of Filters
@@ -32,6 +33,10 @@ LIBRARIES = {
     "VTK": r"vtk",
 }
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')
+VERSION = re.compile(r"\b(VTK_(VERSION|MAJOR_VERSION|MINOR_VERSION|BUILD_VERSION)"
+                     r"|PARAVIEW_VERSION)(_\w+)?\b")
+#: The one header that holds what differs between releases.
+VERSION_HEADER = "Filters/Morphing/Private/Data/Version.h"
 BEGIN = "<!-- Testing/layers.py --write draws this from Filters/layers.txt. -->\n"
 END = "<!-- End of the picture. -->\n"
 
@@ -185,6 +190,22 @@ def check_classes(table):
                                           "is private" % (name, number))
 
 
+def check_versions(table, source):
+    """Checks that VERSION_HEADER alone tests the release of VTK or ParaView."""
+    for top in ("Examples", "Filters", "Plugin", "Programs", "Testing"):
+        folder = os.path.join(source, top)
+        for file in sources(folder):
+            name = os.path.join(top, file)
+            if name == VERSION_HEADER:
+                continue
+            with open(os.path.join(folder, file), encoding="utf-8") as lines:
+                for number, line in enumerate(lines, 1):
+                    match = VERSION.search(line)
+                    if match:
+                        table.problems.append("%s:%d: %s belongs in %s"
+                                              % (name, number, match.group(), VERSION_HEADER))
+
+
 def picture(table):
     rows = [row for row in table.arrows if not row.endswith(".h")]
     width = max(len(row) for row in rows) + 5
@@ -224,6 +245,7 @@ def check(source, write=False):
     check_includes(table)
     check_readmes(table, write)
     check_classes(table)
+    check_versions(table, source)
     check_picture(table, source, write)
     return table.problems
 
@@ -251,6 +273,10 @@ def try_wrong_includes(source):
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
         "a private name at the top": ("Morphing/vtkMorphAdjoint.h", "namespace morph::filters {}",
                                       "names what is private"),
+        "a release": ("Morphing/vtkMorphMesh.cxx", "#if VTK_VERSION_NUMBER >= 0\n#endif",
+                      "VTK_VERSION_NUMBER belongs in"),
+        "a release of ParaView": ("Core/Mesh/Mesh.cxx", "// PARAVIEW_VERSION_MAJOR",
+                                  "PARAVIEW_VERSION_MAJOR belongs in"),
         "a file in no folder": ("Core/Stray.h", "#pragma once", "its folder is no row"),
     }
     missed = []

@@ -6,11 +6,11 @@ usage() {
   cat <<END
 Usage: install-packages.sh [--benchmark] [--developer] [--site] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
-Does nothing where they are all installed.
+Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
                 xdotool
-  --developer   also what format.sh, lint.sh, check-documentation.sh and design_picture.py
-                need (clang-format, clang-tidy, doxygen, graphviz)
+  --developer   also what format.sh, lint.sh, same-bits.sh, check-documentation.sh and
+                design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh needs (mkdocs, doxygen)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
@@ -50,7 +50,7 @@ for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
-    --developer) packages+=(clang-format clang-tidy doxygen graphviz) ;;
+    --developer) packages+=(clang clang-format clang-tidy doxygen graphviz) ;;
     --site) packages+=(mkdocs doxygen) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
@@ -82,6 +82,17 @@ if [ "$(id -u)" -ne 0 ]; then
   as_root=(sudo)
 fi
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
-${as_root[@]+"${as_root[@]}"} apt-get -o Acquire::Retries=3 update
-${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive \
-  apt-get -o Acquire::Retries=3 install -y --no-install-recommends "${missing[@]}"
+apt() {
+  ${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive apt-get \
+    -o Acquire::Retries=3 "$@"
+}
+no_answer() { echo "install-packages.sh: the registry does not answer: see above." >&2; exit 77; }
+# Another registry than Debian's may fail: then all goes well all the same.
+updated=yes
+apt update --error-on=any || updated=no
+if ! apt install --simulate --no-install-recommends "${missing[@]}" > /dev/null; then
+  if [ "$updated" = no ]; then no_answer; fi
+  exit 1
+fi
+apt install -y --download-only --no-install-recommends "${missing[@]}" || no_answer
+apt install -y --no-install-recommends "${missing[@]}"

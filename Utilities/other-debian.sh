@@ -114,14 +114,22 @@ inside() {
   ' bash "$root" "$@"
 }
 
+# The same, for what installs packages first: a kept root, too, may lack one that is new.
+installing() {
+  local result=0
+  inside "$@" || result=$?
+  if [ "$result" -eq 77 ]; then unavailable "see above."; fi
+  return "$result"
+}
+
 if [ ! -e "$root/etc/debian_version" ]; then make_root; fi
 copy_sources
 case "$command" in
-  test) inside Utilities/test.sh --no-asan --no-package "$@" ;;
-  demo) inside Utilities/demo.sh "$@" ;;
+  test) installing Utilities/test.sh --no-asan --no-package "$@" ;;
+  demo) installing Utilities/demo.sh "$@" ;;
   package)
     # shellcheck disable=SC2016 # expanded inside
-    inside bash -euc '
+    installing bash -euc '
       Utilities/install-packages.sh
       package=$(Utilities/package.sh "$@")
       Testing/Install/package.sh "$package"

@@ -5,21 +5,24 @@ cd "$(dirname "$0")/.."
 
 usage() {
   cat <<END
-Usage: same-bits.sh [-j N] [COMPILER [MORPH_MESH]]
+Usage: same-bits.sh [-j N] [--tests] [COMPILER [MORPH_MESH]]
 Builds the library and morph-mesh with another compiler, whose warnings are errors, in
 build/COMPILER. Then morphs the small models by each method with it and with MORPH_MESH, and fails
 where one bit of the nodes differs.
   COMPILER    by default clang++ (Debian package clang)
   MORPH_MESH  by default build/paraview/bin/morph-mesh
+  --tests     builds and runs the core's tests with it, too
   -j N        processes to build with (default: all cores)
 END
 }
 
 jobs=$(nproc)
+tests=no
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
+    --tests) tests=yes ;;
     -*) usage >&2; exit 2 ;;
     *) break ;;
   esac
@@ -34,9 +37,12 @@ if [ ! -x "$reference" ]; then
 fi
 
 cmake --preset vtk -B "$build" -D CMAKE_CXX_COMPILER="$compiler" \
-  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_BUILD_TESTING=OFF \
-  -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
-cmake --build "$build" -j "$jobs"
+  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
+cmake --build "$build" -j "$jobs" --target morph-mesh
+if [ "$tests" = yes ]; then
+  cmake --build "$build" -j "$jobs" --target MeshMorphingCoreTests
+  ctest --test-dir "$build" --output-on-failure -j "$jobs" -L core
+fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -186,6 +186,23 @@ struct HypreSolver::Handles
 HypreSolver::HypreSolver() = default;
 HypreSolver::~HypreSolver() = default;
 
+std::int64_t HypreSolver::mostUnknowns()
+{
+  return std::numeric_limits<HYPRE_BigInt>::max();
+}
+
+std::int64_t HypreSolver::countUnknowns(const Ranks& ranks, std::int64_t rows)
+{
+  const std::int64_t unknowns = ranks.sum(rows), most = mostUnknowns();
+  if (unknowns > most)
+  {
+    throw Error("The mesh has " + std::to_string(unknowns) +
+                " free nodes; this build of hypre numbers " + std::to_string(most) +
+                ". Build with a hypre of 64-bit integers (libhypre64m-dev).");
+  }
+  return unknowns;
+}
+
 void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
   const CsrMatrix& ghosts, const std::vector<std::int64_t>& ghostNumbers)
 {
@@ -193,14 +210,7 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
   const Index rows = own.rows();
   this->rows_ = rows;
   this->first_ = ranks.sumBefore(rows);
-  this->unknowns_ = ranks.sum(rows);
-  const std::int64_t most = std::numeric_limits<HYPRE_BigInt>::max();
-  if (this->unknowns_ > most)
-  {
-    throw Error("The mesh has " + std::to_string(this->unknowns_) +
-                " free nodes; this build of hypre numbers " + std::to_string(most) +
-                ". Build with a hypre of 64-bit integers (libhypre64m-dev).");
-  }
+  this->unknowns_ = countUnknowns(ranks, rows);
   this->handles_ = std::make_unique<Handles>();
   if (this->unknowns_ == 0)
   {

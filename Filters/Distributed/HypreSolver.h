@@ -56,6 +56,11 @@ public:
   };
   const Seconds& seconds() const { return this->seconds_; }
 
+  /// The number of unknowns that hypre's integers can number.
+  static std::int64_t mostUnknowns();
+  /// Returns the sum of `rows` over the ranks. Throws Error on all of them where that is more than
+  /// mostUnknowns(). Collective.
+  static std::int64_t countUnknowns(const Ranks& ranks, std::int64_t rows);
   /// The number of unknowns of all ranks.
   std::int64_t unknowns() const { return this->unknowns_; }
 

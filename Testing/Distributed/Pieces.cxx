@@ -2,12 +2,14 @@
 #include "Pieces.h"
 
 #include "Mesh/Polyhedra.h"
+#include "Meshes.h"
 #include "Support/Error.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace pieces
@@ -122,6 +124,56 @@ morph::Points gathered(const morph::distributed::DistributedMesh& mesh, const mo
   }
   EXPECT_EQ(apart, 0);
   return all;
+}
+
+double distance(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved,
+  const morph::Points& expected)
+{
+  double largest = 0;
+  for (morph::Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
+  {
+    largest = std::max(largest, (moved.row(n) - expected.row(mesh.nodeId(n))).norm());
+  }
+  return mesh.ranks().maximum(largest);
+}
+
+OnRanks::OnRanks(const morph::distributed::Ranks& ranks, const morph::Mesh& whole,
+  const std::vector<morph::Index>& outer, std::unique_ptr<morph::distributed::Method> unprepared,
+  unsigned seed, morph::Monitor& monitor)
+  : mesh(distribute(ranks, whole, unprepared->layers(), seed))
+  , method(std::move(unprepared))
+  , prescribed(localNodes(this->mesh, outer))
+{
+  this->method->prepare(
+    this->mesh, morph::partitionNodes(this->mesh.mesh(), this->prescribed), monitor);
+}
+
+morph::EvaluateReport OnRanks::evaluate(
+  const morph::Points& target, morph::Points& moved, morph::Monitor& monitor) const
+{
+  return this->method->evaluate(
+    meshes::rows(target, this->mesh.idsOfNodes(this->prescribed)), moved, monitor);
+}
+
+void OnRanks::expectCancelled(const morph::Points& target, double at) const
+{
+  const morph::distributed::Ranks& ranks = this->mesh.ranks();
+  meshes::ThreadedMonitor monitor;
+  if (ranks.rank() == ranks.count() - 1)
+  {
+    monitor.cancelAt = at;
+  }
+  bool isCancelled = false;
+  try
+  {
+    morph::Points moved;
+    this->evaluate(target, moved, monitor);
+  }
+  catch (const morph::Error& error)
+  {
+    isCancelled = error.kind() == morph::Error::Kind::Cancelled;
+  }
+  EXPECT_TRUE(isCancelled) << at;
 }
 
 std::string messageOf(const std::function<void()>& work)

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/Method.h"
 #include "Distributed/Piece.h"
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,32 @@ std::vector<morph::Index> localNodes(
 /// The positions of all nodes of the whole mesh; `moved`: of this rank's local nodes. Expects
 /// ghosts where their owners have them.
 morph::Points gathered(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved);
+
+/// The largest distance on any rank of `moved`, this rank's local nodes, from where `expected` has
+/// the nodes of the whole mesh.
+double distance(const morph::distributed::DistributedMesh& mesh, const morph::Points& moved,
+  const morph::Points& expected);
+
+/// A method on this rank's random part of a mesh.
+struct OnRanks
+{
+  morph::distributed::DistributedMesh mesh;
+  std::unique_ptr<morph::distributed::Method> method;
+  std::vector<morph::Index> prescribed; ///< local nodes
+
+  /// Prepares `unprepared`. `outer`: the prescribed nodes of the whole mesh, ascending.
+  OnRanks(const morph::distributed::Ranks& ranks, const morph::Mesh& whole,
+    const std::vector<morph::Index>& outer, std::unique_ptr<morph::distributed::Method> unprepared,
+    unsigned seed, morph::Monitor& monitor);
+  OnRanks(const OnRanks&) = delete;
+  OnRanks& operator=(const OnRanks&) = delete;
+
+  /// `target`: where prescribed nodes of the whole mesh go. `moved`: becomes #local nodes x 3.
+  morph::EvaluateReport evaluate(
+    const morph::Points& target, morph::Points& moved, morph::Monitor& monitor) const;
+  /// Expects all ranks to end where the last one cancels at this part of the progress.
+  void expectCancelled(const morph::Points& target, double at) const;
+};
 
 /// The message of the Error that `work` throws on this rank, or "".
 std::string messageOf(const std::function<void()>& work);

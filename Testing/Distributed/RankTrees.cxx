@@ -57,47 +57,49 @@ vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids)
   return copy;
 }
 
-vtkSmartPointer<vtkDataObjectTree> part(
-  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole, unsigned seed, int ofSets)
+vtkSmartPointer<vtkDataObjectTree> withLeaves(vtkDataObjectTree* whole,
+  const std::function<vtkSmartPointer<vtkDataObject>(vtkDataObject*)>& leafOf)
 {
   const auto result = vtkSmartPointer<vtkDataObjectTree>::Take(whole->NewInstance());
   result->ShallowCopy(whole);
-  std::mt19937 random(seed);
   const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(whole->NewTreeIterator());
   for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
   {
-    auto* data = vtkDataSet::SafeDownCast(item->GetCurrentDataObject());
-    const bool isSet = vtkPolyData::SafeDownCast(data);
-    std::uniform_int_distribution<int> rank(0, ranks.count() - 1);
-    vtkNew<vtkIdList> mine;
-    for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
-    {
-      const int owner = isSet && ofSets >= 0 ? ofSets : rank(random);
-      if (owner == ranks.rank())
-      {
-        mine->InsertNextId(c);
-      }
-    }
-    result->SetDataSetFrom(item, cellsOf(data, mine));
+    result->SetDataSetFrom(item, leafOf(item->GetCurrentDataObject()));
   }
   return result;
+}
+
+vtkSmartPointer<vtkDataObjectTree> part(
+  const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole, unsigned seed, int ofSets)
+{
+  std::mt19937 random(seed);
+  return withLeaves(whole,
+    [&](vtkDataObject* leaf)
+    {
+      auto* data = vtkDataSet::SafeDownCast(leaf);
+      const bool isSet = vtkPolyData::SafeDownCast(data);
+      std::uniform_int_distribution<int> rank(0, ranks.count() - 1);
+      vtkNew<vtkIdList> mine;
+      for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+      {
+        const int owner = isSet && ofSets >= 0 ? ofSets : rank(random);
+        if (owner == ranks.rank())
+        {
+          mine->InsertNextId(c);
+        }
+      }
+      return cellsOf(data, mine);
+    });
 }
 
 vtkSmartPointer<vtkDataObjectTree> wholeLeaves(
   const morph::distributed::Ranks& ranks, vtkDataObjectTree* whole)
 {
-  const auto result = vtkSmartPointer<vtkDataObjectTree>::Take(whole->NewInstance());
-  result->ShallowCopy(whole);
-  const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(whole->NewTreeIterator());
-  int leaf = 0;
-  for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
-  {
-    if (leaf++ % ranks.count() != ranks.rank())
-    {
-      result->SetDataSetFrom(item, nullptr);
-    }
-  }
-  return result;
+  int number = 0;
+  return withLeaves(whole,
+    [&](vtkDataObject* leaf) -> vtkSmartPointer<vtkDataObject>
+    { return number++ % ranks.count() == ranks.rank() ? leaf : nullptr; });
 }
 
 double distance(const morph::distributed::Ranks& ranks, vtkDataObject* mine,

@@ -7,6 +7,7 @@
 #include <vtkDataObjectTree.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <map>
 
 class vtkDataSet;
@@ -17,6 +18,10 @@ namespace rank_trees
 {
 /// These cells with their points and all arrays, of the type of `data`; null without cells.
 vtkSmartPointer<vtkDataObject> cellsOf(vtkDataSet* data, vtkIdList* ids);
+
+/// A tree with `leafOf` of each leaf in its place.
+vtkSmartPointer<vtkDataObjectTree> withLeaves(vtkDataObjectTree* whole,
+  const std::function<vtkSmartPointer<vtkDataObject>(vtkDataObject*)>& leafOf);
 
 /// This rank's part of `whole`: of each leaf the cells that a random partition gives it, with their
 /// points and all arrays. Leaves without cells here are null. `ofSets`: the rank that gets the

@@ -10,6 +10,7 @@
 #include <vtkBoundaryDisplacement.h>
 #include <vtkDataObjectTreeIterator.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationIntegerKey.h>
@@ -21,6 +22,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace
@@ -69,11 +71,29 @@ vtkSmartPointer<vtkSelection> upperPointsOfB(vtkDataObjectTree* tree)
   }
   return selection;
 }
+
+/// Calls `check` with this rank's part of each block, and with whole blocks on some rank each.
+void onParts(vtkDataObjectTree* whole, const std::function<void(vtkDataObjectTree*)>& check)
+{
+  const Ranks ranks = pieces::world();
+  check(rank_trees::part(ranks, whole, meshes::seed()));
+  check(rank_trees::wholeLeaves(ranks, whole));
+}
+
+/// Updates `filter`, and expects the points of `serial`. `first`: where errors would be.
+void expectPoints(vtkAlgorithm* filter, vtkAlgorithm* serial, vtkAlgorithm* first)
+{
+  grids::Listener listener(first);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_LT(rank_trees::distance(pieces::world(), filter->GetOutputDataObject(0),
+              blocks::pointsByNumber(serial->GetOutputDataObject(0))),
+    1e-8);
+}
 }
 
 TEST(RankBlockChoices, ZonesAreBlocksThatOtherRanksHave)
 {
-  const Ranks ranks = pieces::world();
   const Tree whole = quarters();
   const auto configure = [](vtkMorphMesh* filter, vtkDataObjectTree* data, bool isFrozen)
   {
@@ -92,21 +112,48 @@ TEST(RankBlockChoices, ZonesAreBlocksThatOtherRanksHave)
     rank_grids::alone([&] { serial->Update(); });
     ASSERT_STREQ(serial->GetMorphStatus(), "Valid");
     ASSERT_EQ(serial->GetZonePoints() > 0, isFrozen);
-    for (const Tree& mine :
-      { rank_trees::part(ranks, whole, meshes::seed()), rank_trees::wholeLeaves(ranks, whole) })
+    onParts(whole,
+      [&](vtkDataObjectTree* mine)
+      {
+        vtkNew<vtkMorphMesh> filter;
+        configure(filter, mine, isFrozen);
+        expectPoints(filter, serial, filter);
+        EXPECT_EQ(filter->GetPrescribedPoints(), serial->GetPrescribedPoints());
+        EXPECT_EQ(filter->GetZonePoints(), serial->GetZonePoints());
+      });
+  }
+}
+
+TEST(RankBlockChoices, SurfacesOfBlocksSlideInRounds)
+{
+  const Tree whole = quarters();
+  const auto configure = [](vtkMorphMesh* filter, vtkDataObjectTree* data)
+  {
+    filter->SetInputDataObject(data);
+    filter->SetMovingToSelection();
+    filter->SetSelectionData(upperPointsOfB(data));
+    filter->SetDisplacementToVector();
+    filter->SetVector(0.02, -0.03, 0);
+    for (const char* name : { "Surface 1", "Surface 2", "Surface 3", "Surface 4" })
+    {
+      filter->AddSlidingSurface(name);
+    }
+    filter->SetSlideRounds(2);
+    vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
+  };
+  vtkNew<vtkMorphMesh> serial;
+  configure(serial, whole);
+  grids::Listener listener(serial);
+  rank_grids::alone([&] { serial->Update(); });
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  ASSERT_TRUE(serial->GetOutputDataObject(0)->GetFieldData()->HasArray("SlideChange"));
+  onParts(whole,
+    [&](vtkDataObjectTree* mine)
     {
       vtkNew<vtkMorphMesh> filter;
-      configure(filter, mine, isFrozen);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-      EXPECT_LT(rank_trees::distance(ranks, filter->GetOutputDataObject(0),
-                  blocks::pointsByNumber(serial->GetOutputDataObject(0))),
-        1e-8);
-      EXPECT_EQ(filter->GetPrescribedPoints(), serial->GetPrescribedPoints());
-      EXPECT_EQ(filter->GetZonePoints(), serial->GetZonePoints());
-    }
-  }
+      configure(filter, mine);
+      expectPoints(filter, serial, filter);
+    });
 }
 
 TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
@@ -132,7 +179,6 @@ TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
 
 TEST(RankBlockChoices, SelectionsAreOfEachRanksPartOfABlock)
 {
-  const Ranks ranks = pieces::world();
   const Tree whole = quarters();
   const auto configure = [](vtkBoundaryDisplacement* filter, vtkDataObjectTree* data, bool handles)
   {
@@ -166,20 +212,15 @@ TEST(RankBlockChoices, SelectionsAreOfEachRanksPartOfABlock)
     rank_grids::alone([&] { serial->Update(); });
     ASSERT_STREQ(serial->GetMorphStatus(), "Valid");
     ASSERT_GT(serialBoundary->GetMovingPoints(), 0);
-    for (const Tree& mine :
-      { rank_trees::part(ranks, whole, meshes::seed()), rank_trees::wholeLeaves(ranks, whole) })
-    {
-      vtkNew<vtkBoundaryDisplacement> boundary;
-      vtkNew<vtkFEMWarpMorph> filter;
-      configure(boundary, mine, handles);
-      configureMorph(filter, mine, boundary);
-      grids::Listener listener(boundary);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-      EXPECT_EQ(boundary->GetMovingPoints(), serialBoundary->GetMovingPoints());
-      EXPECT_LT(rank_trees::distance(ranks, filter->GetOutputDataObject(0),
-                  blocks::pointsByNumber(serial->GetOutputDataObject(0))),
-        1e-8);
-    }
+    onParts(whole,
+      [&](vtkDataObjectTree* mine)
+      {
+        vtkNew<vtkBoundaryDisplacement> boundary;
+        vtkNew<vtkFEMWarpMorph> filter;
+        configure(boundary, mine, handles);
+        configureMorph(filter, mine, boundary);
+        expectPoints(filter, serial, boundary);
+        EXPECT_EQ(boundary->GetMovingPoints(), serialBoundary->GetMovingPoints());
+      });
   }
 }

@@ -28,8 +28,6 @@ void configure(vtkCompareMorphMethods* filter, vtkUnstructuredGrid* grid)
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
   filter->SetNumberOfSteps(3);
   filter->SetPercentile(20);
-  filter->SmoothingOff();
-  filter->InversionFreeOff();
   filter->RelativeOn();
 }
 
@@ -69,11 +67,15 @@ void compare(const Ranks& ranks, vtkCompareMorphMethods* filter, vtkCompareMorph
     {
       EXPECT_EQ(mine->GetValueByName(row, column), whole->GetValueByName(row, column));
     }
-    for (const char* column :
-      { "Time", "MinScaledJacobian", "MeanScaledJacobian", "LowScaledJacobian" })
+    const vtkStdString method = whole->GetValueByName(row, "Method").ToString();
+    const bool minimizes = method == "Smoothing" || method == "Inversion-free";
+    EXPECT_NEAR(number(mine, row, "Time"), number(whole, row, "Time"), 1e-12);
+    for (const char* column : { "MinScaledJacobian", "MeanScaledJacobian", "LowScaledJacobian" })
     {
-      EXPECT_NEAR(number(mine, row, column), number(whole, row, column), 1e-6)
-        << column << ", row " << row;
+      const double expected = number(whole, row, column);
+      // Where these end depends on rounding.
+      EXPECT_NEAR(number(mine, row, column), expected, minimizes ? 0.01 * expected : 1e-6)
+        << method << ", " << column << ", row " << row;
     }
     for (const char* column : { "InvertedCells", "DegenerateCells", "BoundaryInvertedCells" })
     {
@@ -112,7 +114,7 @@ TEST(RankCompare, HasTheTablesOfOneRank)
         configure(serial, whole);
         serial->Update();
       });
-    EXPECT_EQ(table(serial, 0)->GetNumberOfRows(), 4 * 2 * 6);
+    EXPECT_EQ(table(serial, 0)->GetNumberOfRows(), 4 * 2 * 8);
     configure(filter, rank_grids::part(ranks, whole, mesh, ++seed));
     grids::Listener listener(filter);
     filter->Update();
@@ -160,7 +162,7 @@ TEST(RankCompare, GivesOneErrorWithoutABoundary)
     grids::Listener listener(filter);
     filter->Update();
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), isBoundaryThere ? 0 : 1);
-    EXPECT_EQ(table(filter, 2)->GetNumberOfRows(), isBoundaryThere ? 6 : 0);
+    EXPECT_EQ(table(filter, 2)->GetNumberOfRows(), isBoundaryThere ? 8 : 0);
   }
 }
 

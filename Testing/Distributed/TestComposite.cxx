@@ -11,7 +11,6 @@
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
-#include <vtkDataObjectTreeIterator.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkFieldData.h>
@@ -281,17 +280,12 @@ TEST(RankComposite, ASetAloneOnARankMovesWithTheMeshOnAnother)
       serial->Update();
     });
   // The mesh on the first rank, the set on the last one.
-  const Tree part = Tree::Take(tree->NewInstance());
-  part->ShallowCopy(tree);
-  const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
-  {
-    const bool isSet = vtkPolyData::SafeDownCast(item->GetCurrentDataObject());
-    if (ranks.rank() != (isSet ? ranks.count() - 1 : 0))
+  const Tree part = rank_trees::withLeaves(tree,
+    [&](vtkDataObject* leaf) -> vtkSmartPointer<vtkDataObject>
     {
-      part->SetDataSetFrom(item, nullptr);
-    }
-  }
+      const int owner = vtkPolyData::SafeDownCast(leaf) ? ranks.count() - 1 : 0;
+      return ranks.rank() == owner ? leaf : nullptr;
+    });
   filter->SetInputDataObject(part);
   filter->SetBoundaryData(moved(part, wave));
   grids::Listener listener(filter);
@@ -392,18 +386,15 @@ TEST(RankComposite, ABoundaryAndAGradientMayBeCompositeToo)
   const Tree tree = blocksOf(whole, Kind::MultiBlock, true);
   const auto copyOf = [](vtkDataObjectTree* data)
   {
-    auto copy = Tree::Take(data->NewInstance());
-    copy->ShallowCopy(data);
-    const auto item = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(data->NewTreeIterator());
-    for (item->InitTraversal(); !item->IsDoneWithTraversal(); item->GoToNextItem())
-    {
-      auto* set = vtkPointSet::SafeDownCast(item->GetCurrentDataObject());
-      auto one = vtkSmartPointer<vtkPointSet>::Take(set->NewInstance());
-      one->ShallowCopy(set);
-      one->SetPoints(grids::cloud(grids::mapped(grids::points(set), wave))->GetPoints());
-      copy->SetDataSetFrom(item, one);
-    }
-    return copy;
+    return rank_trees::withLeaves(data,
+      [](vtkDataObject* leaf) -> vtkSmartPointer<vtkDataObject>
+      {
+        auto* set = vtkPointSet::SafeDownCast(leaf);
+        auto one = vtkSmartPointer<vtkPointSet>::Take(set->NewInstance());
+        one->ShallowCopy(set);
+        one->SetPoints(grids::cloud(grids::mapped(grids::points(set), wave))->GetPoints());
+        return one;
+      });
   };
   const auto results = [&](vtkDataObjectTree* data)
   {

@@ -21,14 +21,6 @@ using morph::Monitor;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Piece;
 using morph::distributed::Ranks;
-
-DistributedMesh distribute(const Ranks& ranks, const Mesh& mesh, int layers, unsigned seed)
-{
-  Monitor monitor;
-  return DistributedMesh(ranks,
-    pieces::pieceOf(mesh, pieces::randomOwners(mesh, ranks.count(), seed), ranks.rank()), layers,
-    monitor);
-}
 }
 
 TEST(Ranks, AnErrorOnOneRankIsThrownOnAllWithTheSameMessage)
@@ -90,7 +82,7 @@ TEST(DistributedMesh, OwnsEachNodeOnceAndHasAllCellsAroundItsNodes)
   {
     for (int layers : { 1, 2 })
     {
-      const DistributedMesh mesh = distribute(ranks, whole, layers, meshes::seed());
+      const DistributedMesh mesh = pieces::distribute(ranks, whole, layers, meshes::seed());
       Index owned = 0;
       for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
       {
@@ -119,7 +111,7 @@ TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
   {
     meshes::transform(
       whole, [](const Eigen::RowVector3d& x) { return Eigen::RowVector3d(-x[0], x[1], 2 * x[2]); });
-    const DistributedMesh mesh = distribute(ranks, whole, 1, meshes::seed());
+    const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
     const morph::BoundaryFaces faces = morph::boundaryFaces(whole, monitor);
     EXPECT_EQ(ranks.sum(static_cast<Index>(mesh.outerFaces().cells.size())),
       static_cast<Index>(faces.cells.size()))

@@ -22,8 +22,6 @@ using morph::Index;
 using morph::InversionFree;
 using morph::Mesh;
 using morph::Points;
-using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
 using morph::distributed::Ranks;
 using Setting = std::function<void(InversionFree&)>;
 
@@ -74,21 +72,17 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const motions::Map& map, c
   meshes::ThreadedMonitor monitor;
   auto settings = std::make_unique<InversionFree>();
   set(*settings);
-  const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(settings));
-  const DistributedMesh mesh = pieces::distribute(ranks, whole, method->layers(), meshes::seed());
-  const std::vector<Index> prescribed =
-    pieces::localNodes(mesh, motions::outerPartition(whole).prescribed);
-  method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+  const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
+    morph::distributed::makeMethod(std::move(settings)), meshes::seed(), monitor);
   Points moved;
-  const auto report = method->evaluate(
-    motions::mapped(mesh.mesh().points(prescribed, morph::allColumns), map), moved, monitor);
-  return measured(whole, pieces::gathered(mesh, moved), report);
+  const auto report = mine.evaluate(motions::mapped(whole.points, map), moved, monitor);
+  return measured(whole, pieces::gathered(mine.mesh, moved), report);
 }
 
-/// Expects a mesh whose minimum is at least this part of that of one process.
+/// Expects a mesh whose minimum is at most 1 % below that of one process.
 void compare(
   const Ranks& ranks, const std::string& name, const Mesh& whole, const motions::Map& map,
-  double part, const Setting& set = [](InversionFree&) {})
+  const Setting& set = [](InversionFree&) {})
 {
   SCOPED_TRACE(name);
   const Result expected = serial(whole, map, set), mine = onRanks(ranks, whole, map, set);
@@ -96,7 +90,7 @@ void compare(
   EXPECT_EQ(mine.inverted, expected.inverted);
   EXPECT_EQ(mine.untangled, expected.untangled);
   EXPECT_EQ(mine.steps > 0, expected.steps > 0);
-  EXPECT_GT(mine.minimum, part * expected.minimum);
+  EXPECT_GT(mine.minimum, 0.99 * expected.minimum);
   if (ranks.rank() == 0)
   {
     std::cout << name << ": minimum " << mine.minimum << ", on one rank " << expected.minimum
@@ -104,20 +98,21 @@ void compare(
   }
 }
 
-constexpr double OnePercent = 0.99;
-// Raising the minimum of these coarse meshes leads to one of several maxima. On one process, too,
-// an order of the nodes that changes nothing but rounding lowers it by up to 17 %.
-constexpr double OtherMaximum = 0.8;
-
 void notRaised(InversionFree& method)
 {
   method.setRaising(false);
 }
 
-/// Steep waves along a box of length 4.
-motions::Row waves(const motions::Row& x)
+/// Steep waves along a box of length 4, with crests across it.
+motions::Row straightWaves(const motions::Row& x)
 {
   return { x[0], x[1], x[2] + 1.6 * std::sin(M_PI / 2 * x[0]) };
+}
+
+/// The same with oblique crests.
+motions::Row waves(const motions::Row& x)
+{
+  return { x[0], x[1], x[2] + 1.6 * std::sin(M_PI / 2 * x[0] + 0.3 * x[1]) };
 }
 
 motions::Row bent(const motions::Row& x)
@@ -137,8 +132,24 @@ TEST(RankInversionFree, IsAsGoodAsOnOneRankWhereFemWarpFails)
   const Ranks ranks = pieces::world();
   for (const auto& [name, mesh] : motions::jittered())
   {
-    compare(ranks, name + ", energy alone", mesh, waves, OnePercent, notRaised);
-    compare(ranks, name, mesh, waves, OtherMaximum);
+    compare(ranks, name + ", energy alone", mesh, waves, notRaised);
+    compare(ranks, name, mesh, waves);
+  }
+}
+
+TEST(RankInversionFree, RaisesTheMinimumOfASymmetricMeshToo)
+{
+  // By symmetry the search comes to a saddle, which it leaves by rounding alone. So minima of one
+  // process scatter, and no two runs compare but by what holds for each.
+  const Ranks ranks = pieces::world();
+  for (const auto& [name, mesh] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    const Result start = onRanks(ranks, mesh, straightWaves, notRaised),
+                 raised = onRanks(ranks, mesh, straightWaves, [](InversionFree&) {});
+    compare(ranks, name + ", straight, energy alone", mesh, straightWaves, notRaised);
+    EXPECT_EQ(raised.inverted, 0);
+    EXPECT_GT(raised.minimum, start.minimum);
   }
 }
 
@@ -151,8 +162,8 @@ TEST(RankInversionFree, IsAsGoodAsOnOneRankOnBricks)
     Mesh brick = box(8, 3, 3), tower = box(3, 3, 8);
     meshes::jitterInterior(brick, 0.1, meshes::seed());
     meshes::jitterInterior(tower, 0.1, meshes::seed());
-    compare(ranks, std::string("bent ") + name, brick, bent, OnePercent);
-    compare(ranks, std::string("twisted ") + name, tower, twisted, OnePercent);
+    compare(ranks, std::string("bent ") + name, brick, bent);
+    compare(ranks, std::string("twisted ") + name, tower, twisted);
   }
 }
 
@@ -161,14 +172,14 @@ TEST(RankInversionFree, TakesTheOptionsOfTheSerialMethod)
   const Ranks ranks = pieces::world();
   Mesh mesh = meshes::hexes(4, 4, 4);
   meshes::jitterInterior(mesh, 0.1, meshes::seed());
-  compare(ranks, "low memory", mesh, waves, OtherMaximum,
+  compare(ranks, "low memory", mesh, waves,
     [](InversionFree& method)
     { method.setMinimizer(morph::FoldoverContinuation::Minimizer::LimitedMemoryBfgs); });
-  compare(ranks, "from rest", mesh, waves, OtherMaximum,
+  compare(ranks, "from rest", mesh, waves,
     [](InversionFree& method) { method.setStart(InversionFree::Start::Rest); });
-  compare(ranks, "from LBWARP", mesh, waves, OtherMaximum,
+  compare(ranks, "from LBWARP", mesh, waves,
     [](InversionFree& method) { method.setMethod(std::make_unique<morph::LogBarrierWarp>()); });
-  compare(ranks, "ideal", mesh, waves, OtherMaximum,
+  compare(ranks, "ideal", mesh, waves,
     [](InversionFree& method) { method.setTarget(morph::TargetConstruction::IdealSkew); });
   const auto initial = [](InversionFree& method)
   {
@@ -204,31 +215,12 @@ TEST(RankInversionFree, LeavesWhatTheBoundaryInverts)
 TEST(RankInversionFree, ACancelledRankEndsAll)
 {
   const Ranks ranks = pieces::world();
-  Mesh whole = meshes::hexes(4, 4, 4);
+  const Mesh whole = meshes::hexes(4, 4, 4);
+  meshes::ThreadedMonitor monitor;
+  const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
+    morph::distributed::makeMethod(std::make_unique<InversionFree>()), meshes::seed(), monitor);
   for (const double at : { 0.12, 0.3, 0.6 })
   {
-    meshes::ThreadedMonitor monitor;
-    const auto method = morph::distributed::makeMethod(std::make_unique<InversionFree>());
-    const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
-    const std::vector<Index> prescribed =
-      pieces::localNodes(mesh, motions::outerPartition(whole).prescribed);
-    method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
-    Points moved;
-    if (ranks.rank() == ranks.count() - 1)
-    {
-      monitor.cancelAt = at;
-    }
-    monitor.lastProgress = 0;
-    bool isCancelled = false;
-    try
-    {
-      method->evaluate(
-        motions::mapped(mesh.mesh().points(prescribed, morph::allColumns), waves), moved, monitor);
-    }
-    catch (const morph::Error& error)
-    {
-      isCancelled = error.kind() == morph::Error::Kind::Cancelled;
-    }
-    EXPECT_TRUE(isCancelled) << at;
+    mine.expectCancelled(motions::mapped(whole.points, waves), at);
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/HypreSolver.h"
 #include "Distributed/Methods.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
@@ -13,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdint>
 
 namespace
 {
@@ -23,7 +24,7 @@ using morph::Monitor;
 using morph::Morpher;
 using morph::Points;
 using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
+using morph::distributed::HypreSolver;
 using morph::distributed::Ranks;
 
 std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
@@ -77,18 +78,11 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
     serial->prepare(whole, morph::partitionNodes(whole, outer), monitor);
     serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
   }
-  const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(serial));
-  const DistributedMesh mesh = pieces::distribute(ranks, whole, method->layers(), meshes::seed());
-  const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
-  method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+  const pieces::OnRanks mine(ranks, whole, outer, morph::distributed::makeMethod(std::move(serial)),
+    meshes::seed(), monitor);
   Points moved;
-  method->evaluate(target(mesh.idsOfNodes(prescribed), morph::allColumns), moved, monitor);
-  double largest = 0;
-  for (Index n = 0; n < mesh.mesh().numberOfNodes(); ++n)
-  {
-    largest = std::max(largest, (moved.row(n) - expected.row(mesh.nodeId(n))).norm());
-  }
-  return ranks.maximum(largest) / meshes::size(whole.points);
+  mine.evaluate(target, moved, monitor);
+  return pieces::distance(mine.mesh, moved, expected) / meshes::size(whole.points);
 }
 }
 
@@ -164,4 +158,24 @@ TEST(DistributedMethods, NameABodyWithoutAPrescribedNode)
   EXPECT_NE(
     message.find("(2 cells, the first is cell 8) has no prescribed node"), std::string::npos)
     << message;
+}
+
+TEST(HypreSolver, RefusesMoreUnknownsThanItsIntegersNumber)
+{
+  const Ranks ranks = pieces::world();
+  constexpr std::int64_t TooMany = std::int64_t(1) << 31;
+  if (HypreSolver::mostUnknowns() >= TooMany)
+  {
+    GTEST_SKIP() << "this hypre has integers of 64 bits";
+  }
+  // The sum counts, not what a rank has.
+  const auto shareOf = [&](std::int64_t all)
+  {
+    const std::int64_t equal = all / ranks.count();
+    return ranks.rank() == 0 ? all - (ranks.count() - 1) * equal : equal;
+  };
+  EXPECT_EQ(HypreSolver::countUnknowns(ranks, shareOf(TooMany - 1)), TooMany - 1);
+  EXPECT_EQ(pieces::messageOf([&] { HypreSolver::countUnknowns(ranks, shareOf(TooMany)); }),
+    "The mesh has 2147483648 free nodes; this build of hypre numbers 2147483647. Build with a "
+    "hypre of 64-bit integers (libhypre64m-dev).");
 }

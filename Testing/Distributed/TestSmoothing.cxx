@@ -30,8 +30,6 @@ using morph::Smoothing;
 using morph::SmoothingObjective;
 using morph::SmoothingOptions;
 using morph::SmoothingTarget;
-using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
 using morph::distributed::Ranks;
 
 struct Result
@@ -62,15 +60,12 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const NodePartition& parti
   meshes::ThreadedMonitor monitor;
   auto settings = std::make_unique<Smoothing>();
   settings->setOptions(options);
-  const std::unique_ptr<Method> method = morph::distributed::makeMethod(std::move(settings));
-  const DistributedMesh mesh = pieces::distribute(ranks, whole, method->layers(), meshes::seed());
-  const std::vector<Index> prescribed = pieces::localNodes(mesh, partition.prescribed);
-  method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+  const pieces::OnRanks mine(ranks, whole, partition.prescribed,
+    morph::distributed::makeMethod(std::move(settings)), meshes::seed(), monitor);
   Points moved;
   Result result;
-  result.report =
-    method->evaluate(meshes::rows(target, mesh.idsOfNodes(prescribed)), moved, monitor);
-  result.moved = pieces::gathered(mesh, moved);
+  result.report = mine.evaluate(target, moved, monitor);
+  result.moved = pieces::gathered(mine.mesh, moved);
   result.warnings = monitor.warnings;
   for (const morph::Statistic& one : result.report.statistics)
   {
@@ -311,30 +306,11 @@ TEST(RankSmoothing, ACancelledRankEndsAll)
 {
   const Ranks ranks = pieces::world();
   const Mesh whole = meshes::hexes(4, 4, 4);
+  meshes::ThreadedMonitor monitor;
+  const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
+    morph::distributed::makeMethod(std::make_unique<Smoothing>()), meshes::seed(), monitor);
   for (const double at : { 0.1, 0.45, 0.7 })
   {
-    meshes::ThreadedMonitor monitor;
-    const auto method = morph::distributed::makeMethod(std::make_unique<Smoothing>());
-    const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
-    const std::vector<Index> prescribed =
-      pieces::localNodes(mesh, motions::outerPartition(whole).prescribed);
-    method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
-    if (ranks.rank() == ranks.count() - 1)
-    {
-      monitor.cancelAt = at;
-    }
-    monitor.lastProgress = 0;
-    bool isCancelled = false;
-    try
-    {
-      Points moved;
-      method->evaluate(
-        motions::mapped(mesh.mesh().points(prescribed, morph::allColumns), wavy), moved, monitor);
-    }
-    catch (const morph::Error& error)
-    {
-      isCancelled = error.kind() == morph::Error::Kind::Cancelled;
-    }
-    EXPECT_TRUE(isCancelled) << at;
+    mine.expectCancelled(motions::mapped(whole.points, wavy), at);
   }
 }

@@ -207,7 +207,8 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     const auto mine = run(rank_grids::piece(ranks, whole));
     EXPECT_EQ(serial.first, "Valid 0") << name;
     EXPECT_EQ(mine.first, serial.first) << name;
-    // Raising the minimum ends at one of many maxima, and rounding decides at which.
+    // On one process, too, rounding decides between many maxima of the fine mesh: with nodes moved
+    // by units in the last place 8 minima are from 0.698 to 0.787.
     const double least = name == "fine" ? 0.8 : 0.99;
     EXPECT_GT(mine.second, least * serial.second) << name;
     if (ranks.rank() == 0)

@@ -2,6 +2,7 @@
 // Zones, KeepLayers and SlideRounds on random partitions, against the same filter on one rank.
 #include "Meshes.h"
 #include "Pieces.h"
+#include "PolyhedralMeshes.h"
 #include "RankGrids.h"
 #include "RankParts.h"
 #include "TestGrids.h"
@@ -215,6 +216,16 @@ std::vector<std::pair<std::string, morph::Mesh>> meshesOfBox()
   all.emplace_back("quadratic", quadratic);
   return all;
 }
+
+/// The box with polyhedra above hexahedra.
+morph::Mesh polyhedraAbove()
+{
+  morph::Mesh mesh = meshes::hexes(6, 6, 6);
+  const morph::Points at = centres(mesh);
+  mesh = meshes::asPolyhedra(mesh, [&](Index cell) { return at(cell, 2) > 2; });
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
+  return mesh;
+}
 }
 
 TEST(RankZones, AgreeWithTheSerialOnes)
@@ -228,6 +239,23 @@ TEST(RankZones, AgreeWithTheSerialOnes)
       compare(ranks, name + ", " + what, mesh, configure, ++seed);
     }
   }
+}
+
+TEST(RankZones, AndLayersOfPolyhedraAgreeWithTheSerialOnes)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh mesh = polyhedraAbove();
+  unsigned seed = meshes::seed();
+  for (const auto& [what, configure] : zones())
+  {
+    // A rigid zone takes FEMWARP's rim where its boundary does not tell its motion.
+    if (what.find("rigid") != 0 && what.find("a rigid region") != 0 && what != "one of each")
+    {
+      compare(ranks, what, mesh, configure, ++seed);
+    }
+  }
+  compare(
+    ranks, "two layers", mesh, [](vtkMorphMesh* filter) { filter->SetKeepLayers(2); }, ++seed);
 }
 
 TEST(RankZones, SelectionsAreOfEachRanksPiece)
@@ -408,7 +436,8 @@ TEST(RankZones, CountsAndOutputsAreThoseOfTheWholeMesh)
 TEST(RankZones, OneErrorEndsAllRanks)
 {
   const Ranks ranks = pieces::world();
-  const morph::Mesh hexes = meshes::hexes(6, 6, 6), tets = meshes::tets(6, 6, 6);
+  const morph::Mesh hexes = meshes::hexes(6, 6, 6), tets = meshes::tets(6, 6, 6),
+                    polyhedra = polyhedraAbove();
   const std::vector<std::tuple<std::string, const morph::Mesh*, Configure>> cases = {
     { "The zone 'Nowhere' is neither", &hexes,
       [](vtkMorphMesh* filter) { filter->AddFrozenZone("Nowhere"); } },
@@ -425,6 +454,15 @@ TEST(RankZones, OneErrorEndsAllRanks)
       {
         filter->SetKeepLayers(2);
         filter->SetLayersArray("Nowhere");
+      } },
+    { "whose motion its boundary does not tell of a mesh with polyhedra needs one MPI rank",
+      &polyhedra, [](vtkMorphMesh* filter) { filter->AddRigidZone("Blade"); } },
+    { "SlideRounds of vtkBoundaryDisplacement of a mesh with polyhedra needs one MPI rank",
+      &polyhedra,
+      [](vtkMorphMesh* filter)
+      {
+        filter->AddSlidingSurface("Surface 1");
+        filter->SetSlideRounds(2);
       } },
   };
   for (const auto& [message, mesh, configure] : cases)

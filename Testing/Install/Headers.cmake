@@ -2,7 +2,7 @@
 # Checks the headers that are installed in PREFIX: vtk classes and folders alone at the top, so that
 # no project gets a bare Mesh.h or Error.h; no private ones; every one that Documentation/API.md
 # (API) lists; and these compile in a project of their own, made in WORK, which links the core
-# alone.
+# alone. So do those of the filters, and of the reader and the writer, in a second target.
 cmake_minimum_required(VERSION 3.18)
 set(root "${PREFIX}/${INCLUDE}/MeshMorphing")
 file(GLOB top RELATIVE "${root}" LIST_DIRECTORIES false "${root}/*")
@@ -23,8 +23,8 @@ if (number LESS 15)
   message(FATAL_ERROR "${API} lists ${number} headers of the core.")
 endif ()
 # Macros that wingdi.h defines on Windows.
-set(code "#define ABSOLUTE 1
-#define RELATIVE 2
+set(macros "#define ABSOLUTE 1\n#define RELATIVE 2\n")
+set(code "${macros}
 #if __has_include(<Mesh.h>) || __has_include(<Error.h>) || __has_include(<Mesh/Mesh.h>)
 #error a core header is on the include path
 #endif
@@ -38,11 +38,25 @@ foreach (header IN LISTS listed)
 endforeach ()
 string(APPEND code "int main() { return morph::Mesh().numberOfCells() == 0 ? 0 : 1; }\n")
 
+foreach (header vtkMorphMesh.h vtkSolverFileReader.h vtkSolverFileWriter.h)
+  if (NOT header IN_LIST top)
+    message(SEND_ERROR "${header} is not installed.")
+  endif ()
+endforeach ()
+set(filters "${macros}")
+foreach (header IN LISTS top)
+  string(APPEND filters "#include <${header}>\n")
+endforeach ()
+
 file(REMOVE_RECURSE "${WORK}")
 file(WRITE "${WORK}/All.cxx" "${code}")
+file(WRITE "${WORK}/Filters.cxx" "${filters}")
 file(WRITE "${WORK}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.18)
 project(Headers LANGUAGES C CXX)
 find_package(MeshMorphing REQUIRED)
+add_library(filters-headers OBJECT Filters.cxx)
+target_link_libraries(filters-headers
+  PRIVATE MeshMorphing::FiltersMorphing MeshMorphing::FiltersIO)
 add_executable(all-headers All.cxx)
 target_link_libraries(all-headers PRIVATE MeshMorphing::Core)
 ")

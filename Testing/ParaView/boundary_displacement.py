@@ -144,6 +144,17 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assertEqual(morph.UnmatchedPoints, 0)
         self.assertEqual(morph.PrescribedPoints, (CELLS + 1) ** 3 - (CELLS - 1) ** 3)
 
+    def test_inside_a_cylinder(self):
+        """Its axis is unbounded: it goes through the top and the bottom."""
+        self.displacement.Moving = "Inside Region"
+        self.displacement.Region = "Cylinder"
+        self.displacement.Region.Center = [3, 3, 0]
+        self.displacement.Region.Axis = [0, 0, 1]
+        self.displacement.Region.Radius = 1.5
+        self.displacement.Motion, self.displacement.Vector = "Vector", [0, 0, 0.1]
+        self.assert_moves(lambda x: (x[:, 0] - 3) ** 2 + (x[:, 1] - 3) ** 2 <= 1.5 ** 2)
+        self.assertEqual(number(self.displacement, "MovingPoints"), 2 * 9)
+
     def test_a_rotation_about_the_centre_of_what_moves(self):
         """By a script alone: a transform, or numbers; a point of the user's, or the origin."""
         for about, center, motion in (

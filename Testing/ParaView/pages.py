@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python examples of the pages in Documentation, run as they stand on the small bore as
-part.vtu: each ends with a valid mesh, those of a few indented lines and commands, too. Those of HowTo make
-the pictures they show. (README.md's is in readme.py, those for plain VTK are in Testing/Install.)
+part.vtu: each ends with a valid mesh, those of a few indented lines and commands, too. Those of
+HowTo make the pictures they show. (README.md's is in readme.py, those for plain VTK are in
+Testing/Install.)
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython pages.py
 """

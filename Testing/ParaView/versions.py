@@ -18,10 +18,6 @@ BOX_FIELDS = "" if MAJOR < 6 else "tabWidget/qt_tabwidget_stackedwidget/fieldsPa
 #: Debian 13's ParaView 5.13 crashes when it opens its script editor, without this plugin, too.
 HAS_SCRIPT_EDITOR = (MAJOR, MINOR) != (5, 13)
 
-#: The page of the help window, as test scripts name it; with Qt 6 the help has another window.
-HELP_PAGE = ("pqClientMainWindow/1pqHelpWindow0/1QTextBrowser0" if (MAJOR, MINOR) < (5, 12)
-             else None)
-
 #: The file dialog of the plugin manager, as test scripts name it.
 PLUGIN_FILE_DIALOG = "pqFileDialog" if (MAJOR, MINOR) < (5, 12) else "1pqFileDialog0"
 

@@ -291,6 +291,9 @@ class FirstTasks(unittest.TestCase):
         state = self.folder / "state.pvsm"
         self.events.save_state(state)
         self.play({"compare the methods": 7})
+        views = [proxy.get("type") for proxy in ElementTree.parse(state).getroot().findall(
+            ".//Proxy[@group='views']")]
+        self.assertEqual(sorted(views), ["RenderView", "SpreadSheetView", "XYChartView"])
         colors = series_colors(state)
         methods = [name for name in colors if name.endswith(", Absolute")]
         self.assertEqual(len(methods), 8)

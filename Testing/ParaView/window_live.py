@@ -19,6 +19,7 @@ from window_events import PANEL, VIEW, Events
 SCRIPT = Path(__file__).resolve().with_name("window_scene.py")
 os.environ["MORPH_SOURCE"] = str(SCRIPT.parents[2])
 MESH, SURFACE = "0", "2"
+DENT = 0.035  # how far each step of a drag pushes the side of a cube in, in parts of the view
 
 
 def played(scene, events, **environment):
@@ -85,6 +86,76 @@ class LiveDrags(unittest.TestCase):
         self.assertEqual(undone[-1]["shown"][MESH], start["shown"][MESH])
         self.assertEqual(after[-1]["Position"], moved[0]["Position"])
         self.assertEqual(after[-1]["shown"], moved[0]["shown"])
+
+    def dented(self):
+        """What is shown while the middle of a side is pushed in so far that cells invert, before
+        and after the release; and a filter for the same in this process."""
+        import window_scene
+        events = Events()
+        for step in range(6):  # until the box is there
+            events.do(VIEW, "mouseMove", f"(0.3{step},0.5,0,0,0)")
+        events.do(VIEW, "mousePress", "(0.5,0.5,4,4,0)")
+        for step in range(1, 9):
+            place = f"({0.5 + DENT * step:.3f},0.5"
+            events.do(VIEW, "mouseMove", place + ",0,4,0)")
+        events.do(VIEW, "mouseRelease", place + ",4,0,0)")
+        events.shot("released")
+        frames, messages = played("dent", events)
+        self.assertNotIn("ERR|", messages)
+        after = self.expect_live(frames, ("Live", 1))
+        live = [frame for frame in frames if SURFACE in frame["shown"]]
+        released = [frame for frame in after if frame["Position"] != [0, 0, 0]]
+        self.expect_still(released[-1], ("Live", 0))
+        self.assertEqual(released[-1]["Position"], live[-1]["Position"])
+        morph = window_scene.scene("dent")
+        morph.Transform.Translate = live[-1]["Position"]
+        return live, released[-1], morph
+
+    def test_inverted_cells_are_counted_during_a_drag_and_repaired_after_it(self):
+        live, released, morph = self.dented()
+        morph.Validity, morph.Quality = "Report", "Surface"
+        morph.UpdatePipeline()
+        self.assertGreater(morph.SurfaceInvertedCells, 0)
+        self.assertEqual(live[-1]["SurfaceInvertedCells"], morph.SurfaceInvertedCells)
+        self.assertEqual(live[0]["SurfaceInvertedCells"], 0)
+        self.assertEqual(live[-1]["MorphStatus"], "Unmeasured")  # inside, until the release
+        # The picture has them: it colors faces by the cells behind.
+        self.assertEqual((live[0]["red"], live[-1]["red"] > 0), (0, True))
+        self.assertEqual((released["MorphStatus"], released["InvertedCells"]), ("Repaired", 0))
+        morph.Validity, morph.Quality = "Repair", "All"
+        self.expect_same(released, morph)
+        self.assertGreater(morph.MinScaledJacobian, 0)
+
+    def test_a_repair_is_stopped(self):
+        """As a program stops an algorithm, in this process: ParaView's window has no button."""
+        import window_scene
+        morph = window_scene.scene("dent", Live=1)
+        filter_ = morph.SMProxy.GetClientSideObject()
+        morph.UpdatePipeline()
+        rest = window_scene.points(morph, 0)
+        told, stops = [], False
+
+        def progressed(*_):
+            told.append(filter_.GetProgress())
+            if stops and without_repair < told[-1] < 1:
+                filter_.SetAbortExecute(1)
+
+        filter_.AddObserver("ProgressEvent", progressed)
+        morph.Transform.Translate = [3, 0, 0]
+        morph.UpdatePipeline()
+        self.assertGreater(morph.InvertedCells, 0)
+        self.assertNotEqual(window_scene.points(morph, 0), rest)
+        without_repair = max(value for value in told if value < 1)
+        stops = True
+        morph.Live = 0
+        morph.UpdatePipeline()
+        self.assertEqual((morph.MorphStatus, morph.InvertedCells), ("Cancelled", -1))
+        self.assertEqual(window_scene.points(morph, 0), rest)
+        stops = False
+        filter_.SetAbortExecute(0)
+        morph.Transform.Translate = [3.01, 0, 0]
+        morph.UpdatePipeline()
+        self.assertEqual((morph.MorphStatus, morph.InvertedCells), ("Repaired", 0))
 
     def test_the_boxes_of_a_region_and_its_motion_are_told_apart(self):
         """Both are around the whole mesh at first: each has a colour, and the larger one moves."""

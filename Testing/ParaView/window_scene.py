@@ -21,12 +21,19 @@ SHAPES = "coords + 0.1*coordsZ*iHat", "coords + 0.2*coordsX*kHat"
 BOXES = {"blue": (0.3, 0.6, 1), "orange": (1, 0.6, 0.1)}
 #: Names of properties that each line has.
 WATCHED = {"box": ("LiveDrag", "Live", "Quality", "MinScaledJacobian", "MorphStatus"),
+           "dent": ("LiveDrag", "Live", "Quality", "MinScaledJacobian", "MorphStatus",
+                    "InvertedCells", "SurfaceInvertedCells"),
            "sliders": ("LiveDrag", "FindValidRanges", "Quality", "MinScaledJacobian",
                        "MorphStatus", "Weights", "ValidRanges")}
 
 
 def scene(name, **more):
     """The filter of a scene, in this process."""
+    if name == "dent":
+        cube = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 6] * 3)])
+        middle = simple.Calculator(Input=cube, ResultArrayName="Middle", Function=(
+            "if(coordsX < 0.5, if((coordsY-3)^2 + (coordsZ-3)^2 < 2.5, 1, 0), 0)"))
+        return MorphMesh(Input=middle, Moving="Array", MovingArray="Middle", **more)
     part = simple.OpenDataFile(str(MESH))
     if name == "box":
         return MorphMesh(Input=part, Surfaces=["Surface 1"], **more)
@@ -49,6 +56,13 @@ def points(morph, port):
     data = morph.SMProxy.GetClientSideObject().GetOutputDataObject(port)
     found = data.GetPoints()
     return float(vtk_to_numpy(found.GetData()).sum()) if found else 0.
+
+
+def bad_faces(morph):
+    """How many faces of the output Surface have an inverted cell behind them."""
+    faces = morph.SMProxy.GetClientSideObject().GetOutputDataObject(2)
+    quality = faces.GetCellData().GetArray("ScaledJacobian")
+    return int((vtk_to_numpy(quality) <= 0).sum())
 
 
 def boxes(view):
@@ -77,6 +91,8 @@ def main():
             if source and representation.Visibility and source.SMProxy == morph.SMProxy:
                 shown[source.Port] = points(morph, source.Port)
         line = {"shown": shown}
+        if name == "dent" and "2" in map(str, shown):
+            line["red"] = bad_faces(morph)
         if "MORPH_COLORS" in os.environ:
             line["boxes"] = boxes(view)
         for key in WATCHED.get(name, ()):
@@ -93,4 +109,6 @@ def main():
 
 
 if "MORPH_SCENE" in os.environ:
+    if "MORPH_SHOTS" in os.environ:
+        import window_shots  # noqa: F401  (takes the pictures)
     main()

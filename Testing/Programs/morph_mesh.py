@@ -110,7 +110,8 @@ class MorphMesh(unittest.TestCase):
     def test_a_surface_turns_about_a_point(self):
         """Its centre, as it is listed, against Rodrigues' formula; its area stays."""
         def surface(path):
-            _, _, _, area, centre = run("--list-surfaces", path).stdout.splitlines()[2].split(None, 4)
+            line = run("--list-surfaces", path).stdout.splitlines()[2]
+            area, centre = line.split(None, 4)[3:]
             return float(area), [float(x) for x in centre.split(",")]
 
         def cross(a, b):

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A build without MPI or hypre, as an application on two MPI ranks uses it.
+#include "Meshes.h"
+#include "MorphFilters.h"
+#include "TestGrids.h"
+
+#include <vtkCompareMorphMethods.h>
+#include <vtkExtractMorphBoundary.h>
+#include <vtkMorphMesh.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+/// Expects one error on all ranks together.
+void expectOneError(vtkAlgorithm* filter, const std::string& text)
+{
+  grids::Listener listener(filter);
+  filter->Update();
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  const int mine = static_cast<int>(listener.Errors.size());
+  int all = 0;
+  ranks->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
+  EXPECT_EQ(all, 1) << filter->GetClassName();
+  for (const std::string& error : listener.Errors)
+  {
+    EXPECT_NE(error.find(text), std::string::npos) << error;
+    EXPECT_NE(error.find("Build with MESHMORPHING_USE_MPI, or run on one rank."), std::string::npos)
+      << error;
+  }
+}
+}
+
+TEST(WithoutMpi, AMeshOnTwoRanksIsOneError)
+{
+  ASSERT_EQ(vtkMultiProcessController::GetGlobalController()->GetNumberOfProcesses(), 2);
+  const auto grid = grids::make(meshes::hexes(3, 3, 3));
+  const std::string text =
+    "The mesh is distributed over 2 MPI ranks, and this plugin was built without MPI or hypre";
+  for (const grids::MorphFilter& method : grids::morphFilters())
+  {
+    const auto filter = method.make();
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(grid);
+    expectOneError(filter, text);
+    EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  }
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetInputData(grid);
+  expectOneError(extract, text);
+  vtkNew<vtkMorphMesh> mesh;
+  mesh->SetInputData(grid);
+  expectOneError(mesh, text);
+  vtkNew<vtkCompareMorphMethods> compare;
+  compare->SetInputData(grid);
+  compare->SetBoundaryData(grid);
+  expectOneError(compare, "This plugin was built without MPI or hypre");
+}
+
+TEST(WithoutMpi, AMeshOnOneRankIsMoved)
+{
+  const bool isFirst = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() == 0;
+  const auto grid = grids::make(meshes::hexes(3, 3, 3));
+  vtkNew<vtkUnstructuredGrid> none;
+  const auto filter = grids::morphFilters().front().make();
+  filter->SetInputData(isFirst ? grid.Get() : none.Get());
+  filter->SetBoundaryData(isFirst ? grids::boundary(grid, grids::affine) : nullptr);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+}
