@@ -58,17 +58,3 @@ TEST(WithoutMpi, AMeshOnTwoRanksIsOneError)
   compare->SetBoundaryData(grid);
   expectOneError(compare, "This plugin was built without MPI or hypre");
 }
-
-TEST(WithoutMpi, AMeshOnOneRankIsMoved)
-{
-  const bool isFirst = vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() == 0;
-  const auto grid = grids::make(meshes::hexes(3, 3, 3));
-  vtkNew<vtkUnstructuredGrid> none;
-  const auto filter = grids::morphFilters().front().make();
-  filter->SetInputData(isFirst ? grid.Get() : none.Get());
-  filter->SetBoundaryData(isFirst ? grids::boundary(grid, grids::affine) : nullptr);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
-  EXPECT_EQ(filter->GetInvertedCells(), 0);
-}
