@@ -31,7 +31,7 @@ struct AscentEffort
 /// move to lower their WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners
 /// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a
 /// round gains little or has converged, twice in a mesh of tetrahedra. Each starts where the last
-/// one ended, even if its minimum is lower. The two highest powers are repeated up to three times,
+/// one ended, even if its minimum is lower. Powers from 16 on are repeated up to three times,
 /// as long as that gains 0.3 %. A round ends as soon as its cells are at `goal`, and all end there.
 /// A mesh that has reached it, see hasReached(), is left as it is. `points`: #nodes x 3, start and
 /// best result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
