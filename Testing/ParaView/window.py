@@ -113,6 +113,12 @@ class Window(unittest.TestCase):
                 self.assertEqual(loaded(folder / "trace.py"), half)
             self.assertEqual(loaded(folder / "state.py"), folded)
             self.assertEqual(loaded(folder / "state.pvsm"), folded)
+            # Empty at first, and colored all the same once there are any.
+            morph = simple.FindSource("MorphFEMWARP1").SMProxy
+            bad = [list(one.ColorArrayName) for one in simple.GetActiveView().Representations
+                   if hasattr(one, "ColorArrayName") and one.Input.SMProxy == morph
+                   and one.Input.Port == 1]
+            self.assertEqual(bad, [["CELLS", "ScaledJacobian"]])
 
     def expect(self, events, texts):
         """In the panel, with all digits."""
