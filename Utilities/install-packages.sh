@@ -83,7 +83,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
 apt() {
-  ${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive apt-get \
+  ${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get \
     -o Acquire::Retries=3 "$@"
 }
 no_answer() { echo "install-packages.sh: the registry does not answer: see above." >&2; exit 77; }
@@ -91,8 +91,15 @@ no_answer() { echo "install-packages.sh: the registry does not answer: see above
 updated=yes
 apt update --error-on=any || updated=no
 if ! apt install --simulate --no-install-recommends "${missing[@]}" > /dev/null; then
-  if [ "$updated" = no ]; then no_answer; fi
+  if [ "$updated" = no ] && ! compgen -G "/var/lib/apt/lists/*Packages*" > /dev/null; then
+    no_answer
+  fi
   exit 1
 fi
-apt install -y --download-only --no-install-recommends "${missing[@]}" || no_answer
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! apt install -y --download-only --no-install-recommends "${missing[@]}" 2>&1 | tee "$log"; then
+  if grep -qE '(Failed|Unable) to fetch' "$log"; then no_answer; fi
+  exit 1
+fi
 apt install -y --no-install-recommends "${missing[@]}"

@@ -9,8 +9,8 @@ Usage: package.sh [--from FOLDER] [-j N]
 Builds (preset deb) a Debian package with the plugin where ParaView lists it, the headers, the
 libraries with their CMake package, and morph-mesh; prints its path. Install it with:
 apt-get install <path>
-  --from FOLDER  take this build of the preset paraview, so that little is compiled again, and
-                 configure it as it was afterwards
+  --from FOLDER  take this build of the preset paraview, so that little is compiled again; it is
+                 configured as it was afterwards, and the next build links its programs again
   -j N           processes to build with (default: all cores)
 END
 }
@@ -34,7 +34,8 @@ if [ -n "$from" ]; then
   install_to() { cmake -DCMAKE_INSTALL_PREFIX="$1" -DCMAKE_INSTALL_LIBDIR="$2" "$folder" >&2; }
   prefix=$(cached PREFIX)
   libdir=$(cached LIBDIR)
-  trap 'install_to "$prefix" "$libdir"' EXIT
+  # Quiet: the last lines are the error, where there is one.
+  trap 'install_to "$prefix" "$libdir" 2> build/restore.log || cat build/restore.log >&2' EXIT
   install_to /usr "lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)"
 else
   folder=build/deb

@@ -36,8 +36,11 @@ if [ ! -x "$reference" ]; then
   exit 1
 fi
 
+testing=OFF
+if [ "$tests" = yes ]; then testing=ON; fi
 cmake --preset vtk -B "$build" -D CMAKE_CXX_COMPILER="$compiler" \
-  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
+  -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D MESHMORPHING_BUILD_TESTING="$testing" \
+  -D MESHMORPHING_WRAP_PYTHON=OFF > /dev/null
 cmake --build "$build" -j "$jobs" --target morph-mesh
 if [ "$tests" = yes ]; then
   cmake --build "$build" -j "$jobs" --target MeshMorphingCoreTests

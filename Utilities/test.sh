@@ -205,10 +205,8 @@ site() {
   return $result
 }
 
-debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
 in_debian13() {
   local result=0
-  rm -f "$debian13_log" # of another run
   stage debian13 "Debian 13" limited Utilities/other-debian.sh trixie test -j "$jobs" \
     --labels '^(core|filters|install|paraview)$' || result=$?
   if [ "$result" -eq 77 ]; then
@@ -218,14 +216,14 @@ in_debian13() {
   return $result
 }
 
+precompile=ON # headers, which ccache could not share, where it was not there before
+if command -v ccache > /dev/null; then precompile=OFF; fi
 if [ "$install" = yes ]; then
   packages=(Utilities/install-packages.sh)
   if [ "$site" = yes ]; then packages+=(--site); fi
   stage setup "packages" "${packages[@]}"
 fi
-precompile=ON # headers, which ccache could not share
-if command -v ccache > /dev/null; then
-  precompile=OFF
+if [ "$precompile" = OFF ]; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   # The presets share what they compile alike, such as the core, whatever their build folder is.
   export CCACHE_BASEDIR=$PWD
@@ -249,6 +247,8 @@ else
   first mpi "tests paraview (mpi)" tests paraview -L mpi
   first solvers "tests paraview (solvers)" tests paraview -L solvers
 fi
+debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
+if [ "$debian13" = yes ]; then rm -f "$debian13_log"; fi # of another run
 if [ "$debian13" = yes ]; then optional $debian13_budget "Debian 13" in_debian13; fi
 if [ "$package" = yes ]; then optional 3 "Debian package" package; fi
 if [ "$site" = yes ]; then optional $site_budget "site" site; fi

@@ -17,6 +17,7 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <unordered_map>
@@ -95,7 +96,7 @@ struct Nodes
   std::vector<morph::Index> Numbers;
   std::vector<double> Coordinates; ///< 3 x #nodes
   std::vector<double> Undeformed;  ///< 3 x #nodes, before the last morph
-  double Precision = 0;            ///< of the points, relative to the largest coordinate
+  double Precision = 0;            ///< what rounding may have changed of Undeformed
   bool AreOfAnotherReader = false; ///< which may have added displacements
 };
 
@@ -123,7 +124,6 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
     const double rounding = part->GetPoints()->GetDataType() == VTK_FLOAT
                               ? double(std::numeric_limits<float>::epsilon())
                               : std::numeric_limits<double>::epsilon();
-    nodes.Precision = std::max(nodes.Precision, 8 * rounding);
     const std::size_t first = nodes.Numbers.size();
     for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
     {
@@ -137,7 +137,11 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
         nodes.Coordinates.insert(nodes.Coordinates.end(), x, x + 3);
         for (int j = 0; j < 3; ++j)
         {
-          nodes.Undeformed.push_back(x[j] - (moved ? moved->GetComponent(i, j) : 0.));
+          const double displacement = moved ? moved->GetComponent(i, j) : 0;
+          const double undeformed = x[j] - displacement;
+          nodes.Undeformed.push_back(undeformed);
+          nodes.Precision = std::max({ nodes.Precision, 8 * rounding * std::abs(x[j]),
+            8 * rounding * std::abs(displacement), 8 * rounding * std::abs(undeformed) });
         }
       }
       else if (!std::equal(x, x + 3, nodes.Coordinates.data() + 3 * found->second))

@@ -4,6 +4,7 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
+#include <vtkCommunicator.h>
 #include <vtkCompareMorphMethods.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphMesh.h>
@@ -11,6 +12,8 @@
 #include <vtkNew.h>
 
 #include <gtest/gtest.h>
+
+#include <string>
 
 namespace
 {

@@ -74,6 +74,7 @@ class SaveCoordinates(unittest.TestCase):
     def test_a_morph_into_a_copy(self):
         messages, out = self.save("morphed")
         self.assertTrue(out.exists(), messages)
+        self.assertNotIn("ERR|", messages)
         rest, axes = self.dump(out)
         self.assertEqual(rest, self.dump(self.path)[0])
         for axis, shift in enumerate(SHIFT):

@@ -29,9 +29,11 @@ def apart(model):
                     for c, side, nodes in faces]
 
 
-def exodus(model, together=False, single=False, names=True):
+def exodus(model, together=False, single=False, names=True,
+           nodal=("displ_x", "displ_y", "displ_z")):
     """The text. `together`: coordinates in one variable, as old files have them; `names`: of blocks
-    and sets, or none. Nodes and elements have the model's numbers. There are two time steps."""
+    and sets, or none. Nodes and elements have the model's numbers. There are two time steps, and
+    three `nodal` variables."""
     rank = {node: i + 1 for i, node in enumerate(model.order)}
     kinds = sorted({what for what, _ in model.cells})
     blocks = [[(c, nodes) for c, (what, nodes) in enumerate(model.cells) if what == kind]
@@ -80,11 +82,11 @@ def exodus(model, together=False, single=False, names=True):
             numbers([number(c, nodes) for c, _, nodes in sides]))
     add("int node_ns1(num_nod_ns1) ;", numbers([rank[n] for n in model.wall_nodes]))
     add("double time_whole(time_step) ;", "0., 0.5")
-    # Displacements, which VTK's readers would add to the coordinates.
+    # By default displacements, which VTK's readers would add to the coordinates.
     for axis in (1, 2, 3):
         add(f"double vals_nod_var{axis}(time_step, num_nodes) ;",
             numbers([1e-3 * axis + 1e-5 * i for i in range(2 * len(model.order))]))
-    add("char name_nod_var(num_nod_var, len_string) ;", '"displ_x", "displ_y", "displ_z"')
+    add("char name_nod_var(num_nod_var, len_string) ;", strings(nodal))
     return ("netcdf model {\ndimensions:\n" +
             "".join(f"{name} = {length} ;\n" for name, length in dimensions.items()) +
             "time_step = UNLIMITED ;\nvariables:\n" + "\n".join(variables) +

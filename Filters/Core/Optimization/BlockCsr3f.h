@@ -92,7 +92,7 @@ public:
   /// alone start again, to `tolerance`.
   int solve(const Points& b, Points& x, double tolerance, int most, Monitor& monitor,
     const CopiedRows& copies = CopiedRows::alone(), const NodePreconditioner* whole = nullptr,
-    double wholeTolerance = 0) const;
+    double wholeTolerance = 1e-2) const;
 
 private:
   struct Chunk;

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <numeric>
 
 namespace morph::io
@@ -40,8 +41,9 @@ public:
     this->readBlocks(file);
     this->readNodeSets(file);
     this->readSideSets(file);
-    this->findDisplacements(file);
   }
+
+  std::string displacements() const override;
 
   std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
     const std::string& out, double& largestRounding) const override;
@@ -56,7 +58,6 @@ private:
     const std::vector<Index>& elementNumbers);
   void readNodeSets(const NetCdf& file);
   void readSideSets(const NetCdf& file);
-  void findDisplacements(const NetCdf& file);
   std::vector<Index> numbersOf(const NetCdf& file, std::initializer_list<const char*> variables,
     Index count, const char* what) const;
 
@@ -347,20 +348,23 @@ void ExodusFile::readSideSets(const NetCdf& file)
   }
 }
 
-/// Of the variables of nodes: VTK's reader takes those as displacements whose names begin so.
-void ExodusFile::findDisplacements(const NetCdf& file)
+/// Of the variables of nodes: VTK's readers take a vector as displacements whose name begins so.
+/// Its three variables differ in the last character.
+std::string ExodusFile::displacements() const
 {
+  const NetCdf file(this->path(), this->path());
+  std::map<std::string, int> components;
   for (const std::string& name : file.texts("name_nod_var", file.dimension("num_nod_var")))
   {
-    std::string start = name.substr(0, 3);
-    std::transform(start.begin(), start.end(), start.begin(),
+    std::string stem = name.substr(0, std::max<std::size_t>(name.size(), 1) - 1);
+    std::transform(stem.begin(), stem.end(), stem.begin(),
       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (start == "dis")
+    if (stem.compare(0, 3, "dis") == 0 && ++components[stem] == 3)
     {
-      this->displacements_ = name;
-      return;
+      return name.substr(0, name.size() - 1);
     }
   }
+  return {};
 }
 
 std::vector<NewFile> ExodusFile::withCoordinates(

@@ -167,17 +167,13 @@ void requireOwnCoordinates(const std::string& original, const std::vector<Index>
   const std::vector<double>& coordinates, double precision)
 {
   const std::unique_ptr<SolverFile> file = requireFormat(original).read(original);
-  if (file->displacements().empty())
+  const std::string displacements = file->displacements();
+  if (displacements.empty())
   {
     return;
   }
   const std::vector<double> given = inOrder(*file, numbers, coordinates);
   const std::vector<double>& own = file->mesh().coordinates;
-  double largest = 0;
-  for (std::size_t i = 0; i < own.size(); ++i)
-  {
-    largest = std::max({ largest, std::abs(own[i]), std::abs(given[i]) });
-  }
   std::vector<Index> other;
   for (std::size_t i = 0; i < own.size(); i += 3)
   {
@@ -186,20 +182,20 @@ void requireOwnCoordinates(const std::string& original, const std::vector<Index>
     {
       difference = std::max(difference, std::abs(given[j] - own[j]));
     }
-    if (difference > precision * largest)
+    if (difference > precision)
     {
       other.push_back(file->mesh().nodeNumbers[i / 3]);
     }
   }
   if (!other.empty())
   {
-    throw Error(
+    throw Error(printable(
       "Cannot write the coordinates into a copy of " + original +
       ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
-      ". A reader has added the displacements '" + file->displacements() +
+      ". A reader has added the displacements '" + displacements +
       "' of the file, or filters moved the mesh more than once. Switch "
       "Apply Displacements off in that reader, or read the file with Solver File Reader, "
-      "which takes its own coordinates.");
+      "which takes its own coordinates."));
   }
 }
 

@@ -18,9 +18,9 @@ public:
 
   const SolverMesh& mesh() const { return this->mesh_; }
   const std::string& path() const { return this->path_; }
-  /// The array of displacements that other readers add to the coordinates, as ParaView does with
-  /// those of Exodus II. Empty: there is none.
-  const std::string& displacements() const { return this->displacements_; }
+  /// Reads the name of the displacements that other readers add to the coordinates, as ParaView
+  /// does with those of Exodus II. Empty: there are none. Throws Error as the reading does.
+  virtual std::string displacements() const { return {}; }
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
   /// mesh()), the one of `out` last. Nothing else differs. Sets the largest difference between a
@@ -36,7 +36,6 @@ protected:
   [[noreturn]] void fail(const std::string& reason) const;
 
   SolverMesh mesh_;
-  std::string displacements_;
 
 private:
   std::string path_;
@@ -57,7 +56,7 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
 
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
-/// are not its own: that reader has added them. `precision`: relative to the largest coordinate.
+/// are not its own: that reader has added them. `precision`: what rounding may have changed.
 void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, double precision);
 
