@@ -95,9 +95,10 @@ struct Nodes
 {
   std::vector<morph::Index> Numbers;
   std::vector<double> Coordinates; ///< 3 x #nodes
-  std::vector<double> Undeformed;  ///< 3 x #nodes, before the last morph
-  double Precision = 0;            ///< what rounding may have changed of Undeformed
   bool AreOfAnotherReader = false; ///< which may have added displacements
+  /// 3 x #nodes, before the last morph; empty where our reader gave them.
+  std::vector<double> Undeformed;
+  double Precision = 0; ///< what rounding may have changed of Undeformed
 };
 
 /// What the last morph added to the points; null where none did.
@@ -113,13 +114,14 @@ vtkDataArray* displacementOf(vtkPointSet* part)
 Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
 {
   Nodes nodes;
+  nodes.AreOfAnotherReader =
+    std::any_of(parts.begin(), parts.end(), [](vtkPointSet* part) { return !ownNumbersOf(part); });
   std::unordered_map<morph::Index, std::size_t> known; // places of the nodes of earlier parts
   std::vector<morph::Index> apart;
   for (vtkPointSet* part : parts)
   {
     vtkDataArray* numbers = numbersOf(part);
     vtkDataArray* moved = displacementOf(part);
-    nodes.AreOfAnotherReader = nodes.AreOfAnotherReader || !ownNumbersOf(part);
     // A point and its displacement are rounded each.
     const double rounding = part->GetPoints()->GetDataType() == VTK_FLOAT
                               ? double(std::numeric_limits<float>::epsilon())
@@ -135,7 +137,7 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
       {
         nodes.Numbers.push_back(number);
         nodes.Coordinates.insert(nodes.Coordinates.end(), x, x + 3);
-        for (int j = 0; j < 3; ++j)
+        for (int j = 0; nodes.AreOfAnotherReader && j < 3; ++j)
         {
           const double displacement = moved ? moved->GetComponent(i, j) : 0;
           const double undeformed = x[j] - displacement;
