@@ -5,7 +5,7 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() {
   cat <<END
-Usage: other-debian.sh SUITE [test|demo|package|shell] [OPTION...]
+Usage: other-debian.sh SUITE [test|demo|package|shell|root] [OPTION...]
        other-debian.sh SUITE --clean
 Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
 root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
@@ -14,6 +14,7 @@ the project's sources into it, and runs there
   demo    Utilities/demo.sh
   package Utilities/package.sh; then the package is installed, tried and removed
   shell   bash, in the copy of the project
+  root    nothing: the packages for test are installed, and that is all
 with the options that follow. The root file system and its builds, some gigabytes, are kept for the
 next run; --clean removes them. Needs root, or mmdebstrap's unshare mode.
 Exits with 77 where the registry does not answer, or where no root file system can be made.
@@ -36,7 +37,7 @@ if [ "${1:-}" = --clean ]; then
 fi
 command=${1:-test}
 if [ $# -gt 0 ]; then shift; fi
-case "$command" in test | demo | package | shell) ;; *) usage >&2; exit 2 ;; esac
+case "$command" in test | demo | package | shell | root) ;; *) usage >&2; exit 2 ;; esac
 unavailable() { echo "other-debian.sh: $suite is not available: $1" >&2; exit 77; }
 
 # The registry of this machine's own Debian holds the other suites too.
@@ -132,8 +133,12 @@ case "$command" in
     installing bash -euc '
       Utilities/install-packages.sh
       package=$(Utilities/package.sh "$@")
-      Testing/Install/package.sh "$package"
+      result=0
+      Testing/Install/package.sh "$package" || result=$?
+      if [ "$result" -eq 77 ]; then exit 1; fi # no right to try it, which is no silent registry
+      exit "$result"
     ' bash "$@"
     ;;
+  root) installing Utilities/install-packages.sh ;;
   shell) if [ $# -gt 0 ]; then inside "$@"; else inside bash; fi ;;
 esac
