@@ -275,8 +275,8 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
 
 Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
 {
-  Points result(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
+  Points result(static_cast<Index>(rows.size()), 3);
+  for (Index i = 0; i < result.rows(); ++i)
   {
     result.row(i) = free.row(indexInFree(rows, partition.free, i));
   }

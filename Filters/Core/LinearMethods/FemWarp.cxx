@@ -8,6 +8,8 @@
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace morph
@@ -15,6 +17,13 @@ namespace morph
 namespace
 {
 constexpr int MaxIterations = 2000;
+
+[[noreturn]] void throwSingular(const std::vector<Index>& nodes)
+{
+  throw Error(Error::Kind::Singular,
+    "Every cell around node ids " + listIds(nodes) +
+      " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
+}
 }
 
 void FemWarp::setTolerance(double tolerance)
@@ -28,11 +37,21 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const NodePartition& partition = this->partition();
   const ConnectedComponents parts = connectedComponents(rest);
   requirePrescribedBodies(rest, parts, partition);
-  this->rows_ = unknownOrdering(rest, partition.free);
   const std::vector<double> factors =
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
-  FemWarpSystem system = femWarpSystem(rest, this->rows_, partition.prescribed, factors, monitor);
+  const Adjacency around = nodeToCells(rest);
+  // Where the stiffness varies, the fit that is taken off would have to be taken off centres, too.
+  this->stars_ = this->isUniform_
+                   ? CentreStars(rest, partition.free, this->firstCentre(), around)
+                   : CentreStars();
+  std::vector<Index> kept;
+  std::set_difference(partition.free.begin(), partition.free.end(), this->stars_.centres().begin(),
+    this->stars_.centres().end(), std::back_inserter(kept));
+  this->rows_ = unknownOrdering(rest, kept);
+  FemWarpSystem system = femWarpSystem(
+    rest, around, this->rows_, partition.prescribed, factors, this->stars_, monitor);
+  this->stars_.assembled(rest.numberOfNodes(), partition);
   if (system.hasBadCells)
   {
     const std::string warning =
@@ -41,6 +60,10 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     {
       monitor.warn(warning);
     }
+  }
+  if (!system.singularCentres.empty())
+  {
+    throwSingular(system.singularCentres);
   }
   monitor.check();
   monitor.progress(0.6);
@@ -52,12 +75,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   try
   {
     ProgressRange last(monitor, 0.6, 1);
-    std::vector<bool> isCentre(this->rows_.size());
-    for (std::size_t i = 0; i < isCentre.size(); ++i)
-    {
-      isCentre[i] = this->rows_[i] >= this->firstCentre();
-    }
-    this->solver_.prepare(system.interior, isCentre, coordinates, last);
+    this->solver_.prepare(system.interior, coordinates, last);
   }
   catch (const SingularRows& error)
   {
@@ -66,9 +84,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     {
       nodes.push_back(this->rows_[row]);
     }
-    throw Error(Error::Kind::Singular,
-      "Every cell around node ids " + listIds(nodes) +
-        " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
+    throwSingular(nodes);
   }
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
@@ -96,6 +112,7 @@ EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
   unpermute(x, this->rows_, this->partition(), free, monitor);
+  this->stars_.recover(prescribed, free, monitor);
   return report;
 }
 
@@ -105,6 +122,7 @@ EvaluateReport FemWarp::displaceFields(
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed), x, monitor);
   unpermute(x, this->rows_, this->partition(), free, monitor);
+  this->stars_.recover(prescribed, free, monitor);
   return report;
 }
 
@@ -112,8 +130,10 @@ EvaluateReport FemWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = -A_I^-1 A_B and A_I is symmetric, so M^T g = -A_B^T A_I^-1 g.
-  const Points rhs = permute(free, this->rows_, this->partition());
-  Points solution = Points::Zero(free.rows(), 3);
+  Points gradient = free;
+  this->stars_.recoverTranspose(gradient, prescribed);
+  const Points rhs = permute(gradient, this->rows_, this->partition());
+  Points solution = Points::Zero(rhs.rows(), 3);
   const SolveReport report =
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
   reportRounding(report, this->tolerance_, monitor);
@@ -129,7 +149,7 @@ EvaluateReport FemWarp::displaceTranspose(
 std::size_t FemWarp::memory() const
 {
   const NodePartition& partition = this->partition();
-  return this->solver_.memory() + this->guess_.memory() +
+  return this->solver_.memory() + this->guess_.memory() + this->stars_.memory() +
          12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
          24 * this->restPoints().rows() +
          8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());

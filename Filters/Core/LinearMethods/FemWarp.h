@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/CentreStars.h"
 #include "LinearMethods/DirichletSystem.h"
 #include "Morpher/CellStiffness.h"
-#include "Solvers/CondensedSolver.h"
+#include "Solvers/SpdSolver.h"
 
 #include <vector>
 
@@ -39,12 +40,12 @@ public:
   double tolerance() const { return this->tolerance_; }
 
   /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
-  /// for memory.
+  /// for memory. Of a mesh with polyhedra some centres are eliminated and are no rows, if the
+  /// stiffness is uniform.
   const std::vector<Index>& rows() const { return this->rows_; }
-  /// Returns the solver with its matrix A_I (#free x #free, in the order of rows()), for benchmarks
-  /// and checks. On a mesh with polyhedra some centres are eliminated from it.
-  const SpdSolver& solver() const { return this->solver_.remaining(); }
-  /// Returns A_B, #free x #prescribed; rows as above, columns in the order of
+  /// Returns the solver with its matrix A_I (#rows x #rows), for benchmarks and checks.
+  const SpdSolver& solver() const { return this->solver_; }
+  /// Returns A_B, #rows x #prescribed; rows as above, columns in the order of
   /// NodePartition::prescribed.
   const CsrMatrix& coupling() const { return this->coupling_; }
   /// Returns the bytes that prepare() keeps.
@@ -64,7 +65,8 @@ private:
 
   double tolerance_ = 1e-10;
   std::vector<Index> rows_;
-  CondensedSolver solver_;
+  CentreStars stars_;
+  SpdSolver solver_;
   CsrMatrix coupling_;
   AffineGuess guess_;
   bool isUniform_ = true;

@@ -11,6 +11,9 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
 
 namespace morph
 {
@@ -19,11 +22,15 @@ namespace
 constexpr Index Grain = 4096;
 constexpr std::size_t MostIds = 100; // in a warning
 
-/// Stiffness matrices of all volume cells, upper triangles one after another.
-struct CellMatrices
+/// Stiffness matrices of the elements, upper triangles one after another: first of the volume cells
+/// outside of stars, then of the stars.
+struct ElementMatrices
 {
-  std::vector<Index> start; ///< #cells + 1
+  std::vector<Index> start; ///< #cells + #stars + 1
   Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
+
+  double* of(Index element) { return this->K.data() + this->start[element]; }
+  const double* of(Index element) const { return this->K.data() + this->start[element]; }
 };
 
 /// Whether two corners of a cell coincide, as in a hexahedron that is used as a wedge.
@@ -43,59 +50,156 @@ bool isCollapsed(const Mesh& mesh, Index cell)
   return false;
 }
 
-CellMatrices cellMatrices(
-  const Mesh& mesh, const std::vector<double>& factors, FemWarpSystem& system, Monitor& monitor)
+/// Computes the matrices of single cells, and notes what is wrong with the cells.
+class CellMatrix
+{
+public:
+  CellMatrix(const Mesh& mesh, const std::vector<double>& factors, std::vector<std::int8_t>& sign)
+    : mesh_(mesh)
+    , factors_(factors)
+    , sign_(sign)
+    , isBad_(mesh.numberOfCells(), 0)
+  {
+    sign.assign(mesh.numberOfCells(), 1);
+  }
+
+  /// Sets K of cell c; threads may call it for different volume cells.
+  void compute(Index c, double* K)
+  {
+    const CellShape& shape = *cellShape(this->mesh_.types[c]);
+    double corners[8][3];
+    copyCorners(this->mesh_, c, shape, this->mesh_.points, corners[0]);
+    const int sign = elementStiffness(shape.shape, corners, K);
+    this->sign_[c] = static_cast<std::int8_t>(sign);
+    if (!this->factors_.empty())
+    {
+      Eigen::Map<Eigen::ArrayXd>(K, triangleSize(numberOfCorners(shape.shape))) *=
+        this->factors_[c];
+    }
+    // The sign of a tetrahedron or pyramid is that of its corners.
+    const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
+    this->isBad_[c] = sign != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
+                                     !(scaledJacobian(this->mesh_.types[c], corners) > 0));
+  }
+
+  bool isAnyBad() const
+  {
+    return std::find(this->isBad_.begin(), this->isBad_.end(), 1) != this->isBad_.end();
+  }
+
+private:
+  const Mesh& mesh_;
+  const std::vector<double>& factors_;
+  std::vector<std::int8_t>& sign_;
+  std::vector<std::uint8_t> isBad_;
+};
+
+/// Sets K of a star, eliminates its centre, and sets the centre's weights. Returns false where the
+/// centre has no stiffness.
+bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, CentreStars& stars,
+  Index star, double* K)
+{
+  const Index* nodes = stars.nodes().begin(star);
+  const auto n = static_cast<int>(stars.nodes().end(star) - nodes);
+  double sum[CentreStars::MostNodes + 1][CentreStars::MostNodes + 1] = {}; // the centre is last
+  const Index centre = stars.centre(star);
+  for (const Index* c = around.begin(centre); c != around.end(centre); ++c)
+  {
+    double part[triangleSize(8)];
+    cell.compute(*c, part);
+    const CellShape& shape = *cellShape(mesh.types[*c]);
+    int place[8];
+    for (int a = 0; a < shape.numberOfCorners; ++a)
+    {
+      const Index node = mesh.cell(*c)[shape.cornerNode[a]];
+      place[a] =
+        node == centre ? n : static_cast<int>(std::lower_bound(nodes, nodes + n, node) - nodes);
+    }
+    for (int a = 0, k = 0; a < shape.numberOfCorners; ++a)
+    {
+      for (int b = a; b < shape.numberOfCorners; ++b, ++k)
+      {
+        sum[std::min(place[a], place[b])][std::max(place[a], place[b])] += part[k];
+      }
+    }
+  }
+  const double diagonal = sum[n][n];
+  const bool isUsable = diagonal > 0 && std::isfinite(diagonal);
+  const double inverse = isUsable ? 1 / diagonal : 0;
+  for (int a = 0, k = 0; a < n; ++a)
+  {
+    stars.weights(star)[a] = -sum[a][n] * inverse;
+    for (int b = a; b < n; ++b, ++k)
+    {
+      K[k] = sum[a][b] + stars.weights(star)[a] * sum[b][n];
+    }
+  }
+  return isUsable;
+}
+
+ElementMatrices elementMatrices(const Mesh& mesh, const Adjacency& around,
+  const std::vector<double>& factors, CentreStars& stars, FemWarpSystem& system, Monitor& monitor)
 {
   const Index cells = mesh.numberOfCells();
-  CellMatrices result;
-  result.start.assign(cells + 1, 0);
+  const std::vector<int>& star = stars.ofCell();
+  ElementMatrices result;
+  result.start.reserve(cells + stars.size() + 1);
+  result.start.push_back(0);
   for (Index c = 0; c < cells; ++c)
   {
-    result.start[c + 1] =
-      result.start[c] + triangleSize(numberOfCorners(cellShape(mesh.types[c])->shape));
+    const bool isInStar = !star.empty() && star[c] >= 0;
+    result.start.push_back(
+      result.start[c] +
+      (isInStar ? 0 : triangleSize(numberOfCorners(cellShape(mesh.types[c])->shape))));
+  }
+  for (Index s = 0; s < stars.size(); ++s)
+  {
+    result.start.push_back(
+      result.start.back() +
+      triangleSize(static_cast<int>(stars.nodes().end(s) - stars.nodes().begin(s))));
   }
   result.K.resize(result.start.back());
 
-  std::vector<std::int8_t>& sign = system.cellSign;
-  sign.assign(cells, 1);
-  std::vector<std::uint8_t> isBad(cells, 0);
+  CellMatrix cell(mesh, factors, system.cellSign);
   monitor.parallelFor(cells, Grain,
     [&](Index first, Index last)
     {
       for (Index c = first; c < last; ++c)
       {
-        const CellShape& shape = *cellShape(mesh.types[c]);
-        const int n = numberOfCorners(shape.shape);
-        if (n == 0)
+        if (result.start[c + 1] > result.start[c])
         {
-          continue;
+          cell.compute(c, result.of(c));
         }
-        double corners[8][3];
-        copyCorners(mesh, c, shape, mesh.points, corners[0]);
-        sign[c] = static_cast<std::int8_t>(
-          elementStiffness(shape.shape, corners, result.K.data() + result.start[c]));
-        if (!factors.empty())
-        {
-          result.K.segment(result.start[c], triangleSize(n)) *= factors[c];
-        }
-        // The sign of a tetrahedron or pyramid is that of its corners.
-        const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
-        isBad[c] =
-          sign[c] != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
-                            !(scaledJacobian(mesh.types[c], corners) > 0));
       }
     });
-  system.hasBadCells = std::find(isBad.begin(), isBad.end(), 1) != isBad.end();
+  std::vector<std::uint8_t> isUsable(stars.size(), 1);
+  monitor.parallelFor(stars.size(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index s = first; s < last; ++s)
+      {
+        isUsable[s] = starMatrix(mesh, around, cell, stars, s, result.of(cells + s));
+      }
+    });
+  for (Index s = 0; s < stars.size(); ++s)
+  {
+    if (!isUsable[s])
+    {
+      system.singularCentres.push_back(stars.centre(s));
+    }
+  }
+  system.hasBadCells = cell.isAnyBad();
   return result;
 }
 
-/// A table of triangleIndex(n, a, b) for n up to 8, for the assembly's inner loop.
+/// A table of triangleIndex(n, a, b), for the assembly's inner loop.
 struct TriangleTable
 {
-  std::uint8_t at[9][8][8] = {};
+  static constexpr int Most = CentreStars::MostNodes;
+  std::uint8_t at[Most + 1][Most][Most] = {};
   TriangleTable()
   {
-    for (int n = 1; n <= 8; ++n)
+    for (int n = 1; n <= Most; ++n)
     {
       for (int a = 0; a < n; ++a)
       {
@@ -149,15 +253,14 @@ private:
 };
 
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
-/// sums do not depend on threads.
-std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& free,
-  const std::vector<Index>& prescribed, const std::vector<double>& factors, FemWarpSystem& system,
-  Monitor& monitor)
+/// sums do not depend on threads, and the matrix is symmetric to the last bit. Stars come last.
+std::vector<SplitRows> gatherRows(const Mesh& mesh, const Adjacency& around,
+  const std::vector<Index>& free, const std::vector<Index>& prescribed,
+  const std::vector<double>& factors, CentreStars& stars, FemWarpSystem& system, Monitor& monitor)
 {
-  const CellMatrices matrices = cellMatrices(mesh, factors, system, monitor);
+  const ElementMatrices matrices = elementMatrices(mesh, around, factors, stars, system, monitor);
   monitor.check();
   monitor.progress(0.3);
-  const Adjacency around = nodeToCells(mesh);
 
   // Columns of [A_I A_B]: the free nodes by row, then the prescribed nodes.
   const Index rows = static_cast<Index>(free.size());
@@ -172,18 +275,25 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& fr
     column[prescribed[i]] = static_cast<int>(rows + i);
   }
 
-  // Visits the cells around a row's free node, once for every corner that is this node. A visit
-  // gets the cell's nodes and matrix, and the index of the corner's entries.
+  // Visits the cells and stars around a row's free node, once for every corner that is this node.
+  // A visit gets the nodes and the matrix, and the index of the corner's entries.
   const TriangleTable triangle;
+  const std::vector<int>& starOf = stars.ofCell();
+  int same[CentreStars::MostNodes];
+  std::iota(std::begin(same), std::end(same), 0);
   const auto visit = [&](Index row, const auto& onCorner)
   {
     const Index node = free[row];
     for (const Index* cell = around.begin(node); cell != around.end(node); ++cell)
     {
+      if (!starOf.empty() && starOf[*cell] >= 0)
+      {
+        continue;
+      }
       const CellShape& shape = *cellShape(mesh.types[*cell]);
       const int* cornerNode = shape.cornerNode;
       const Index* nodes = mesh.cell(*cell);
-      const double* K = matrices.K.data() + matrices.start[*cell];
+      const double* K = matrices.of(*cell);
       const int n = shape.numberOfCorners;
       for (int own = 0; own < n; ++own)
       {
@@ -192,6 +302,17 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& fr
           onCorner(nodes, cornerNode, n, K, triangle.at[n][own]);
         }
       }
+    }
+    if (starOf.empty())
+    {
+      return;
+    }
+    for (const Index* star = stars.ofNode().begin(node); star != stars.ofNode().end(node); ++star)
+    {
+      const Index* nodes = stars.nodes().begin(*star);
+      const auto n = static_cast<int>(stars.nodes().end(*star) - nodes);
+      const auto own = std::lower_bound(nodes, nodes + n, node) - nodes;
+      onCorner(nodes, same, n, matrices.of(mesh.numberOfCells() + *star), triangle.at[n][own]);
     }
   };
 
@@ -207,7 +328,7 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& fr
           [&](const Index* nodes, const int* cornerNode, int n, const double* K,
             const std::uint8_t* entry)
           {
-            int index[8];
+            int index[CentreStars::MostNodes];
             for (int a = 0; a < n; ++a)
             {
               index[a] = local.localIndex(column[nodes[cornerNode[a]]]);
@@ -256,9 +377,18 @@ std::vector<SplitRows> gatherRows(const Mesh& mesh, const std::vector<Index>& fr
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor)
 {
+  CentreStars none;
+  return femWarpSystem(mesh, nodeToCells(mesh), rows, prescribed, factors, none, monitor);
+}
+
+FemWarpSystem femWarpSystem(const Mesh& mesh, const Adjacency& around,
+  const std::vector<Index>& rows, const std::vector<Index>& prescribed,
+  const std::vector<double>& factors, CentreStars& stars, Monitor& monitor)
+{
   FemWarpSystem system;
-  // Frees the cells' matrices before the rows are joined.
-  std::vector<SplitRows> chunks = gatherRows(mesh, rows, prescribed, factors, system, monitor);
+  // Frees the elements' matrices before the rows are joined.
+  std::vector<SplitRows> chunks =
+    gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
   monitor.check();
   monitor.progress(0.5);
   joinRows(system.interior, static_cast<Index>(rows.size()), chunks, &SplitRows::interior, monitor);

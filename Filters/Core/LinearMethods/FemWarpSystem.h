@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/CentreStars.h"
 #include "Mesh/Mesh.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
@@ -19,6 +20,7 @@ struct FemWarpSystem
 
   std::vector<std::int8_t> cellSign; ///< #cells, from elementStiffness()
   bool hasBadCells = false;          ///< some cell may be inverted or flat; see badCells()
+  std::vector<Index> singularCentres; ///< node ids of eliminated centres without stiffness
 };
 
 /// Computes the equations. `rows`: the nodes of the matrix rows, in their order. `prescribed`: all
@@ -27,6 +29,11 @@ struct FemWarpSystem
 /// to 0.4 microseconds a cell.
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor);
+/// The same without the centres of `stars`, which are no rows. Sets the weights of the stars.
+/// `around`: nodeToCells(mesh).
+FemWarpSystem femWarpSystem(const Mesh& mesh, const Adjacency& around,
+  const std::vector<Index>& rows, const std::vector<Index>& prescribed,
+  const std::vector<double>& factors, CentreStars& stars, Monitor& monitor);
 
 /// Ids of cells that are no good reference, ascending.
 struct BadCells

@@ -13,6 +13,7 @@ namespace morph
 /// cells, plus the sort.
 std::vector<Index> unknownOrdering(const Mesh& mesh, const std::vector<Index>& free);
 
-/// Returns the index in `free` of a row's node, for rows = unknownOrdering(mesh, free).
+/// Returns the index in `free` of a row's node, for rows = unknownOrdering(mesh, free), or of a
+/// part of `free`.
 Index indexInFree(const std::vector<Index>& rows, const std::vector<Index>& free, Index row);
 }

@@ -10,7 +10,7 @@ namespace morph
 {
 namespace
 {
-constexpr double NearShare = 0.1; // of the squared distance: sqrt(10) times the nearest distance
+constexpr double NearShare = 0.2; // of the squared distance: sqrt(5) times the nearest distance
 constexpr float LeastDiagonal = 0.25f; // of a filtered row, in units of the matrix's own
 constexpr Index Grain = 4096;
 

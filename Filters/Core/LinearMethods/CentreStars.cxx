@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/CentreStars.h"
+
+#include "Mesh/CellShape.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+// Pairs that a star may couple beyond its nodes: a centre that goes takes along vectors of the
+// iteration, which cost as much.
+constexpr int MostAdded = 8;
+constexpr Index Grain = 4096;
+
+/// A star that is being collected; cells couple all pairs of their nodes.
+class Collected
+{
+public:
+  /// Collects the nodes of the cells around `centre`. Returns false where they are too many.
+  bool collect(const Mesh& mesh, Index centre, const Adjacency& around)
+  {
+    this->nodes_.clear();
+    for (const Index* cell = around.begin(centre); cell != around.end(centre); ++cell)
+    {
+      const CellShape& shape = *cellShape(mesh.types[*cell]);
+      for (int k = 0; k < shape.numberOfCorners; ++k)
+      {
+        const Index node = mesh.cell(*cell)[shape.cornerNode[k]];
+        if (node != centre && std::find(this->nodes_.begin(), this->nodes_.end(), node) ==
+                                this->nodes_.end())
+        {
+          this->nodes_.push_back(node);
+        }
+      }
+      if (this->nodes_.size() > CentreStars::MostNodes)
+      {
+        return false;
+      }
+    }
+    std::sort(this->nodes_.begin(), this->nodes_.end());
+    return true;
+  }
+
+  /// Whether few pairs are coupled through the centre alone.
+  bool staysSparse(const Mesh& mesh, Index centre, const Adjacency& around) const
+  {
+    std::uint32_t coupled[CentreStars::MostNodes] = {};
+    for (const Index* cell = around.begin(centre); cell != around.end(centre); ++cell)
+    {
+      const CellShape& shape = *cellShape(mesh.types[*cell]);
+      std::uint32_t own = 0;
+      for (int k = 0; k < shape.numberOfCorners; ++k)
+      {
+        const Index node = mesh.cell(*cell)[shape.cornerNode[k]];
+        own |= node == centre ? 0 : std::uint32_t(1) << this->place(node);
+      }
+      for (std::size_t a = 0; a < this->nodes_.size(); ++a)
+      {
+        coupled[a] |= own >> a & 1 ? own : 0;
+      }
+    }
+    int missing = 0;
+    for (std::size_t a = 0; a < this->nodes_.size(); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        missing += (coupled[a] >> b & 1) == 0;
+      }
+    }
+    return missing <= static_cast<int>(this->nodes_.size()) + MostAdded;
+  }
+
+  const std::vector<Index>& nodes() const { return this->nodes_; }
+
+private:
+  std::ptrdiff_t place(Index node) const
+  {
+    return std::lower_bound(this->nodes_.begin(), this->nodes_.end(), node) - this->nodes_.begin();
+  }
+
+  std::vector<Index> nodes_; ///< ascending
+};
+}
+
+CentreStars::CentreStars(
+  const Mesh& mesh, const std::vector<Index>& free, Index firstCentre, const Adjacency& around)
+{
+  const auto first = std::lower_bound(free.begin(), free.end(), firstCentre);
+  if (first == free.end())
+  {
+    return;
+  }
+  this->ofCell_.assign(mesh.numberOfCells(), -1);
+  this->nodes_.offsets.push_back(0);
+  Collected star;
+  for (auto centre = first; centre != free.end(); ++centre)
+  {
+    const auto isTaken = [&](Index cell) { return this->ofCell_[cell] >= 0; };
+    if (std::any_of(around.begin(*centre), around.end(*centre), isTaken) ||
+        !star.collect(mesh, *centre, around) || !star.staysSparse(mesh, *centre, around))
+    {
+      continue;
+    }
+    std::for_each(around.begin(*centre), around.end(*centre),
+      [&](Index cell) { this->ofCell_[cell] = static_cast<int>(this->centres_.size()); });
+    this->centres_.push_back(*centre);
+    this->nodes_.values.insert(
+      this->nodes_.values.end(), star.nodes().begin(), star.nodes().end());
+    this->nodes_.offsets.push_back(static_cast<Index>(this->nodes_.values.size()));
+  }
+  this->weights_.assign(this->nodes_.values.size(), 0);
+  if (this->centres_.empty())
+  {
+    this->ofCell_.clear();
+    return;
+  }
+  std::vector<Index>& offsets = this->ofNode_.offsets;
+  offsets.assign(mesh.numberOfNodes() + 2, 0); // one more: each list is filled from its begin
+  for (const Index node : this->nodes_.values)
+  {
+    ++offsets[node + 2];
+  }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  this->ofNode_.values.resize(this->nodes_.values.size());
+  for (Index s = 0; s < this->size(); ++s)
+  {
+    for (const Index* node = this->nodes_.begin(s); node != this->nodes_.end(s); ++node)
+    {
+      this->ofNode_.values[offsets[*node + 1]++] = s;
+    }
+  }
+  offsets.pop_back();
+}
+
+void CentreStars::assembled(Index nodes, const NodePartition& partition)
+{
+  this->ofCell_ = {};
+  this->ofNode_ = {};
+  if (this->centres_.empty())
+  {
+    return;
+  }
+  std::vector<int> place(nodes, 0);
+  for (std::size_t i = 0; i < partition.free.size(); ++i)
+  {
+    place[partition.free[i]] = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
+  {
+    place[partition.prescribed[i]] = -1 - static_cast<int>(i);
+  }
+  const auto placesOf = [&](const std::vector<Index>& ids)
+  {
+    std::vector<int> places(ids.size());
+    std::transform(
+      ids.begin(), ids.end(), places.begin(), [&](Index node) { return place[node]; });
+    return places;
+  };
+  this->rowOfCentre_ = placesOf(this->centres_);
+  this->places_ = placesOf(this->nodes_.values);
+  this->nodes_.values = {};
+}
+
+namespace
+{
+template <typename Columns>
+void setCentres(const std::vector<int>& centres, const std::vector<Index>& offsets,
+  const std::vector<int>& places, const std::vector<double>& weights, const Columns& prescribed,
+  Columns& free, Monitor& monitor)
+{
+  const Columns& known = free;
+  monitor.parallelFor(static_cast<Index>(centres.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index s = first; s < last; ++s)
+      {
+        auto mean = Eigen::Matrix<double, 1, Columns::ColsAtCompileTime>::Zero().eval();
+        for (Index k = offsets[s]; k < offsets[s + 1]; ++k)
+        {
+          const int at = places[k];
+          mean += weights[k] * (at >= 0 ? known.row(at) : prescribed.row(-1 - at));
+        }
+        free.row(centres[s]) = mean;
+      }
+    });
+}
+}
+
+void CentreStars::recover(const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  setCentres(this->rowOfCentre_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
+    free, monitor);
+}
+
+void CentreStars::recover(const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+{
+  setCentres(this->rowOfCentre_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
+    free, monitor);
+}
+
+void CentreStars::recoverTranspose(Points& free, Points& prescribed) const
+{
+  for (std::size_t s = 0; s < this->rowOfCentre_.size(); ++s)
+  {
+    const Eigen::RowVector3d gradient = free.row(this->rowOfCentre_[s]);
+    for (Index k = this->nodes_.offsets[s]; k < this->nodes_.offsets[s + 1]; ++k)
+    {
+      const int at = this->places_[k];
+      auto row = at >= 0 ? free.row(at) : prescribed.row(-1 - at);
+      row += this->weights_[k] * gradient;
+    }
+  }
+}
+
+std::size_t CentreStars::memory() const
+{
+  return sizeof(Index) * (this->centres_.size() + this->nodes_.offsets.size() +
+                           this->nodes_.values.size()) +
+         sizeof(Index) * (this->ofNode_.offsets.size() + this->ofNode_.values.size()) +
+         sizeof(double) * this->weights_.size() +
+         sizeof(int) * (this->ofCell_.size() + this->rowOfCentre_.size() + this->places_.size());
+}
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FEMWARP with and without its centres eliminated.
+#include "LinearMethods/CentreStars.h"
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/PolyhedronPieces.h"
+#include "Mesh/Topology.h"
+#include "Motions.h"
+#include "PolyhedralMeshes.h"
+#include "Support/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <set>
+
+using namespace meshes;
+using namespace morph;
+
+namespace
+{
+/// A mesh cut to pieces, its boundary prescribed, and FEMWARP on them.
+struct Cut
+{
+  explicit Cut(const Mesh& whole)
+    : pieces(whole, monitor, true)
+    , partition(pieces.extend(motions::outerPartition(whole)))
+    , firstCentre(whole.numberOfNodes())
+  {
+  }
+
+  std::unique_ptr<FemWarp> prepared(bool eliminates, CellStiffness stiffness = {})
+  {
+    auto method = std::make_unique<FemWarp>();
+    method->setTolerance(1e-13);
+    if (eliminates)
+    {
+      method->setFirstCentre(this->firstCentre);
+    }
+    method->setStiffness(std::move(stiffness));
+    method->prepare(this->pieces.mesh(), this->partition, this->monitor);
+    return method;
+  }
+
+  ThreadedMonitor monitor{ 2 };
+  PolyhedronPieces pieces;
+  NodePartition partition;
+  Index firstCentre;
+};
+
+std::vector<std::pair<std::string, Mesh>> wholeMeshes()
+{
+  std::vector<std::pair<std::string, Mesh>> result = polyhedral();
+  result.emplace_back("cut brick", asPolyhedra(hexes(4, 4, 4)));
+  return result;
+}
+
+double largest(const Eigen::Ref<const Eigen::MatrixXd>& values)
+{
+  return values.cwiseAbs().maxCoeff();
+}
+}
+
+TEST(CentreStars, ShareNoCellAndAreSmall)
+{
+  for (const auto& [name, whole] : wholeMeshes())
+  {
+    SCOPED_TRACE(name);
+    Cut cut(whole);
+    const Mesh& mesh = cut.pieces.mesh();
+    const Adjacency around = nodeToCells(mesh);
+    const CentreStars stars(mesh, cut.partition.free, cut.firstCentre, around);
+    ASSERT_GT(stars.size(), 0);
+    EXPECT_TRUE(std::is_sorted(stars.centres().begin(), stars.centres().end()));
+    std::set<Index> taken;
+    for (Index s = 0; s < stars.size(); ++s)
+    {
+      EXPECT_GE(stars.centre(s), cut.firstCentre);
+      std::set<Index> nodes;
+      for (const Index* c = around.begin(stars.centre(s)); c != around.end(stars.centre(s)); ++c)
+      {
+        EXPECT_TRUE(taken.insert(*c).second) << "cell " << *c;
+        EXPECT_EQ(stars.ofCell()[*c], s);
+        nodes.insert(mesh.cell(*c), mesh.cell(*c) + mesh.cellSize(*c));
+      }
+      EXPECT_EQ(nodes.erase(stars.centre(s)), 1u);
+      EXPECT_TRUE(
+        std::equal(nodes.begin(), nodes.end(), stars.nodes().begin(s), stars.nodes().end(s)));
+      EXPECT_LE(nodes.size(), 16u);
+    }
+    EXPECT_EQ(std::count_if(stars.ofCell().begin(), stars.ofCell().end(),
+                [](int star) { return star >= 0; }),
+      static_cast<std::ptrdiff_t>(taken.size()));
+  }
+}
+
+TEST(CentreStars, AreTheSolutionWithCentres)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(0.5, 2);
+  for (const auto& [name, whole] : wholeMeshes())
+  {
+    SCOPED_TRACE(name);
+    Cut cut(whole);
+    const auto kept = cut.prepared(false), gone = cut.prepared(true);
+    EXPECT_LT(gone->rows().size(), kept->rows().size());
+    const Eigen::MatrixXd matrix = gone->solver().matrix();
+    EXPECT_EQ(largest(matrix - matrix.transpose()), 0);
+
+    FourFields given(static_cast<Index>(cut.partition.prescribed.size()), 4);
+    given = given.unaryExpr([&](double) { return number(random); });
+    const FourFields expected = kept->fields(given, cut.monitor);
+    EXPECT_LT(largest(gone->fields(given, cut.monitor) - expected), 1e-11);
+
+    Points gradient(cut.pieces.mesh().numberOfNodes(), 3), one, other;
+    gradient = gradient.unaryExpr([&](double) { return number(random) - 1; });
+    kept->applyTranspose(gradient, one, cut.monitor);
+    gone->applyTranspose(gradient, other, cut.monitor);
+    EXPECT_LT(largest(one - other), 1e-11 * largest(one));
+  }
+}
+
+TEST(CentreStars, StayWhereTheStiffnessVaries)
+{
+  Cut cut(honeycomb(3));
+  CellStiffness graded;
+  graded.kind = CellStiffness::Kind::InverseVolume;
+  EXPECT_EQ(cut.prepared(true, graded)->rows().size(), cut.partition.free.size());
+}
+
+TEST(CentreStars, OneCellWhoseNodesAreAllPrescribed)
+{
+  Cut cut(asPolyhedra(hexes(1, 1, 1)));
+  ASSERT_EQ(cut.partition.free.size(), 1u);
+  const auto method = cut.prepared(true);
+  EXPECT_TRUE(method->rows().empty());
+  Points target(static_cast<Index>(cut.partition.prescribed.size()), 3), moved;
+  for (Index i = 0; i < target.rows(); ++i)
+  {
+    target.row(i) = 2 * cut.pieces.mesh().points.row(cut.partition.prescribed[i]);
+  }
+  method->evaluate(target, moved, cut.monitor);
+  EXPECT_LT(largest(moved - 2 * cut.pieces.mesh().points), 1e-13);
+}
+
+TEST(CentreStars, ACentreWithoutVolumeIsNamed)
+{
+  Cut cut(honeycomb(3));
+  Mesh mesh = cut.pieces.mesh();
+  const CentreStars stars(mesh, cut.partition.free, cut.firstCentre, nodeToCells(mesh));
+  const Index star = stars.size() / 2;
+  for (const Index* n = stars.nodes().begin(star); n != stars.nodes().end(star); ++n)
+  {
+    mesh.points.row(*n) = mesh.points.row(stars.centre(star));
+  }
+  FemWarp method;
+  method.setFirstCentre(cut.firstCentre);
+  try
+  {
+    method.prepare(mesh, cut.partition, cut.monitor);
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.kind(), Error::Kind::Singular);
+    EXPECT_NE(std::string(error.what()).find(std::to_string(stars.centre(star))),
+      std::string::npos) << error.what();
+  }
+}
