@@ -27,7 +27,8 @@ constexpr int LowSquarings = 2; // norms that often lower the minimum at first: 
 
 // After the last power those from 16 on run again, as long as that raises the minimum by this: by
 // then other cells are the worst, and other nodes move. Without it, or where a round ends at its
-// first short steps, rounding decides how high the search comes.
+// first short steps, rounding decides how high the search comes. On tetrahedra the first run comes
+// to the same minimum whatever the rounding, and a repetition takes as long and gains nothing.
 constexpr int RepeatedSquarings = 4, Repetitions = 3;
 constexpr double WorthRepeating = 1.003;
 constexpr int SettledSteps = 5;
@@ -219,7 +220,9 @@ AscentEffort raiseMinimumQuality(
   const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
 {
   AscentEffort effort;
-  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), Repetitions },
+  const int repetitions =
+    mostlyTetrahedra(measured.mesh(), measured.communicator()) ? 0 : Repetitions;
+  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), repetitions },
     points, effort, monitor);
   return effort;
 }
