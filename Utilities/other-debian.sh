@@ -32,7 +32,7 @@ project=$root/MeshMorphing
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then as_root=(unshare --user --map-root-user --map-auto); fi
 if [ "${1:-}" = --clean ]; then
-  "${as_root[@]}" rm -rf "$root"
+  "${as_root[@]}" rm -rf "$root" "$root.partial"
   exit 0
 fi
 command=${1:-test}
@@ -56,12 +56,14 @@ make_root() {
   if [ -z "$mirror" ]; then unavailable "apt has no registry of Debian here."; fi
   # The index of sid may be older than it promises, where a registry keeps a copy.
   if [ "$suite" = sid ]; then options+=(--aptopt='Acquire::Check-Valid-Until "false"'); fi
-  "${as_root[@]}" rm -rf "$root"
+  # Under its name once it is whole.
+  "${as_root[@]}" rm -rf "$root" "$root.partial"
   mkdir -p "$(dirname "$root")"
   # A root that a power cut spoils is made again: dpkg need not wait for the disk.
   mmdebstrap --variant=apt --include=ca-certificates --dpkgopt=force-unsafe-io \
-    --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} "$suite" "$root" "$mirror" ||
-    { rm -rf "$root"; unavailable "mmdebstrap could not make it from $mirror"; }
+    --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} "$suite" "$root.partial" "$mirror" ||
+    { "${as_root[@]}" rm -rf "$root.partial"; unavailable "mmdebstrap could not make it from $mirror"; }
+  "${as_root[@]}" mv "$root.partial" "$root"
 }
 
 # The project's files into the folder $1.
@@ -115,10 +117,12 @@ inside() {
   ' bash "$root" "$@"
 }
 
-# The same, for what installs packages first: a kept root, too, may lack one that is new.
+# The same, for what installs packages first: a kept root, too, may lack one that is new. An
+# installation that was interrupted is ended.
 installing() {
   local result=0
-  inside "$@" || result=$?
+  # shellcheck disable=SC2016 # expanded inside
+  inside bash -c 'dpkg --configure -a && exec "$@"' bash "$@" || result=$?
   if [ "$result" -eq 77 ]; then unavailable "see above."; fi
   return "$result"
 }

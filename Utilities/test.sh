@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# The minutes that each stage should take on two cores, without ccache.
+# The minutes that each stage should take on two cores, without ccache; the end compares with them.
 debian_budget=35
 sanitizer_budget=12
 debian13_budget=18
@@ -11,7 +11,8 @@ mpi_budget=4
 solvers_budget=4
 site_budget=2
 
-# The minutes that what may be left out takes on a machine whose first build takes that long.
+# What may be left out takes these minutes where the first build takes 24, and more where that takes
+# longer.
 first_build=24
 debian13_minutes=30
 package_minutes=2
@@ -212,19 +213,25 @@ site() {
   return $result
 }
 
-# Its packages are fetched while this Debian's build runs. Whatever fails is tried again, and named,
-# when its turn comes.
-debian13_root=none
+# The packages of Debian 13 are fetched while this Debian's build runs. Whatever fails is tried
+# again, and named, when its turn comes.
+debian13_root=none # the process
 prepare_debian13() {
-  timeout 60m Utilities/other-debian.sh trixie root > build/trixie.log 2>&1 &
+  local most=3600
+  if [ "$limit" != none ]; then most=$((limit * 60 - SECONDS)); fi
+  timeout "$most" Utilities/other-debian.sh trixie root > build/trixie.log 2>&1 &
   debian13_root=$!
-  trap 'kill "$debian13_root" 2> /dev/null || true' EXIT
+  trap drop_debian13_root EXIT
+}
+drop_debian13_root() {
+  if [ "$debian13_root" != none ]; then kill "$debian13_root" 2> /dev/null || true; fi
+  debian13_root=none
 }
 in_debian13() {
   local result=0
   if [ "$debian13_root" != none ]; then
     stage debian13 "root of Debian 13" wait "$debian13_root" || tail -n 3 build/trixie.log
-    trap - EXIT
+    debian13_root=none
   fi
   stage debian13 "Debian 13" limited Utilities/other-debian.sh trixie test -j "$jobs" \
     --labels '^(core|filters|install|paraview)$' || result=$?
@@ -270,6 +277,7 @@ fi
 debian13_log=build/trixie/MeshMorphing/build/paraview/ctest.log
 if [ "$debian13" = yes ]; then rm -f "$debian13_log"; fi # of another run
 if [ "$debian13" = yes ]; then optional $debian13_minutes "Debian 13" in_debian13; fi
+drop_debian13_root
 if [ "$package" = yes ]; then optional $package_minutes "Debian package" package; fi
 if [ "$site" = yes ]; then optional $site_minutes "site" site; fi
 if [ "$asan" = yes ]; then optional $sanitizer_minutes "sanitizers" sanitized; fi

@@ -4,8 +4,9 @@
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython openfoam.py [--cells N] [--motion NAME]
 Prints a table: seconds, non-orthogonality, skewness, and cells that checkMesh or the scaled
 Jacobian finds wrong. OpenFOAM's seconds are the processor time of moveDynamicMesh, its start
-included; ours are those of preparing and evaluating. Both run on one processor. The mesh is
-polyDualMesh's, of about 2 (N + 1)^3 polyhedra.
+included; ours are those of the whole filter. Both run on one processor. The mesh is polyDualMesh's,
+of about 2 (N + 1)^3 polyhedra. The last line has FEMWARP's time over that on hexahedra of as many
+nodes.
 """
 import argparse
 import os
@@ -19,8 +20,10 @@ import time
 from paraview.simple import *
 from paraview import servermanager
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "ParaView"))
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "Testing" / "ParaView"), str(ROOT / "Utilities")]
 import foam_case
+from benchmark_filter import cube
 
 LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
@@ -138,6 +141,23 @@ def ours(source, motion, name):
     return servermanager.Fetch(morph), time.process_time() - start
 
 
+def against_hexahedra(source, motion, repeats=5):
+    """Times of FEMWARP's filter by node: those of the polyhedra over those of hexahedra, each the
+    least of several by turns."""
+    nodes = source.GetClientSideObject().GetOutputDataObject(0).GetNumberOfPoints()
+    box = TrivialProducer()
+    grid = cube(round(nodes ** (1 / 3)) - 1)[0]
+    box.GetClientSideObject().SetOutput(grid)
+    seconds = {box: [], source: []}
+    for _ in range(repeats):
+        for mesh, of in seconds.items():
+            of.append(ours(mesh, motion, "FEMWARP")[1])
+    ours_least, hexahedra = min(seconds[source]), min(seconds[box])
+    print(f"\nFEMWARP: {ours_least:.2f} s on {nodes} nodes of polyhedra, {hexahedra:.2f} s on "
+          f"{grid.GetNumberOfPoints()} of hexahedra; a node takes "
+          f"{ours_least / nodes / (hexahedra / grid.GetNumberOfPoints()):.2f} times as long.")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--cells", type=int, default=10, help="boxes along x and y (default 10)")
@@ -171,6 +191,7 @@ def main():
             moved, seconds = ours(source, motion, method)
             case.write_points(moved)
             report(method, seconds, case.run("checkMesh", "-time", "0"), *inverted(moved))
+        against_hexahedra(source, motion)
 
 
 if __name__ == "__main__":

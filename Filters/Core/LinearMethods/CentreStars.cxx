@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 
 namespace morph
 {
 namespace
 {
-// Pairs that a star may couple beyond its nodes: a centre that goes takes along vectors of the
-// iteration, which cost as much.
+// So many more pairs may be coupled: the vectors of the iteration lose the centre, so that a step
+// costs no more.
 constexpr int MostAdded = 8;
 constexpr Index Grain = 4096;
 
@@ -30,8 +31,8 @@ public:
       for (int k = 0; k < shape.numberOfCorners; ++k)
       {
         const Index node = mesh.cell(*cell)[shape.cornerNode[k]];
-        if (node != centre && std::find(this->nodes_.begin(), this->nodes_.end(), node) ==
-                                this->nodes_.end())
+        if (node != centre &&
+            std::find(this->nodes_.begin(), this->nodes_.end(), node) == this->nodes_.end())
         {
           this->nodes_.push_back(node);
         }
@@ -108,8 +109,7 @@ CentreStars::CentreStars(
     std::for_each(around.begin(*centre), around.end(*centre),
       [&](Index cell) { this->ofCell_[cell] = static_cast<int>(this->centres_.size()); });
     this->centres_.push_back(*centre);
-    this->nodes_.values.insert(
-      this->nodes_.values.end(), star.nodes().begin(), star.nodes().end());
+    this->nodes_.values.insert(this->nodes_.values.end(), star.nodes().begin(), star.nodes().end());
     this->nodes_.offsets.push_back(static_cast<Index>(this->nodes_.values.size()));
   }
   this->weights_.assign(this->nodes_.values.size(), 0);
@@ -136,10 +136,20 @@ CentreStars::CentreStars(
   offsets.pop_back();
 }
 
+std::vector<Index> CentreStars::others(const std::vector<Index>& free) const
+{
+  std::vector<Index> result;
+  result.reserve(free.size() - this->centres_.size());
+  std::set_difference(free.begin(), free.end(), this->centres_.begin(), this->centres_.end(),
+    std::back_inserter(result));
+  return result;
+}
+
 void CentreStars::assembled(Index nodes, const NodePartition& partition)
 {
-  this->ofCell_ = {};
-  this->ofNode_ = {};
+  // Unlike = {}, this frees a vector.
+  std::vector<int>().swap(this->ofCell_);
+  this->ofNode_ = Adjacency();
   if (this->centres_.empty())
   {
     return;
@@ -156,13 +166,13 @@ void CentreStars::assembled(Index nodes, const NodePartition& partition)
   const auto placesOf = [&](const std::vector<Index>& ids)
   {
     std::vector<int> places(ids.size());
-    std::transform(
-      ids.begin(), ids.end(), places.begin(), [&](Index node) { return place[node]; });
+    std::transform(ids.begin(), ids.end(), places.begin(), [&](Index node) { return place[node]; });
     return places;
   };
   this->rowOfCentre_ = placesOf(this->centres_);
   this->places_ = placesOf(this->nodes_.values);
-  this->nodes_.values = {};
+  std::vector<Index>().swap(this->nodes_.values);
+  std::vector<Index>().swap(this->centres_);
 }
 
 namespace
@@ -218,8 +228,8 @@ void CentreStars::recoverTranspose(Points& free, Points& prescribed) const
 
 std::size_t CentreStars::memory() const
 {
-  return sizeof(Index) * (this->centres_.size() + this->nodes_.offsets.size() +
-                           this->nodes_.values.size()) +
+  return sizeof(Index) *
+           (this->centres_.size() + this->nodes_.offsets.size() + this->nodes_.values.size()) +
          sizeof(Index) * (this->ofNode_.offsets.size() + this->ofNode_.values.size()) +
          sizeof(double) * this->weights_.size() +
          sizeof(int) * (this->ofCell_.size() + this->rowOfCentre_.size() + this->places_.size());

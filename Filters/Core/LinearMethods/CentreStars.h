@@ -15,8 +15,8 @@ namespace morph
 /// assembled (static condensation). A star is such a centre with the cells around it. It enters the
 /// equations like one cell of its other nodes, and the centre is a weighted mean of these.
 ///
-/// No two centres of the list share a cell. A star has at most 16 nodes beside its centre, and
-/// couples at most 8 pairs of them more than its centre did, so that the matrix stays sparse.
+/// No two of these centres share a cell. A star has at most 16 nodes beside its centre. It couples
+/// at most 8 pairs of them more than its centre did, so that the matrix stays sparse.
 class CentreStars
 {
 public:
@@ -25,10 +25,12 @@ public:
   CentreStars() = default;
   /// Chooses among the `free` nodes, ascending, from `firstCentre` on. `around`: nodeToCells(mesh).
   /// Cost: a pass over the cells around these nodes.
-  CentreStars(const Mesh& mesh, const std::vector<Index>& free, Index firstCentre,
-    const Adjacency& around);
+  CentreStars(
+    const Mesh& mesh, const std::vector<Index>& free, Index firstCentre, const Adjacency& around);
 
   Index size() const { return static_cast<Index>(this->centres_.size()); }
+  /// Returns the `free` nodes that are no such centres.
+  std::vector<Index> others(const std::vector<Index>& free) const;
   /// The centres, ascending.
   const std::vector<Index>& centres() const { return this->centres_; }
   Index centre(Index star) const { return this->centres_[star]; }
@@ -42,7 +44,7 @@ public:
   /// The weights of a star's nodes in its centre, to be set where the equations are assembled.
   double* weights(Index star) { return this->weights_.data() + this->nodes_.offsets[star]; }
 
-  /// Keeps what the methods below need, and frees the rest. `nodes`: of the mesh.
+  /// Keeps what the methods below need, and frees what those above give. `nodes`: #nodes.
   void assembled(Index nodes, const NodePartition& partition);
   /// Sets the centres' rows of `free`, #free rows, from those of their nodes in `free` and in
   /// `prescribed`, #prescribed rows.
@@ -62,6 +64,7 @@ private:
   std::vector<int> ofCell_;
   Adjacency ofNode_;
   std::vector<int> rowOfCentre_; ///< of `free`
-  std::vector<int> places_;      ///< of nodes_.values: the row i of `free`, or -1 - i of `prescribed`
+  /// Of nodes_.values: the row i of `free`, or -1 - i for the row i of `prescribed`.
+  std::vector<int> places_;
 };
 }

@@ -114,7 +114,7 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
   Monitor& monitor);
 
 /// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,
-/// or #free x 4. Those that are no rows of the matrix are left out, and stay.
+/// or #free x 4. Free nodes without a row are left out, and their rows of `free` stay.
 ///@{
 Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
 void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,

@@ -8,9 +8,8 @@
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string>
+#include <utility>
 
 namespace morph
 {
@@ -40,17 +39,17 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const std::vector<double> factors =
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
-  const Adjacency around = nodeToCells(rest);
+  Adjacency around = nodeToCells(rest);
   // Where the stiffness varies, the fit that is taken off would have to be taken off centres, too.
-  this->stars_ = this->isUniform_
-                   ? CentreStars(rest, partition.free, this->firstCentre(), around)
-                   : CentreStars();
-  std::vector<Index> kept;
-  std::set_difference(partition.free.begin(), partition.free.end(), this->stars_.centres().begin(),
-    this->stars_.centres().end(), std::back_inserter(kept));
-  this->rows_ = unknownOrdering(rest, kept);
+  this->stars_ = this->isUniform_ ? CentreStars(rest, partition.free, this->firstCentre(), around)
+                                  : CentreStars();
+  if (this->stars_.size() == static_cast<Index>(partition.free.size()))
+  {
+    this->stars_ = CentreStars(); // a matrix without rows is none
+  }
+  this->rows_ = unknownOrdering(rest, this->stars_.others(partition.free));
   FemWarpSystem system = femWarpSystem(
-    rest, around, this->rows_, partition.prescribed, factors, this->stars_, monitor);
+    rest, std::move(around), this->rows_, partition.prescribed, factors, this->stars_, monitor);
   this->stars_.assembled(rest.numberOfNodes(), partition);
   if (system.hasBadCells)
   {

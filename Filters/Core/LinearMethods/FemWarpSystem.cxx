@@ -22,8 +22,8 @@ namespace
 constexpr Index Grain = 4096;
 constexpr std::size_t MostIds = 100; // in a warning
 
-/// Stiffness matrices of the elements, upper triangles one after another: first of the volume cells
-/// outside of stars, then of the stars.
+/// Stiffness matrices of the elements: upper triangles, one after another. Those of the volume
+/// cells outside of stars come first, and then those of the stars.
 struct ElementMatrices
 {
   std::vector<Index> start; ///< #cells + #stars + 1
@@ -78,8 +78,9 @@ public:
     }
     // The sign of a tetrahedron or pyramid is that of its corners.
     const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
-    this->isBad_[c] = sign != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
-                                     !(scaledJacobian(this->mesh_.types[c], corners) > 0));
+    this->isBad_[c] =
+      sign != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
+                     !(scaledJacobian(this->mesh_.types[c], corners) > 0));
   }
 
   bool isAnyBad() const
@@ -119,12 +120,14 @@ bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, Cen
     {
       for (int b = a; b < shape.numberOfCorners; ++b, ++k)
       {
-        sum[std::min(place[a], place[b])][std::max(place[a], place[b])] += part[k];
+        const bool isTwice = a != b && place[a] == place[b]; // (a, b) and (b, a)
+        sum[std::min(place[a], place[b])][std::max(place[a], place[b])] +=
+          isTwice ? 2 * part[k] : part[k];
       }
     }
   }
   const double diagonal = sum[n][n];
-  const bool isUsable = diagonal > 0 && std::isfinite(diagonal);
+  const bool isUsable = diagonal > 0 && std::isfinite(diagonal) && std::isfinite(1 / diagonal);
   const double inverse = isUsable ? 1 / diagonal : 0;
   for (int a = 0, k = 0; a < n; ++a)
   {
@@ -154,9 +157,8 @@ ElementMatrices elementMatrices(const Mesh& mesh, const Adjacency& around,
   }
   for (Index s = 0; s < stars.size(); ++s)
   {
-    result.start.push_back(
-      result.start.back() +
-      triangleSize(static_cast<int>(stars.nodes().end(s) - stars.nodes().begin(s))));
+    result.start.push_back(result.start.back() + triangleSize(static_cast<int>(
+                                                   stars.nodes().end(s) - stars.nodes().begin(s))));
   }
   result.K.resize(result.start.back());
 
@@ -253,7 +255,8 @@ private:
 };
 
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
-/// sums do not depend on threads, and the matrix is symmetric to the last bit. Stars come last.
+/// sums do not depend on threads. Stars come last in all rows, so that the matrix is symmetric to
+/// the last bit, except where edges of cells are collapsed.
 std::vector<SplitRows> gatherRows(const Mesh& mesh, const Adjacency& around,
   const std::vector<Index>& free, const std::vector<Index>& prescribed,
   const std::vector<double>& factors, CentreStars& stars, FemWarpSystem& system, Monitor& monitor)
@@ -381,14 +384,15 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   return femWarpSystem(mesh, nodeToCells(mesh), rows, prescribed, factors, none, monitor);
 }
 
-FemWarpSystem femWarpSystem(const Mesh& mesh, const Adjacency& around,
-  const std::vector<Index>& rows, const std::vector<Index>& prescribed,
-  const std::vector<double>& factors, CentreStars& stars, Monitor& monitor)
+FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vector<Index>& rows,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  Monitor& monitor)
 {
   FemWarpSystem system;
   // Frees the elements' matrices before the rows are joined.
   std::vector<SplitRows> chunks =
     gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
+  around = {};
   monitor.check();
   monitor.progress(0.5);
   joinRows(system.interior, static_cast<Index>(rows.size()), chunks, &SplitRows::interior, monitor);

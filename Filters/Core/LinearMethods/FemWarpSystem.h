@@ -18,8 +18,8 @@ struct FemWarpSystem
   CsrMatrix interior; ///< A_I, #rows x #rows
   CsrMatrix coupling; ///< A_B, #rows x #prescribed
 
-  std::vector<std::int8_t> cellSign; ///< #cells, from elementStiffness()
-  bool hasBadCells = false;          ///< some cell may be inverted or flat; see badCells()
+  std::vector<std::int8_t> cellSign;  ///< #cells, from elementStiffness()
+  bool hasBadCells = false;           ///< some cell may be inverted or flat; see badCells()
   std::vector<Index> singularCentres; ///< node ids of eliminated centres without stiffness
 };
 
@@ -30,10 +30,10 @@ struct FemWarpSystem
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor);
 /// The same without the centres of `stars`, which are no rows. Sets the weights of the stars.
-/// `around`: nodeToCells(mesh).
-FemWarpSystem femWarpSystem(const Mesh& mesh, const Adjacency& around,
-  const std::vector<Index>& rows, const std::vector<Index>& prescribed,
-  const std::vector<double>& factors, CentreStars& stars, Monitor& monitor);
+/// `around`: nodeToCells(mesh), to be freed once it has been used.
+FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vector<Index>& rows,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  Monitor& monitor);
 
 /// Ids of cells that are no good reference, ascending.
 struct BadCells

@@ -40,7 +40,8 @@ public:
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
   /// Nodes from this id on are centres of polyhedra and of their faces: a method may eliminate them
-  /// before it solves. Call it before prepare(). Default: no node is one.
+  /// before it solves, where the stiffness is uniform. Call it before prepare(). Default: no node is
+  /// one.
   void setFirstCentre(Index node) { this->firstCentre_ = node; }
   Index firstCentre() const { return this->firstCentre_; }
 

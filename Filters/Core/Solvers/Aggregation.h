@@ -11,7 +11,7 @@
 namespace morph
 {
 /// Returns for each entry of A whether its column is a near neighbor of its row. Near means within
-/// sqrt(10) times the distance of the nearest one. `coordinates`: #rows x 3.
+/// sqrt(5) times the distance of the nearest one. `coordinates`: #rows x 3.
 ///
 /// Nearness replaces the size of the entries: a trilinear hexahedron has no entry between nodes
 /// that share an edge, and stretched cells must coarsen along their short side first.

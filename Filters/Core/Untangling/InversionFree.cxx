@@ -78,9 +78,7 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
   try
   {
     this->femWarp_.prepare(rest, this->partition(), monitor);
-    if (this->femWarp_.rows() == unknownOrdering(this->referenceMesh_, this->partition().free) &&
-        this->femWarp_.solver().matrix().rows() ==
-          static_cast<Index>(this->partition().free.size()))
+    if (this->femWarp_.rows() == unknownOrdering(this->referenceMesh_, this->partition().free))
     {
       this->preconditioner_ = std::make_unique<WarpPreconditioner>(this->femWarp_);
     }
