@@ -27,8 +27,10 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 if [ -n "$from" ]; then
+  # A build that began without ccache goes on without it: with another command all would be compiled
+  # again.
+  unset CMAKE_CXX_COMPILER_LAUNCHER
   folder=$from
   cached() { sed -n "s/^CMAKE_INSTALL_$1:[A-Z]*=//p" "$folder/CMakeCache.txt"; }
   install_to() { cmake -DCMAKE_INSTALL_PREFIX="$1" -DCMAKE_INSTALL_LIBDIR="$2" "$folder" >&2; }
@@ -38,6 +40,7 @@ if [ -n "$from" ]; then
   trap 'install_to "$prefix" "$libdir" 2> build/restore.log || cat build/restore.log >&2' EXIT
   install_to /usr "lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)"
 else
+  if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   folder=build/deb
   cmake --preset deb >&2
 fi
