@@ -61,8 +61,11 @@ make_root() {
   mkdir -p "$(dirname "$root")"
   # A root that a power cut spoils is made again: dpkg need not wait for the disk.
   mmdebstrap --variant=apt --include=ca-certificates --dpkgopt=force-unsafe-io \
-    --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} "$suite" "$root.partial" "$mirror" ||
-    { "${as_root[@]}" rm -rf "$root.partial"; unavailable "mmdebstrap could not make it from $mirror"; }
+    --aptopt='Acquire::Retries "3"' ${options[@]+"${options[@]}"} \
+    "$suite" "$root.partial" "$mirror" || {
+    "${as_root[@]}" rm -rf "$root.partial"
+    unavailable "mmdebstrap could not make it from $mirror"
+  }
   "${as_root[@]}" mv "$root.partial" "$root"
 }
 

@@ -39,9 +39,9 @@ public:
   void setStiffness(CellStiffness stiffness);
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
-  /// Nodes from this id on are centres of polyhedra and of their faces: a method may eliminate them
-  /// before it solves, where the stiffness is uniform. Call it before prepare(). Default: no node is
-  /// one.
+  /// Nodes from this id on are centres of polyhedra and of their faces. A method may eliminate them
+  /// before it solves, where the stiffness is uniform. Call it before prepare(). Default: none is
+  /// such a centre.
   void setFirstCentre(Index node) { this->firstCentre_ = node; }
   Index firstCentre() const { return this->firstCentre_; }
 
