@@ -201,6 +201,17 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
     });
 }
 
+double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor) const
+{
+  const std::lock_guard<std::mutex> lock(this->mutex_);
+  if (this->value_ == Unknown)
+  {
+    this->value_ = affineResidual(equations.points, equations.rows, equations.partition,
+      equations.interior, equations.coupling, monitor);
+  }
+  return this->value_;
+}
+
 bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,
   Monitor& monitor, const std::function<void(const MultiVector&, MultiVector&)>& solver) const
 {
@@ -208,8 +219,8 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
   const double affine = AffineShare * tolerance;
   const AffineGuess::Fits fits = this->guess.fits(prescribed);
   firstGuess(this->points, this->rows, this->guess, fits, x, monitor);
-  if ((!this->isUniform || this->affineResidual <= affine) &&
-      this->guess.agree(this->points, this->partition, prescribed, fits, affine))
+  if (this->guess.agree(this->points, this->partition, prescribed, fits, affine) &&
+      (!this->isUniform || this->affineResidual.of(*this, monitor) <= affine))
   {
     return false;
   }

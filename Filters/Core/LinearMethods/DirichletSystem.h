@@ -10,6 +10,7 @@
 #include "Support/Monitor.h"
 
 #include <functional>
+#include <mutex>
 #include <vector>
 
 namespace morph
@@ -89,16 +90,34 @@ void rightHandSide(
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
+struct DirichletEquations;
+
+/// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
+class AffineResidual
+{
+public:
+  /// The equations are others from now on.
+  void reset() { this->value_ = Unknown; }
+  /// Several threads may call it at once. Cost of the first call: that of affineResidual().
+  double of(const DirichletEquations& equations, Monitor& monitor) const;
+
+private:
+  static constexpr double Unknown = -1;
+  mutable std::mutex mutex_;
+  mutable double value_ = Unknown;
+};
+
 /// Equations A_I U_I = -A_B U_B with their guess. It has references alone.
 struct DirichletEquations
 {
   const Points& points; ///< undeformed
   const NodePartition& partition;
   const std::vector<Index>& rows;
+  const CsrMatrix& interior; ///< A_I
   const CsrMatrix& coupling; ///< A_B
   const AffineGuess& guess;
-  bool isUniform;        ///< affine motions solve them, but for rounding
-  double affineResidual; ///< affineResidual(), where they are uniform
+  bool isUniform;                       ///< affine motions solve them, but for rounding
+  const AffineResidual& affineResidual; ///< asked where they are uniform
 
   /// Solves to `tolerance`, and sets `x`, #rows. `solver(rhs, x)` solves A_I X = rhs from the guess
   /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is

@@ -69,8 +69,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
-  this->affineResidual_ =
-    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
+  this->affineResidual_.reset();
   try
   {
     ProgressRange last(monitor, 0.6, 1);
@@ -92,7 +91,8 @@ EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Mon
 {
   SolveReport report;
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
-    this->coupling_, this->guess_, this->isUniform_, this->affineResidual_ };
+    this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
+    this->affineResidual_ };
   const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const MultiVector& rhs, MultiVector& solution)
     {

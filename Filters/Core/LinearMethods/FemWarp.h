@@ -70,6 +70,6 @@ private:
   CsrMatrix coupling_;
   AffineGuess guess_;
   bool isUniform_ = true;
-  double affineResidual_ = 0; ///< of the equations, see affineResidual()
+  AffineResidual affineResidual_;
 };
 }

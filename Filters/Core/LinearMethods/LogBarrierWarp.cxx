@@ -74,8 +74,7 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const Points coordinates = rest.points(this->rows_, allColumns);
   this->coupling_.swap(system.coupling);
-  this->affineResidual_ =
-    affineResidual(rest.points, this->rows_, partition, system.interior, this->coupling_, monitor);
+  this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(system.interior, coordinates, last);
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
@@ -98,7 +97,8 @@ EvaluateReport LogBarrierWarp::solve(
 {
   GeneralSolver::Report solved;
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
-    this->coupling_, this->guess_, this->isUniform_, this->affineResidual_ };
+    this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
+    this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const MultiVector& rhs, MultiVector& solution)
     { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });

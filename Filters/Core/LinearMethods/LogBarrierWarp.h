@@ -88,7 +88,7 @@ private:
   CsrMatrix coupling_;
   AffineGuess guess_;
   bool isUniform_ = true;
-  double affineResidual_ = 0; ///< of the equations, see affineResidual()
+  AffineResidual affineResidual_;
   double meanWeightIterations_ = 0;
   int mostWeightIterations_ = 0;
   std::vector<Statistic> outsideCounts_;

@@ -124,10 +124,11 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
 }
 
 CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
-  const std::vector<std::uint8_t>& near, const std::vector<int>& group, Monitor& monitor)
+  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
+  Monitor& monitor)
 {
   const float omega = 4.f / 3.f / eigenvalue;
-  return assembleRows<float>(A.rows, monitor,
+  return assembleRows<float>(A.rows, groups, monitor,
     [&](int i, const auto& add)
     {
       float diagonal = 0, own = 0;

@@ -25,8 +25,9 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
 
 /// Returns the smoothed prolongation from aggregates, P = (I - omega D^-1 A_F) T. T is
 /// constant on each aggregate. A_F keeps the near neighbors and adds the other entries to its
-/// diagonal. `eigenvalue`: the largest one of D^-1 A. Source: Vanek, Mandel, Brezina, Computing 56
-/// (1996) 179-196.
+/// diagonal. `eigenvalue`: the largest one of D^-1 A. `groups`: the number of aggregates. Source:
+/// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
 CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
-  const std::vector<std::uint8_t>& near, const std::vector<int>& group, Monitor& monitor);
+  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
+  Monitor& monitor);
 }

@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
+#include "Solvers/DenseColumnMap.h"
 #include "Solvers/LocalColumnMap.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
@@ -15,11 +16,13 @@ namespace morph
 {
 /// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
 /// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
-/// have the order of their first call. Cost: no memory beside the chunks' rows.
+/// have the order of their first call. `columns`: of the matrix. Cost: no memory beside the chunks'
+/// rows, and 1 MiB a range of threads at most.
 template <typename Scalar, typename MakeRow>
-CsrRows<Scalar> assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
+CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
 {
   constexpr Index Grain = 4096;
+  constexpr int FewColumns = 1 << 18; // a table of them stays in a core's cache
   struct Chunk
   {
     std::vector<int> size, column;
@@ -30,33 +33,43 @@ CsrRows<Scalar> assembleRows(int rows, Monitor& monitor, const MakeRow& makeRow)
   monitor.parallelFor(chunks, 1,
     [&](Index firstChunk, Index lastChunk)
     {
-      LocalColumnMap local; // of the columns in a row
-      Chunk scratch;        // keeps its capacity between chunks
-      for (Index c = firstChunk; c < lastChunk; ++c)
+      Chunk scratch;                          // keeps its capacity between chunks
+      const auto makeChunks = [&](auto local) // the columns in a row
       {
-        scratch.size.clear();
-        scratch.column.clear();
-        scratch.value.clear();
-        const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
-        for (int i = static_cast<int>(c * Grain); i < last; ++i)
+        for (Index c = firstChunk; c < lastChunk; ++c)
         {
-          const std::size_t start = scratch.column.size();
-          local.clear();
-          makeRow(i,
-            [&](int column, Scalar value)
-            {
-              const std::size_t at = start + local.localIndex(column);
-              if (at < scratch.column.size())
+          scratch.size.clear();
+          scratch.column.clear();
+          scratch.value.clear();
+          const int last = static_cast<int>(std::min<Index>(rows, (c + 1) * Grain));
+          for (int i = static_cast<int>(c * Grain); i < last; ++i)
+          {
+            const std::size_t start = scratch.column.size();
+            local.clear();
+            makeRow(i,
+              [&](int column, Scalar value)
               {
-                scratch.value[at] += value;
-                return;
-              }
-              scratch.column.push_back(column);
-              scratch.value.push_back(value);
-            });
-          scratch.size.push_back(static_cast<int>(scratch.column.size() - start));
+                const std::size_t at = start + local.localIndex(column);
+                if (at < scratch.column.size())
+                {
+                  scratch.value[at] += value;
+                  return;
+                }
+                scratch.column.push_back(column);
+                scratch.value.push_back(value);
+              });
+            scratch.size.push_back(static_cast<int>(scratch.column.size() - start));
+          }
+          parts[c] = scratch;
         }
-        parts[c] = scratch;
+      };
+      if (columns <= FewColumns)
+      {
+        makeChunks(DenseColumnMap(columns));
+      }
+      else
+      {
+        makeChunks(LocalColumnMap());
       }
     });
 

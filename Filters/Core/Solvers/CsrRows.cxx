@@ -10,9 +10,10 @@ namespace morph
 namespace
 {
 template <typename ScalarA, typename ScalarB>
-CsrRows<double> multiply(const CsrRows<ScalarA>& A, const CsrRows<ScalarB>& B, Monitor& monitor)
+CsrRows<double> multiply(
+  const CsrRows<ScalarA>& A, const CsrRows<ScalarB>& B, int columns, Monitor& monitor)
 {
-  return assembleRows<double>(A.rows, monitor,
+  return assembleRows<double>(A.rows, columns, monitor,
     [&](int i, const auto& add)
     {
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
@@ -54,13 +55,15 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns)
   return result;
 }
 
-CsrRows<double> product(const CsrRows<double>& A, const CsrRows<float>& B, Monitor& monitor)
+CsrRows<double> product(
+  const CsrRows<double>& A, const CsrRows<float>& B, int columns, Monitor& monitor)
 {
-  return multiply(A, B, monitor);
+  return multiply(A, B, columns, monitor);
 }
 
-CsrRows<double> product(const CsrRows<float>& A, const CsrRows<double>& B, Monitor& monitor)
+CsrRows<double> product(
+  const CsrRows<float>& A, const CsrRows<double>& B, int columns, Monitor& monitor)
 {
-  return multiply(A, B, monitor);
+  return multiply(A, B, columns, monitor);
 }
 }

@@ -51,10 +51,12 @@ inline Eigen::Vector4f rowProduct(const CsrRows<float>& A, int i, const FloatMul
 /// Returns the transpose of A, which has `columns` columns. Cost: two passes over the entries.
 CsrRows<float> transpose(const CsrRows<float>& A, int columns);
 
-/// Returns A B in double precision. The result does not depend on threads. Throws Error if an int
-/// cannot number its entries. Cost: the products.
+/// Returns A B in double precision; B has `columns` columns. The result does not depend on threads.
+/// Throws Error if an int cannot number its entries. Cost: the products.
 ///@{
-CsrRows<double> product(const CsrRows<double>& A, const CsrRows<float>& B, Monitor& monitor);
-CsrRows<double> product(const CsrRows<float>& A, const CsrRows<double>& B, Monitor& monitor);
+CsrRows<double> product(
+  const CsrRows<double>& A, const CsrRows<float>& B, int columns, Monitor& monitor);
+CsrRows<double> product(
+  const CsrRows<float>& A, const CsrRows<double>& B, int columns, Monitor& monitor);
 ///@}
 }

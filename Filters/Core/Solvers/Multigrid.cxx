@@ -100,14 +100,14 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     progress(0.2);
     level.eigenvalue = largestEigenvalue(A, level.inverseDiagonal, monitor);
     progress(0.3);
-    level.P = smoothedProlongation(A, level.eigenvalue, near, group, monitor);
+    level.P = smoothedProlongation(A, level.eigenvalue, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
     progress(0.4);
 
-    ExactMatrix right = product(exact, level.P, monitor);
+    ExactMatrix right = product(exact, level.P, groups, monitor);
     progress(0.7);
-    ExactMatrix coarse = product(level.R, right, monitor);
+    ExactMatrix coarse = product(level.R, right, groups, monitor);
     right = {};
     progress(1);
     left *= 0.125;
