@@ -29,8 +29,9 @@ namespace morph
 ///
 /// prepare(): one pass over the cells. It keeps about 0.7 kB a node of a hexahedral mesh and 0.5 kB
 /// of a tetrahedral one. evaluate(): conjugate gradients to 1e-10, nearly independent of the mesh's
-/// size. They take 7 iterations on a cube of hexahedra, 10 on tetrahedra and wedges, 20 where
-/// layers grow by 1.6. Slivers take more: 640 where many have a height of 1e-6.
+/// size. On a cube twisted by 45 degrees they take 9 iterations for hexahedra, 10 for tetrahedra, 12
+/// for wedges, and 13 where layers of hexahedra grow by 1.2. Slivers take hundreds where many have a
+/// height of 1e-6.
 class FemWarp : public StiffMorpher
 {
 public:
