@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several threads with one prepared object; for the linear methods see TestLinearMorphers.cxx.
+#include "LinearMethods/FemWarp.h"
 #include "Meshes.h"
 #include "Motions.h"
 #include "Untangling/InversionFree.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -16,7 +18,14 @@ using namespace morph;
 
 namespace
 {
-void expectSameBits(Morpher& method)
+using Motion = std::function<motions::Row(const motions::Row& x, int thread)>;
+
+motions::Row twisted(const motions::Row& x, int thread)
+{
+  return motions::twist(x, 6, 5, .7 * (thread + 1));
+}
+
+void expectSameBits(Morpher& method, const Motion& motion = twisted)
 {
   Mesh mesh = meshes::hexes(6, 5, 5);
   meshes::jitterInterior(mesh, .2, meshes::seed());
@@ -27,8 +36,8 @@ void expectSameBits(Morpher& method)
   Points target[Threads], expected[Threads];
   for (int t = 0; t < Threads; ++t)
   {
-    target[t] = motions::targets(mesh, partition,
-      [&](const motions::Row& x) { return motions::twist(x, 6, 5, .7 * (t + 1)); });
+    target[t] =
+      motions::targets(mesh, partition, [&](const motions::Row& x) { return motion(x, t); });
     method.evaluate(target[t], expected[t], monitor);
   }
   method.prepare(mesh, partition, monitor);
@@ -63,4 +72,12 @@ TEST(Concurrency, SmoothingGivesTheSameBits)
 {
   Smoothing method;
   expectSameBits(method);
+}
+
+// Only affine motions ask for the residual of affine motions.
+TEST(Concurrency, FemWarpGivesTheSameBitsForAffineMotions)
+{
+  FemWarp method;
+  expectSameBits(
+    method, [](const motions::Row& x, int thread) { return motions::affine((thread + 1) * x); });
 }

@@ -60,11 +60,18 @@ TEST(CsrRows, ProductsDoNotDependOnHowColumnsAreNumbered)
   const CsrRows<double> A = randomRows<double>(Rows, Inner, random);
   const CsrRows<float> B = randomRows<float>(Inner, Columns, random);
   meshes::ThreadedMonitor monitor(2);
-  const CsrRows<double> few = product(A, B, Columns, monitor);
-  const CsrRows<double> many = product(A, B, Many, monitor);
-  EXPECT_EQ(few.ownStart, many.ownStart);
-  EXPECT_TRUE((few.ownColumn == many.ownColumn).all());
-  EXPECT_TRUE((few.ownValue == many.ownValue).all());
-  const Eigen::MatrixXd expected = dense(A, Inner) * dense(B, Columns);
-  EXPECT_LT((dense(few, Columns) - expected).cwiseAbs().maxCoeff(), 1e-13);
+  const CsrRows<float> C = randomRows<float>(Rows, Inner, random);
+  const CsrRows<double> D = randomRows<double>(Inner, Columns, random);
+  const auto expectProduct =
+    [](const CsrRows<double>& few, const CsrRows<double>& many, const Eigen::MatrixXd& expected)
+  {
+    ASSERT_EQ(few.ownStart, many.ownStart);
+    EXPECT_TRUE((few.ownColumn == many.ownColumn).all());
+    EXPECT_TRUE((few.ownValue == many.ownValue).all());
+    EXPECT_LT((dense(few, Columns) - expected).cwiseAbs().maxCoeff(), 1e-13);
+  };
+  expectProduct(product(A, B, Columns, monitor), product(A, B, Many, monitor),
+    dense(A, Inner) * dense(B, Columns));
+  expectProduct(product(C, D, Columns, monitor), product(C, D, Many, monitor),
+    dense(C, Inner) * dense(D, Columns));
 }

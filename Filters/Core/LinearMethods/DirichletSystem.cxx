@@ -203,13 +203,14 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
 
 double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor) const
 {
-  const std::lock_guard<std::mutex> lock(this->mutex_);
-  if (this->value_ == Unknown)
+  double value = this->value_;
+  if (value == Unknown)
   {
-    this->value_ = affineResidual(equations.points, equations.rows, equations.partition,
+    value = affineResidual(equations.points, equations.rows, equations.partition,
       equations.interior, equations.coupling, monitor);
+    this->value_ = value;
   }
-  return this->value_;
+  return value;
 }
 
 bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,

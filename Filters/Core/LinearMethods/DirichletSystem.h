@@ -9,8 +9,8 @@
 #include "Solvers/RowComponents.h"
 #include "Support/Monitor.h"
 
+#include <atomic>
 #include <functional>
-#include <mutex>
 #include <vector>
 
 namespace morph
@@ -98,13 +98,12 @@ class AffineResidual
 public:
   /// The equations are others from now on.
   void reset() { this->value_ = Unknown; }
-  /// Several threads may call it at once. Cost of the first call: that of affineResidual().
+  /// Several threads may call it at once. Cost of the first calls: that of affineResidual().
   double of(const DirichletEquations& equations, Monitor& monitor) const;
 
 private:
   static constexpr double Unknown = -1;
-  mutable std::mutex mutex_;
-  mutable double value_ = Unknown;
+  mutable std::atomic<double> value_{ Unknown }; // whoever computes it, it is the same
 };
 
 /// Equations A_I U_I = -A_B U_B with their guess. It has references alone.

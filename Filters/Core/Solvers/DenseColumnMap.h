@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace morph
@@ -10,7 +11,7 @@ namespace morph
 class DenseColumnMap
 {
 public:
-  /// Cost: 4 bytes a column.
+  /// Cost: 4 bytes a column, and 4 for each in use.
   explicit DenseColumnMap(int columns)
     : index_(static_cast<std::size_t>(columns), None)
   {
