@@ -2,11 +2,11 @@
 #include "LinearMethods/CentreStars.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/GatherMap.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 
 namespace morph
 {
@@ -118,22 +118,17 @@ CentreStars::CentreStars(
     this->ofCell_.clear();
     return;
   }
-  std::vector<Index>& offsets = this->ofNode_.offsets;
-  offsets.assign(mesh.numberOfNodes() + 2, 0); // one more: each list is filled from its begin
-  for (const Index node : this->nodes_.values)
-  {
-    ++offsets[node + 2];
-  }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  this->ofNode_.values.resize(this->nodes_.values.size());
+  const auto places = static_cast<Index>(this->nodes_.values.size());
+  this->ofNode_ = gatherMap(
+    places, mesh.numberOfNodes(), [&](Index place) { return this->nodes_.values[place]; });
+  std::vector<Index> starOf(static_cast<std::size_t>(places));
   for (Index s = 0; s < this->size(); ++s)
   {
-    for (const Index* node = this->nodes_.begin(s); node != this->nodes_.end(s); ++node)
-    {
-      this->ofNode_.values[offsets[*node + 1]++] = s;
-    }
+    std::fill(
+      starOf.begin() + this->nodes_.offsets[s], starOf.begin() + this->nodes_.offsets[s + 1], s);
   }
-  offsets.pop_back();
+  std::transform(this->ofNode_.values.begin(), this->ofNode_.values.end(),
+    this->ofNode_.values.begin(), [&](Index place) { return starOf[place]; });
 }
 
 std::vector<Index> CentreStars::others(const std::vector<Index>& free) const
@@ -154,19 +149,13 @@ void CentreStars::assembled(Index nodes, const NodePartition& partition)
   {
     return;
   }
-  std::vector<int> place(nodes, 0);
-  for (std::size_t i = 0; i < partition.free.size(); ++i)
-  {
-    place[partition.free[i]] = static_cast<int>(i);
-  }
-  for (std::size_t i = 0; i < partition.prescribed.size(); ++i)
-  {
-    place[partition.prescribed[i]] = -1 - static_cast<int>(i);
-  }
+  const std::vector<std::int32_t> free = inverseIndex(partition.free, nodes);
+  const std::vector<std::int32_t> prescribed = inverseIndex(partition.prescribed, nodes);
   const auto placesOf = [&](const std::vector<Index>& ids)
   {
     std::vector<int> places(ids.size());
-    std::transform(ids.begin(), ids.end(), places.begin(), [&](Index node) { return place[node]; });
+    std::transform(ids.begin(), ids.end(), places.begin(),
+      [&](Index node) { return free[node] >= 0 ? free[node] : -1 - prescribed[node]; });
     return places;
   };
   this->rowOfCentre_ = placesOf(this->centres_);

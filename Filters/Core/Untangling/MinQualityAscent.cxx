@@ -152,12 +152,13 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   const auto canGain = [&]
   { return !hasReached(best, goal) && best + significantGain(best) < goal; };
   double before = best; // the repetition of the high powers
+  const int mostRepetitions = isOfTetrahedra ? 0 : limits.repetitions;
   int repetitions = 0;
   for (int round = 0; round < Rounds && canGain(); ++round)
   {
     if (squarings > LastSquarings)
     {
-      if (repetitions == limits.repetitions || best < WorthRepeating * before)
+      if (repetitions == mostRepetitions || best < WorthRepeating * before)
       {
         break;
       }
@@ -220,9 +221,7 @@ AscentEffort raiseMinimumQuality(
   const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
 {
   AscentEffort effort;
-  const int repetitions =
-    mostlyTetrahedra(measured.mesh(), measured.communicator()) ? 0 : Repetitions;
-  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), repetitions },
+  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), Repetitions },
     points, effort, monitor);
   return effort;
 }
