@@ -3,6 +3,7 @@
 
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,7 +177,7 @@ std::size_t AffineGuess::memory() const
 void rightHandSide(
   const CsrMatrix& coupling, const MultiVector& prescribed, MultiVector& rhs, Monitor& monitor)
 {
-  rhs.resize(static_cast<std::size_t>(coupling.rows()));
+  resizeLarge(rhs, static_cast<std::size_t>(coupling.rows()));
   monitor.parallelFor(coupling.rows(), Grain,
     [&](Index first, Index last)
     {
@@ -190,7 +191,7 @@ void rightHandSide(
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
-  x.resize(rows.size());
+  resizeLarge(x, rows.size());
   monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
     [&](Index first, Index last)
     {

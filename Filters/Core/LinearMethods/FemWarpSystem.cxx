@@ -9,6 +9,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Solvers/LocalColumnMap.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +161,7 @@ ElementMatrices elementMatrices(const Mesh& mesh, const Adjacency& around,
     result.start.push_back(result.start.back() + triangleSize(static_cast<int>(
                                                    stars.nodes().end(s) - stars.nodes().begin(s))));
   }
-  result.K.resize(result.start.back());
+  resizeUndefined(result.K, result.start.back());
 
   CellMatrix cell(mesh, factors, system.cellSign);
   monitor.parallelFor(cells, Grain,
@@ -257,9 +258,9 @@ private:
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
 /// sums do not depend on threads. Stars come last in all rows, so that the matrix is symmetric to
 /// the last bit, except where edges of cells are collapsed.
-std::vector<SplitRows> gatherRows(const Mesh& mesh, const Adjacency& around,
-  const std::vector<Index>& free, const std::vector<Index>& prescribed,
-  const std::vector<double>& factors, CentreStars& stars, FemWarpSystem& system, Monitor& monitor)
+SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  FemWarpSystem& system, Monitor& monitor)
 {
   const ElementMatrices matrices = elementMatrices(mesh, around, factors, stars, system, monitor);
   monitor.check();
@@ -390,14 +391,13 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vecto
 {
   FemWarpSystem system;
   // Frees the elements' matrices before the rows are joined.
-  std::vector<SplitRows> chunks =
-    gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
+  SplitChunks chunks = gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
   around = {};
   monitor.check();
   monitor.progress(0.5);
-  joinRows(system.interior, static_cast<Index>(rows.size()), chunks, &SplitRows::interior, monitor);
-  joinRows(
-    system.coupling, static_cast<Index>(prescribed.size()), chunks, &SplitRows::coupling, monitor);
+  const auto free = static_cast<Index>(rows.size());
+  joinRows(system.interior, free, free, chunks.interior, monitor);
+  joinRows(system.coupling, free, static_cast<Index>(prescribed.size()), chunks.coupling, monitor);
   return system;
 }
 

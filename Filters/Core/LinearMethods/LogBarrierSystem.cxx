@@ -76,15 +76,15 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   monitor.progress(0.1);
 
   const Index n = static_cast<Index>(rows.size());
-  std::vector<Tally> tallies(SplitRows::chunksOf(n));
-  std::vector<SplitRows> chunks = splitRows(n, monitor,
+  std::vector<Tally> tallies(chunksOf(n));
+  SplitChunks chunks = splitRows(n, monitor,
     [&]
     {
       return [&, weights = NodeWeights(mesh, around, columns, factors)](
                Index i, SplitRows& chunk) mutable
       {
         const NodeWeights::Kind kind = weights.compute(rows[i], relax);
-        tallies[i / SplitRows::ChunkRows].count(rows[i], kind, weights.iterations());
+        tallies[i / ChunkRows].count(rows[i], kind, weights.iterations());
         if (kind == NodeWeights::Kind::None)
         {
           append(chunk, static_cast<int>(i), static_cast<int>(n), {}, {});
@@ -112,9 +112,8 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
     iterations += tally.iterations;
   }
   system.meanIterations = n > 0 ? static_cast<double>(iterations) / static_cast<double>(n) : 0;
-  joinRows(system.interior, n, chunks, &SplitRows::interior, monitor);
-  joinRows(
-    system.coupling, static_cast<Index>(prescribed.size()), chunks, &SplitRows::coupling, monitor);
+  joinRows(system.interior, n, n, chunks.interior, monitor);
+  joinRows(system.coupling, n, static_cast<Index>(prescribed.size()), chunks.coupling, monitor);
   return system;
 }
 }

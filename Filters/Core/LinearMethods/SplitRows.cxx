@@ -3,38 +3,27 @@
 
 namespace morph
 {
-void SplitRows::Part::clear()
+void joinRows(CsrMatrix& matrix, Index rows, Index width, SplitChunks::Part& part, Monitor& monitor)
 {
-  this->size.clear();
-  this->column.clear();
-  this->value.clear();
-}
-
-void SplitRows::clear()
-{
-  this->interior.clear();
-  this->coupling.clear();
-}
-
-void joinRows(CsrMatrix& matrix, Index width, std::vector<SplitRows>& chunks,
-  SplitRows::Part SplitRows::*part, Monitor& monitor)
-{
-  std::vector<int> sizes(1, 0);
-  for (const SplitRows& chunk : chunks)
+  Index entries = 0;
+  for (const StoredRows<double>& chunk : part)
   {
-    sizes.insert(sizes.end(), (chunk.*part).size.begin(), (chunk.*part).size.end());
+    entries += static_cast<Index>(chunk.entries());
   }
-  allocateRows(matrix, width, sizes);
-  monitor.parallelFor(static_cast<Index>(chunks.size()), 1,
+  allocateRows(matrix, rows, width, entries);
+  int* start = matrix.outerIndexPtr();
+  start[0] = 0;
+  for (std::size_t c = 0; c < part.size(); ++c)
+  {
+    part[c].number(start + static_cast<Index>(c) * ChunkRows);
+  }
+  monitor.parallelFor(static_cast<Index>(part.size()), 1,
     [&](Index first, Index last)
     {
       for (Index c = first; c < last; ++c)
       {
-        SplitRows::Part& from = chunks[c].*part;
-        const int at = matrix.outerIndexPtr()[c * SplitRows::ChunkRows];
-        std::copy(from.column.begin(), from.column.end(), matrix.innerIndexPtr() + at);
-        std::copy(from.value.begin(), from.value.end(), matrix.valuePtr() + at);
-        from = {};
+        const int at = start[c * ChunkRows];
+        part[c].moveTo(matrix.innerIndexPtr() + at, matrix.valuePtr() + at);
       }
     });
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/RowChunks.h"
 #include "Support/Monitor.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace morph
@@ -13,48 +15,54 @@ namespace morph
 /// are then joined. So no thread needs buffers of the matrix's size.
 struct SplitRows
 {
-  static constexpr Index ChunkRows = 4096;
-  static Index chunksOf(Index rows) { return (rows + ChunkRows - 1) / ChunkRows; }
-
-  struct Part
-  {
-    std::vector<int> size;   ///< entries per row
-    std::vector<int> column; ///< ascending in each row
-    std::vector<double> value;
-
-    void clear();
-  };
+  using Part = RowsInWork<double>; ///< columns ascend in each row
   Part interior, coupling;
 
-  void clear();
+  void clear()
+  {
+    this->interior.clear();
+    this->coupling.clear();
+  }
+};
+
+/// The chunks of both parts.
+struct SplitChunks
+{
+  using Part = std::vector<StoredRows<double>>;
+  Part interior, coupling;
 };
 
 /// Calls makeRow(i, chunk) for the rows in [0, rows), ascending within each chunk; it appends row
 /// i. makeRow = makeRows() is made once per thread's range.
 template <typename MakeRows>
-std::vector<SplitRows> splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
+SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
 {
-  std::vector<SplitRows> chunks(SplitRows::chunksOf(rows));
-  monitor.parallelFor(static_cast<Index>(chunks.size()), 1,
+  SplitChunks chunks;
+  chunks.interior.resize(chunksOf(rows));
+  chunks.coupling.resize(chunksOf(rows));
+  monitor.parallelFor(chunksOf(rows), 1,
     [&](Index first, Index last)
     {
       auto makeRow = makeRows();
       SplitRows scratch; // keeps its capacity between chunks
+      // The coupling is joined when all of the interior is: an arena of its own lets go earlier.
+      const auto interior = std::make_shared<PageArena>(), coupling = std::make_shared<PageArena>();
       for (Index c = first; c < last; ++c)
       {
         scratch.clear();
-        const Index end = std::min(rows, (c + 1) * SplitRows::ChunkRows);
-        for (Index i = c * SplitRows::ChunkRows; i < end; ++i)
+        const Index end = std::min(rows, (c + 1) * ChunkRows);
+        for (Index i = c * ChunkRows; i < end; ++i)
         {
           makeRow(i, scratch);
         }
-        chunks[c] = scratch;
+        chunks.interior[c] = { scratch.interior, interior };
+        chunks.coupling[c] = { scratch.coupling, coupling };
       }
     });
   return chunks;
 }
 
-/// Moves `part` of all chunks into `matrix`, which gets `width` columns, and frees it.
-void joinRows(CsrMatrix& matrix, Index width, std::vector<SplitRows>& chunks,
-  SplitRows::Part SplitRows::*part, Monitor& monitor);
+/// Moves a part of all chunks into `matrix`, which gets `rows` x `width`, and frees it.
+void joinRows(
+  CsrMatrix& matrix, Index rows, Index width, SplitChunks::Part& part, Monitor& monitor);
 }

@@ -7,6 +7,7 @@
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
+#include "Support/HugePages.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -89,10 +90,10 @@ std::vector<Place> outerFacesAmongAll(const Mesh& mesh, Monitor& monitor)
 Adjacency nodeToCells(const Mesh& mesh)
 {
   Adjacency result;
-  result.offsets.assign(mesh.numberOfNodes() + 1, 0);
+  result.offsets = largeVector<Index>(mesh.numberOfNodes() + 1, 0);
   const auto eachCorner = [&mesh](auto&& visit)
   {
-    std::vector<Index> last(mesh.numberOfNodes(), -1); // a collapsed cell repeats nodes
+    auto last = largeVector<Index>(mesh.numberOfNodes(), -1); // a collapsed cell repeats nodes
     for (Index c = 0; c < mesh.numberOfCells(); ++c)
     {
       if (const CellShape* shape = volumeShape(mesh, c))
@@ -111,8 +112,9 @@ Adjacency nodeToCells(const Mesh& mesh)
   };
   eachCorner([&](Index, Index node) { ++result.offsets[node + 1]; });
   std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.values.resize(result.offsets.back());
-  std::vector<Index> next(result.offsets.begin(), result.offsets.end() - 1);
+  resizeLarge(result.values, result.offsets.back());
+  auto next = largeVector<Index>(mesh.numberOfNodes());
+  std::copy(result.offsets.begin(), result.offsets.end() - 1, next.begin());
   eachCorner([&](Index cell, Index node) { result.values[next[node]++] = cell; });
   return result;
 }
@@ -340,8 +342,8 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
   UnionFind<Index> bodies(nodes);
 
   ConnectedComponents result;
-  result.ofCell.assign(mesh.numberOfCells(), -1);
-  result.ofNode.assign(nodes, -1);
+  result.ofCell = largeVector<Index>(mesh.numberOfCells(), -1);
+  result.ofNode = largeVector<Index>(nodes, -1);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (const CellShape* shape = volumeShape(mesh, c))
@@ -354,7 +356,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
     }
   }
   // Numbers bodies in the order of their first cell.
-  std::vector<Index> number(nodes, -1);
+  auto number = largeVector<Index>(nodes, -1);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (const CellShape* shape = volumeShape(mesh, c))

@@ -3,6 +3,7 @@
 
 #include "Mesh/IndexLimits.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 
@@ -99,6 +100,7 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
                                        "goes. Prescribe the boundary's nodes.");
   }
   this->prepared_ = false; // until all members below are consistent
+  resizeUndefined(this->rest_, rest.points.rows(), 3);
   this->rest_ = rest.points;
   this->partition_ = partition;
   this->outside_ = outside(partition, rest.points.rows());
@@ -186,7 +188,7 @@ EvaluateReport Morpher::evaluate(
                         prescribed.data() < moved.data() + moved.size();
   Points fresh;
   Points& result = moved.rows() == this->rest_.rows() && !overlaps ? moved : fresh;
-  result.resize(this->rest_.rows(), 3);
+  resizeUndefined(result, this->rest_.rows(), 3);
   if (this->higherOrderNodes_.empty())
   {
     monitor.parallelFor(freeDisplacement.rows(), Grain,

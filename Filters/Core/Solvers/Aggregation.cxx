@@ -2,6 +2,7 @@
 #include "Solvers/Aggregation.h"
 
 #include "Solvers/AssembleRows.h"
+#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ double distance2(const Points& points, Index i, Index j)
 std::vector<std::uint8_t> nearNeighbors(
   const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
 {
-  std::vector<std::uint8_t> near(A.entries());
+  auto near = largeVector<std::uint8_t>(A.entries());
   monitor.parallelFor(A.rows, Grain,
     [&](Index first, Index last)
     {

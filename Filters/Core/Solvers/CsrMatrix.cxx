@@ -2,9 +2,10 @@
 #include "Solvers/CsrMatrix.h"
 
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 
 #include <limits>
-#include <numeric>
+#include <string>
 
 namespace morph
 {
@@ -17,12 +18,12 @@ void requireEntries(Index entries)
   }
 }
 
-void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes)
+void allocateRows(CsrMatrix& matrix, Index rows, Index width, Index entries)
 {
-  const Index entries = std::accumulate(sizes.begin(), sizes.end(), Index(0));
   requireEntries(entries);
-  matrix.resize(static_cast<Index>(sizes.size()) - 1, width);
-  std::partial_sum(sizes.begin(), sizes.end(), matrix.outerIndexPtr());
+  matrix.resize(rows, width);
   matrix.resizeNonZeros(entries);
+  adviseHugePages(matrix.innerIndexPtr(), entries * sizeof(int));
+  adviseHugePages(matrix.valuePtr(), entries * sizeof(double));
 }
 }

@@ -5,8 +5,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <vector>
-
 namespace morph
 {
 /// A sparse matrix in compressed rows, 12 bytes an entry.
@@ -15,7 +13,7 @@ using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 /// Throws Error if an int cannot number the entries.
 void requireEntries(Index entries);
 
-/// Gives `matrix` the size (#sizes - 1) x width and allocates sizes[i + 1] entries in row i;
-/// sizes[0] is 0. Columns and values are not set. Throws Error as requireEntries().
-void allocateRows(CsrMatrix& matrix, Index width, const std::vector<int>& sizes);
+/// Gives `matrix` the size rows x width and room for `entries`. Starts of rows, columns and values
+/// are not set. Throws Error as requireEntries().
+void allocateRows(CsrMatrix& matrix, Index rows, Index width, Index entries);
 }

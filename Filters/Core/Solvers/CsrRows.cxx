@@ -2,6 +2,7 @@
 #include "Solvers/CsrRows.h"
 
 #include "Solvers/AssembleRows.h"
+#include "Support/HugePages.h"
 
 #include <numeric>
 
@@ -39,8 +40,8 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns)
     ++result.ownStart[A.column[k] + 1];
   }
   std::partial_sum(result.ownStart.begin(), result.ownStart.end(), result.ownStart.begin());
-  result.ownColumn.resize(static_cast<Index>(entries));
-  result.ownValue.resize(static_cast<Index>(entries));
+  resizeUndefined(result.ownColumn, static_cast<Index>(entries));
+  resizeUndefined(result.ownValue, static_cast<Index>(entries));
   std::vector<int> next(result.ownStart.begin(), result.ownStart.end() - 1);
   for (int i = 0; i < A.rows; ++i)
   {

@@ -36,18 +36,6 @@ struct CsrRows
   }
 };
 
-/// Computes (A x)_i for three right-hand sides in single precision.
-inline Eigen::Vector4f rowProduct(const CsrRows<float>& A, int i, const FloatMultiVector& x)
-{
-  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-  const int last = A.start[i + 1];
-  for (int k = A.start[i]; k < last; ++k)
-  {
-    sum += A.value[k] * x[A.column[k]];
-  }
-  return sum;
-}
-
 /// Returns the transpose of A, which has `columns` columns. Cost: two passes over the entries.
 CsrRows<float> transpose(const CsrRows<float>& A, int columns);
 

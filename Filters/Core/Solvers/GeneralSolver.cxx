@@ -4,7 +4,9 @@
 #include "Solvers/Gmres.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
+#include "Solvers/RowProducts.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
@@ -31,15 +33,15 @@ using Two = Eigen::Matrix<double, 4, 2>; ///< two sums in one pass
 struct Workspace
 {
   Workspace(const Multigrid& hierarchy, std::size_t n)
-    : solution(n)
-    , residual(n)
-    , shadow(n)
-    , direction(n)
-    , image(n)
-    , second(n)
-    , scaled(n)
-    , step(n)
-    , secondStep(n)
+    : solution(largeVector<Row>(n))
+    , residual(largeVector<Row>(n))
+    , shadow(largeVector<Row>(n))
+    , direction(largeVector<Row>(n))
+    , image(largeVector<Row>(n))
+    , second(largeVector<Row>(n))
+    , scaled(largeVector<Eigen::Vector4f>(n))
+    , step(largeVector<Eigen::Vector4f>(n))
+    , secondStep(largeVector<Eigen::Vector4f>(n))
     , multigrid(hierarchy)
   {
   }
@@ -133,11 +135,17 @@ struct GeneralSolver::System
 Row GeneralSolver::System::trueResidual(
   const MultiVector& b, Workspace& work, Monitor& monitor) const
 {
-  return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
-    [&](Index i)
+  return reproducibleSumOfBlocks(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index first, Index last)
     {
-      work.residual[i] = b[i] - rowProduct(this->A, i, work.solution);
-      return Row(work.residual[i].cwiseAbs2());
+      Row norm2 = Row::Zero();
+      forRowProducts(this->A, work.solution, first, last,
+        [&](Index i, const Row& product)
+        {
+          work.residual[i] = b[i] - product;
+          norm2 += work.residual[i].cwiseAbs2();
+        });
+      return norm2;
     });
 }
 
@@ -213,11 +221,17 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
     rescale();
     const Row firstUnscale = unscale;
     this->precondition(direction, scale, work, work.step, monitor);
-    const Row along = reproducibleSum(n, monitor, zero,
-      [&](Index i)
+    const Row along = reproducibleSumOfBlocks(n, monitor, zero,
+      [&](Index first, Index last)
       {
-        image[i] = rowProduct(this->A, i, work.step).cwiseProduct(firstUnscale);
-        return Row(image[i].cwiseProduct(work.shadow[i]));
+        Row sum = zero;
+        forRowProducts(this->A, work.step, first, last,
+          [&](Index i, const Row& product)
+          {
+            image[i] = product.cwiseProduct(firstUnscale);
+            sum += image[i].cwiseProduct(work.shadow[i]);
+          });
+        return sum;
       });
     ++report.iterations;
     const Row alpha = ratio(rho, along, running);
@@ -241,12 +255,17 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
 
     rescale();
     this->precondition(residual, scale, work, work.secondStep, monitor);
-    const Two products = reproducibleSum(n, monitor, Two(Two::Zero()),
-      [&](Index i)
+    const Two products = reproducibleSumOfBlocks(n, monitor, Two(Two::Zero()),
+      [&](Index first, Index last)
       {
-        second[i] = rowProduct(this->A, i, work.secondStep).cwiseProduct(unscale);
-        Two pair;
-        pair << second[i].cwiseProduct(residual[i]), second[i].cwiseAbs2();
+        Two pair = Two::Zero();
+        forRowProducts(this->A, work.secondStep, first, last,
+          [&](Index i, const Row& product)
+          {
+            second[i] = product.cwiseProduct(unscale);
+            pair.col(0) += second[i].cwiseProduct(residual[i]);
+            pair.col(1) += second[i].cwiseAbs2();
+          });
         return pair;
       });
     ++report.iterations;

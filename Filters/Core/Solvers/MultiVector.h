@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Support/HugePages.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -28,7 +29,7 @@ MultiVectorRow toRow(const Values& row)
 ///@{
 inline MultiVector toRows(const Points& columns, Monitor& monitor)
 {
-  MultiVector rows(static_cast<std::size_t>(columns.rows()));
+  auto rows = largeVector<MultiVectorRow>(static_cast<std::size_t>(columns.rows()));
   monitor.parallelFor(columns.rows(), 4096,
     [&](Index first, Index last)
     {
@@ -41,7 +42,7 @@ inline MultiVector toRows(const Points& columns, Monitor& monitor)
 }
 inline void fromRows(const MultiVector& rows, Points& columns, Monitor& monitor)
 {
-  columns.resize(static_cast<Index>(rows.size()), 3);
+  resizeUndefined(columns, static_cast<Index>(rows.size()), 3);
   monitor.parallelFor(columns.rows(), 4096,
     [&](Index first, Index last)
     {

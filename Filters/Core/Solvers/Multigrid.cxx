@@ -2,8 +2,9 @@
 #include "Solvers/Multigrid.h"
 
 #include "Solvers/Aggregation.h"
-#include "Solvers/Chebyshev.h"
+#include "Solvers/RowProducts.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,10 @@ constexpr int MostLevels = 20;
 constexpr Index Grain = 4096;
 }
 
-bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
+float Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
 {
   std::vector<std::uint8_t> positive(exact.rows);
-  Level level;
-  level.inverseDiagonal.resize(exact.rows);
+  auto inverseDiagonal = largeVector<float>(exact.rows);
   monitor.parallelFor(exact.rows, Grain,
     [&](Index first, Index last)
     {
@@ -34,19 +34,20 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
         const float diagonal =
           has ? static_cast<float>(exact.value[found - exact.column] / unit) : 0.f;
         positive[i] = diagonal > 0 && std::isfinite(1 / diagonal);
-        level.inverseDiagonal[i] = 1 / diagonal;
+        inverseDiagonal[i] = 1 / diagonal;
       }
     });
   if (std::find(positive.begin(), positive.end(), 0) != positive.end())
   {
-    return false;
+    return 0;
   }
 
+  Level level;
   Matrix& A = level.A;
   A.rows = exact.rows;
   A.ownStart.swap(exact.ownStart);
   A.ownColumn.swap(exact.ownColumn);
-  A.ownValue.resize(static_cast<Index>(exact.entries()));
+  resizeUndefined(A.ownValue, static_cast<Index>(exact.entries()));
   const double scale = 1 / unit;
   monitor.parallelFor(A.ownValue.size(), 16 * Grain,
     [&](Index first, Index last)
@@ -59,8 +60,10 @@ bool Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   A.start = exact.start;
   A.column = exact.column;
   A.value = A.ownValue.data();
+  const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
+  level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
   this->levels_.push_back(std::move(level));
-  return true;
+  return largest;
 }
 
 void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
@@ -75,12 +78,15 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   exact.start = matrix.outerIndexPtr();
   exact.column = matrix.innerIndexPtr();
   exact.value = matrix.valuePtr();
-  if (!this->addLevel(exact, unit, monitor))
+  float largest = this->addLevel(exact, unit, monitor);
+  if (largest == 0)
   {
     throw Error(Error::Kind::Singular,
       "The cells' sizes differ by more than 1e38: their stiffness cannot be solved for together.");
   }
-  Points places = coordinates;
+  Points places;
+  resizeUndefined(places, coordinates.rows(), 3);
+  places = coordinates;
 
   // A level has about an eighth of the rows of the finer one.
   double left = 1;
@@ -97,10 +103,8 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     {
       break; // nothing left to group: this level only has the smoother
     }
-    progress(0.2);
-    level.eigenvalue = largestEigenvalue(A, level.inverseDiagonal, monitor);
     progress(0.3);
-    level.P = smoothedProlongation(A, level.eigenvalue, near, group, groups, monitor);
+    level.P = smoothedProlongation(A, largest, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
     progress(0.4);
@@ -111,7 +115,8 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     right = {};
     progress(1);
     left *= 0.125;
-    if (!this->addLevel(coarse, unit, monitor))
+    largest = this->addLevel(coarse, unit, monitor);
+    if (largest == 0)
     {
       break; // rounding near flat cells spoiled the level
     }
@@ -133,7 +138,6 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
 
   Level& last = this->levels_.back();
   last.P = last.R = {};
-  last.eigenvalue = largestEigenvalue(last.A, last.inverseDiagonal, monitor);
   this->factorizeCoarsest(exact, symmetry, unit);
 }
 
@@ -154,8 +158,8 @@ void Multigrid::prepareTransposed(const Multigrid& other)
     to.column = from.column;
     to.value = from.value;
   };
-  // Both smoothing steps of the cycle are one polynomial in D^-1 A, so transposing the matrices
-  // transposes the cycle.
+  // The cycle smooths alike before and after the coarse correction, so transposing the matrices
+  // transposes it.
   for (const Level& from : other.levels_)
   {
     this->levels_.emplace_back();
@@ -164,8 +168,7 @@ void Multigrid::prepareTransposed(const Multigrid& other)
     level.A.adopt();
     refer(from.P, level.P);
     refer(from.R, level.R);
-    level.inverseDiagonal = from.inverseDiagonal;
-    level.eigenvalue = from.eigenvalue;
+    level.smoother = from.smoother;
   }
 }
 
@@ -230,11 +233,10 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
     // The caller has the finest level's right-hand side and solution.
     if (this->levels_.size() > 1)
     {
-      work.rhs.resize(rows);
-      work.x.resize(rows);
+      resizeLarge(work.rhs, rows);
+      resizeLarge(work.x, rows);
     }
-    work.direction.resize(ChebyshevDegree > 1 ? rows : 0);
-    work.spare.resize(rows);
+    resizeLarge(work.spare, rows);
   }
 }
 
@@ -248,49 +250,35 @@ void Multigrid::cycle(
 {
   const Level& level = this->levels_[k];
   Workspace::Level& work = workspace.levels_[k];
-  const auto smooth = [&](bool fromZero)
-  {
-    chebyshevSmooth(level.A, level.inverseDiagonal, level.eigenvalue, rhs, fromZero, x,
-      work.direction, work.spare, monitor);
-  };
   if (k + 1 == this->levels_.size())
   {
     if (!this->solveCoarsest(rhs, x))
     {
-      smooth(true);
-      smooth(false);
+      level.smoother.start(rhs, x, monitor);
+      level.smoother.step(level.A, rhs, x, work.spare, monitor);
     }
     return;
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
-  smooth(true);
+  level.smoother.start(rhs, x, monitor);
   monitor.parallelFor(level.A.rows, Grain,
     [&](Index first, Index last)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        work.spare[i] = rhs[i] - rowProduct(level.A, static_cast<int>(i), x);
-      }
+      forRowProducts(level.A, x, first, last,
+        [&](Index i, const Eigen::Vector4f& product) { work.spare[i] = rhs[i] - product; });
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
     [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        below.rhs[i] = rowProduct(level.R, static_cast<int>(i), work.spare);
-      }
-    });
+    { rowProducts(level.R, work.spare, first, last, below.rhs.data() + first); });
   this->cycle(k + 1, below.rhs, below.x, workspace, monitor);
   monitor.parallelFor(level.A.rows, Grain,
     [&](Index first, Index last)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        x[i] += rowProduct(level.P, static_cast<int>(i), below.x);
-      }
+      forRowProducts(level.P, below.x, first, last,
+        [&](Index i, const Eigen::Vector4f& product) { x[i] += product; });
     });
-  smooth(false);
+  level.smoother.step(level.A, rhs, x, work.spare, monitor);
 }
 
 std::size_t Multigrid::coarsestBytes() const
@@ -309,10 +297,9 @@ std::size_t Multigrid::memory() const
       bytes += m->ownValue.size() * sizeof(float) +
                (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
-    bytes += level.inverseDiagonal.size() * sizeof(float);
+    bytes += level.smoother.memory();
     const std::size_t vector = level.A.rows * sizeof(Eigen::Vector4f);
-    bytes += (ChebyshevDegree > 1 ? 2 : 1) * vector;
-    bytes += &level == &this->levels_.front() ? 0 : 2 * vector;
+    bytes += (&level == &this->levels_.front() ? 1 : 3) * vector;
   }
   return bytes + this->coarsestBytes();
 }
@@ -324,10 +311,9 @@ double Multigrid::bytesMoved() const
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {
     const Level& level = this->levels_[k];
-    bytes += 2 * ChebyshevDegree * entry *
-             level.A.entries(); // two smoothings with one pass fewer, and one residual
+    bytes += 2 * entry * level.A.entries(); // the residual, and smoothing after the correction
     bytes += entry * (level.P.entries() + level.R.entries());
-    bytes += (4 * (2 * ChebyshevDegree) + 6) * node * level.A.rows;
+    bytes += 11 * node * level.A.rows;
   }
   return bytes + this->coarsestBytes();
 }

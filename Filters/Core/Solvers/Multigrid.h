@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
+#include "Solvers/DampedJacobi.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -16,8 +17,8 @@
 namespace morph
 {
 /// A smoothed-aggregation multigrid preconditioner for three right-hand sides at once. It is one
-/// V-cycle with Chebyshev smoothing, symmetric for a symmetric matrix. Single precision suffices
-/// for a preconditioner and halves memory traffic. Source: Vanek, Mandel, Brezina, Computing 56
+/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. A preconditioner needs
+/// single precision only, which halves memory traffic. Source: Vanek, Mandel, Brezina, Computing 56
 /// (1996) 179-196.
 ///
 /// A matrix that is not symmetric is coarsened by P^T A P. On log-barrier weights this took 4
@@ -53,7 +54,7 @@ public:
     friend class Multigrid;
     struct Level
     {
-      Vector rhs, x, direction, spare;
+      Vector rhs, x, spare;
     };
     std::vector<Level> levels_;
   };
@@ -76,13 +77,13 @@ private:
   {
     Matrix A;
     Matrix P, R; ///< prolongation to this level from the next, and its transpose
-    std::vector<float> inverseDiagonal;
-    float eigenvalue = 0; ///< the largest one of D^-1 A, see largestEigenvalue()
+    DampedJacobi smoother;
   };
 
-  /// Appends the level of `exact`, divided by `unit`, and takes over its structure. Returns false,
-  /// without a level, unless the diagonal is positive and finite.
-  bool addLevel(ExactMatrix& exact, double unit, Monitor& monitor);
+  /// Appends the level of `exact`, divided by `unit`, and takes over its structure. Returns the
+  /// largest eigenvalue of D^-1 A. Where the diagonal is not positive and finite, appends nothing
+  /// and returns 0.
+  float addLevel(ExactMatrix& exact, double unit, Monitor& monitor);
   void factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit);
   bool solveCoarsest(const Vector& rhs, Vector& x) const;
   std::size_t coarsestBytes() const;

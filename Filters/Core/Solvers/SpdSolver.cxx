@@ -3,7 +3,9 @@
 
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
+#include "Solvers/RowProducts.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
@@ -24,11 +26,11 @@ using Rows = MultiVector;
 struct Workspace
 {
   explicit Workspace(const Multigrid& multigrid, std::size_t n)
-    : residual(n)
-    , direction(n)
-    , image(n)
-    , residual32(n)
-    , step32(n)
+    : residual(largeVector<Row>(n))
+    , direction(largeVector<Row>(n))
+    , image(largeVector<Row>(n))
+    , residual32(largeVector<Eigen::Vector4f>(n))
+    , step32(largeVector<Eigen::Vector4f>(n))
     , multigrid(multigrid)
   {
   }
@@ -151,12 +153,18 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
 Row SpdSolver::Implementation::trueResidual(
   const MultiVector& b, const Rows& solution, Workspace& work, Monitor& monitor) const
 {
-  return reproducibleSum(this->A.rows(), monitor, Row(Row::Zero()),
-    [&](Index i)
+  return reproducibleSumOfBlocks(this->A.rows(), monitor, Row(Row::Zero()),
+    [&](Index first, Index last)
     {
-      work.residual[i] = b[i] - rowProduct(this->A, i, solution);
-      work.direction[i] = Row::Zero();
-      return Row(work.residual[i].cwiseAbs2());
+      Row norm2 = Row::Zero();
+      forRowProducts(this->A, solution, first, last,
+        [&](Index i, const Row& product)
+        {
+          work.residual[i] = b[i] - product;
+          work.direction[i] = Row::Zero();
+          norm2 += work.residual[i].cwiseAbs2();
+        });
+      return norm2;
     });
 }
 
@@ -246,11 +254,16 @@ SolveReport SpdSolver::Implementation::iterate(const MultiVector& b, Rows& solut
               work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
           }
         });
-      const Row curvature = reproducibleSum(n, monitor, zero,
-        [&](Index i)
+      const Row curvature = reproducibleSumOfBlocks(n, monitor, zero,
+        [&](Index from, Index to)
         {
-          image[i] = rowProduct(this->A, i, direction);
-          return Row(image[i].cwiseProduct(direction[i]));
+          rowProducts(this->A, direction, from, to, image.data() + from);
+          Row sum = zero;
+          for (Index i = from; i < to; ++i)
+          {
+            sum += image[i].cwiseProduct(direction[i]);
+          }
+          return sum;
         });
       const Row alpha = ratio(rz, curvature, running);
       norm2 = reproducibleSum(n, monitor, zero,

@@ -9,10 +9,10 @@
 
 namespace morph
 {
-/// Returns `zero` + the sum of body(i) over i in [0, n); may use several threads. It first sums
-/// blocks of fixed length, then their sums, so threads cannot change the last bit.
+/// Returns `zero` + the sum of body(first, last) over blocks [first, last) of [0, n); may use
+/// several threads. The blocks have a fixed length, so threads cannot change the last bit.
 template <typename Value, typename Body>
-Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& body)
+Value reproducibleSumOfBlocks(Index n, Monitor& monitor, const Value& zero, const Body& body)
 {
   constexpr Index Block = 4096;
   const Index blocks = (n + Block - 1) / Block;
@@ -22,13 +22,7 @@ Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& 
     {
       for (Index b = firstBlock; b < lastBlock; ++b)
       {
-        Value sum = zero;
-        const Index last = std::min(n, (b + 1) * Block);
-        for (Index i = b * Block; i < last; ++i)
-        {
-          sum += body(i);
-        }
-        part[b] = sum;
+        part[b] = body(b * Block, std::min(n, (b + 1) * Block));
       }
     });
   Value total = zero;
@@ -37,6 +31,22 @@ Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& 
     total += p;
   }
   return total;
+}
+
+/// Returns `zero` + the sum of body(i) over i in [0, n), as reproducibleSumOfBlocks().
+template <typename Value, typename Body>
+Value reproducibleSum(Index n, Monitor& monitor, const Value& zero, const Body& body)
+{
+  return reproducibleSumOfBlocks(n, monitor, zero,
+    [&](Index first, Index last)
+    {
+      Value sum = zero;
+      for (Index i = first; i < last; ++i)
+      {
+        sum += body(i);
+      }
+      return sum;
+    });
 }
 
 /// The sum of the products of all entries.

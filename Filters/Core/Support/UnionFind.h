@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Support/HugePages.h"
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -14,7 +16,7 @@ class UnionFind
 {
 public:
   explicit UnionFind(Number n)
-    : parent_(n)
+    : parent_(largeVector<Number>(n))
   {
     std::iota(this->parent_.begin(), this->parent_.end(), Number(0));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solvers/Chebyshev.h"
+#include "Solvers/DampedJacobi.h"
 
+#include "Solvers/RowProducts.h"
+#include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Eigenvalues>
@@ -8,12 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace morph
 {
 namespace
 {
-constexpr float SmootherRange = 4; // smooths eigenvalues in [largest / range, largest]
+constexpr float SmoothedRange = 4; // smooths eigenvalues in [largest / range, largest]
 constexpr Index Grain = 4096;
 constexpr int LanczosSteps = 10;
 constexpr float LanczosMargin = 1.1f; // covers the error of the Lanczos result
@@ -24,7 +27,9 @@ float largestEigenvalue(
 {
   // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A. Ten steps come within some
   // percent of the largest eigenvalue; the power method is then still far below.
-  std::vector<float> root(A.rows), before(A.rows, 0.f), now(A.rows), next(A.rows), scaled(A.rows);
+  const auto zeros = [&A] { return largeVector<float>(A.rows, 0.f); };
+  std::vector<float> root = zeros(), before = zeros(), now = zeros(), next = zeros(),
+                     scaled = zeros();
   std::uint32_t state = 1; // a fixed random start
   for (int i = 0; i < A.rows; ++i)
   {
@@ -91,55 +96,38 @@ float largestEigenvalue(
   return bound > 0 && std::isfinite(bound) ? std::min(LanczosMargin * bound, rowSum) : rowSum;
 }
 
-void chebyshevSmooth(const CsrRows<float>& A, const std::vector<float>& inverseDiagonal,
-  float largest, const FloatMultiVector& rhs, bool fromZero, FloatMultiVector& x,
-  FloatMultiVector& direction, FloatMultiVector& spare, Monitor& monitor)
+DampedJacobi::DampedJacobi(std::vector<float> inverseDiagonal, float largest)
+  : weight_(std::move(inverseDiagonal))
 {
-  const float high = largest, low = high / SmootherRange;
-  const float centre = (high + low) / 2, half = (high - low) / 2;
-  float rho = half / centre;
-  for (int step = 0; step < ChebyshevDegree; ++step)
+  const float centre = largest * (1 + 1 / SmoothedRange) / 2;
+  for (float& weight : this->weight_)
   {
-    float keep = 0, take = 1 / centre;
-    if (step > 0)
-    {
-      const float next = 1 / (2 * centre / half - rho);
-      keep = next * rho;
-      take = 2 * next / half;
-      rho = next;
-    }
-    if (step == 0 && fromZero)
-    {
-      monitor.parallelFor(A.rows, Grain,
-        [&](Index first, Index last)
-        {
-          for (Index i = first; i < last; ++i)
-          {
-            x[i] = take * inverseDiagonal[i] * rhs[i];
-            if (ChebyshevDegree > 1)
-            {
-              direction[i] = x[i];
-            }
-          }
-        });
-      continue;
-    }
-    monitor.parallelFor(A.rows, Grain,
-      [&](Index first, Index last)
-      {
-        for (Index i = first; i < last; ++i)
-        {
-          Eigen::Vector4f move =
-            take * inverseDiagonal[i] * (rhs[i] - rowProduct(A, static_cast<int>(i), x));
-          if (ChebyshevDegree > 1)
-          {
-            move += keep * direction[i];
-            direction[i] = move;
-          }
-          spare[i] = x[i] + move;
-        }
-      });
-    x.swap(spare);
+    weight /= centre;
   }
+}
+
+void DampedJacobi::start(const FloatMultiVector& rhs, FloatMultiVector& x, Monitor& monitor) const
+{
+  monitor.parallelFor(static_cast<Index>(this->weight_.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        x[i] = this->weight_[i] * rhs[i];
+      }
+    });
+}
+
+void DampedJacobi::step(const CsrRows<float>& A, const FloatMultiVector& rhs, FloatMultiVector& x,
+  FloatMultiVector& spare, Monitor& monitor) const
+{
+  monitor.parallelFor(A.rows, Grain,
+    [&](Index first, Index last)
+    {
+      forRowProducts(A, x, first, last,
+        [&](Index i, const Eigen::Vector4f& product)
+        { spare[i] = x[i] + this->weight_[i] * (rhs[i] - product); });
+    });
+  x.swap(spare);
 }
 }

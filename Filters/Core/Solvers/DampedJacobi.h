@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/CsrRows.h"
+#include "Support/Monitor.h"
+
+#include <vector>
+
+namespace morph
+{
+/// Estimates the largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1. The result is at
+/// most the largest row sum, which bounds every eigenvalue. Lanczos converges from below, so this
+/// is no bound; the smoother damps all eigenvalues up to 1.25 times its argument. For a matrix that
+/// is not symmetric the recurrence is the same, and only the row sums are a bound.
+float largestEigenvalue(
+  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
+
+/// The multigrid's smoother for A x = rhs: x <- x + w D^-1 (rhs - A x), with the w that damps the
+/// eigenvalues in [largest / 4, largest] best. A cycle with one step before the coarse correction
+/// and one after it is symmetric.
+///
+/// Two steps on each side, by Chebyshev's polynomial, take fewer iterations and more time: 1.3
+/// times as much on cubes of hexahedra, and as much where they are graded.
+class DampedJacobi
+{
+public:
+  DampedJacobi() = default;
+  /// `largest`: see largestEigenvalue().
+  DampedJacobi(std::vector<float> inverseDiagonal, float largest);
+
+  /// Steps from x = 0. Cost: no pass over the matrix.
+  void start(const FloatMultiVector& rhs, FloatMultiVector& x, Monitor& monitor) const;
+  /// Steps from x. `spare`: a work vector of #rows. Cost: a pass over the matrix.
+  void step(const CsrRows<float>& A, const FloatMultiVector& rhs, FloatMultiVector& x,
+    FloatMultiVector& spare, Monitor& monitor) const;
+
+  std::size_t memory() const { return this->weight_.size() * sizeof(float); }
+
+private:
+  std::vector<float> weight_; ///< w D^-1
+};
+}

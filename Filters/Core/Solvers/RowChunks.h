@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/PageArena.h"
+#include "Support/Types.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace morph
+{
+/// Rows of a matrix that are assembled in chunks of this many, whatever the threads.
+constexpr Index ChunkRows = 4096;
+
+inline Index chunksOf(Index rows)
+{
+  return (rows + ChunkRows - 1) / ChunkRows;
+}
+
+/// Some rows while they are made: their numbers of entries, and all entries.
+template <typename Scalar>
+struct RowsInWork
+{
+  std::vector<int> size, column;
+  std::vector<Scalar> value;
+
+  void clear()
+  {
+    this->size.clear();
+    this->column.clear();
+    this->value.clear();
+  }
+};
+
+/// Some rows that wait until all are joined. Those of one thread's range share an arena, which is
+/// freed with the last of them.
+template <typename Scalar>
+class StoredRows
+{
+public:
+  StoredRows() = default;
+  StoredRows(const RowsInWork<Scalar>& rows, std::shared_ptr<PageArena> arena)
+    : rows_(rows.size.size())
+    , entries_(rows.value.size())
+    , size_(arena->copy(rows.size))
+    , column_(arena->copy(rows.column))
+    , value_(arena->copy(rows.value))
+    , arena_(std::move(arena))
+  {
+  }
+
+  std::size_t entries() const { return this->entries_; }
+
+  /// Sets the ends of the rows in start[1], start[2], ...; start[0] is given.
+  void number(int* start) const
+  {
+    for (std::size_t i = 0; i < this->rows_; ++i)
+    {
+      start[i + 1] = start[i] + this->size_[i];
+    }
+  }
+
+  /// Copies the entries and frees them here.
+  void moveTo(int* column, Scalar* value)
+  {
+    std::copy_n(this->column_, this->entries_, column);
+    std::copy_n(this->value_, this->entries_, value);
+    *this = {};
+  }
+
+private:
+  std::size_t rows_ = 0, entries_ = 0;
+  const int* size_ = nullptr;
+  const int* column_ = nullptr;
+  const Scalar* value_ = nullptr;
+  std::shared_ptr<PageArena> arena_;
+};
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes.h"
+#include "Solvers/RowProducts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+using namespace morph;
+
+namespace
+{
+/// Rows of 0 to 40 entries in random order.
+struct RandomRows
+{
+  explicit RandomRows(std::mt19937& random)
+  {
+    std::uniform_real_distribution<float> number(-1, 1);
+    this->A.rows = 200;
+    this->A.ownStart.push_back(0);
+    std::vector<int> columns;
+    for (int i = 0; i < this->A.rows; ++i)
+    {
+      for (int k = i % 41; k > 0; --k)
+      {
+        columns.push_back(static_cast<int>(random() % Columns));
+      }
+      this->A.ownStart.push_back(static_cast<int>(columns.size()));
+    }
+    this->A.ownColumn = Eigen::Map<Eigen::ArrayXi>(columns.data(), columns.size());
+    this->A.ownValue =
+      CsrRows<float>::Values::NullaryExpr(columns.size(), [&](Index) { return number(random); });
+    this->A.adopt();
+    this->doubles.resize(this->A.rows, Columns);
+    this->doubles.resizeNonZeros(static_cast<Index>(columns.size()));
+    std::copy_n(this->A.start, this->A.rows + 1, this->doubles.outerIndexPtr());
+    std::copy_n(this->A.column, columns.size(), this->doubles.innerIndexPtr());
+    std::copy_n(this->A.value, columns.size(), this->doubles.valuePtr());
+    for (int j = 0; j < Columns; ++j)
+    {
+      this->x.emplace_back(number(random), number(random), number(random), number(random));
+      this->xDouble.push_back(this->x.back().cast<double>());
+    }
+  }
+
+  /// The product of row i in the order of additions that RowProducts.cxx documents.
+  template <typename Row>
+  Row expected(int i) const
+  {
+    using Scalar = typename Row::Scalar;
+    const auto term = [&](int k)
+    { return Row(Scalar(this->A.value[k]) * this->x[this->A.column[k]].template cast<Scalar>()); };
+    Row sum[4] = { Row::Zero(), Row::Zero(), Row::Zero(), Row::Zero() };
+    int k = this->A.start[i];
+    for (; k + 4 <= this->A.start[i + 1]; k += 4)
+    {
+      for (int j = 0; j < 4; ++j)
+      {
+        sum[j] += term(k + j);
+      }
+    }
+    Row all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    for (; k < this->A.start[i + 1]; ++k)
+    {
+      all += term(k);
+    }
+    return all;
+  }
+
+  static constexpr int Columns = 50;
+  CsrRows<float> A;
+  CsrMatrix doubles;
+  FloatMultiVector x;
+  MultiVector xDouble;
+};
+}
+
+// The sums are written out here for any processor: AVX2 must not change a bit.
+TEST(RowProducts, HaveTheSameBitsOnEveryProcessor)
+{
+  std::mt19937 random(meshes::seed());
+  const RandomRows rows(random);
+  int visited = 7;
+  forRowProducts(rows.A, rows.x, 7, rows.A.rows,
+    [&](Index i, const Eigen::Vector4f& product)
+    {
+      EXPECT_EQ(i, visited++);
+      EXPECT_EQ(product, rows.expected<Eigen::Vector4f>(static_cast<int>(i))) << "row " << i;
+    });
+  EXPECT_EQ(visited, rows.A.rows);
+  forRowProducts(rows.doubles, rows.xDouble, 0, rows.A.rows,
+    [&](Index i, const MultiVectorRow& product)
+    { EXPECT_EQ(product, rows.expected<MultiVectorRow>(static_cast<int>(i))) << "row " << i; });
+  forRowProducts(rows.doubles, rows.x, 0, rows.A.rows,
+    [&](Index i, const MultiVectorRow& product)
+    { EXPECT_EQ(product, rows.expected<MultiVectorRow>(static_cast<int>(i))) << "row " << i; });
+}
+
+TEST(RowProducts, AgreeWithEigen)
+{
+  std::mt19937 random(meshes::seed());
+  const RandomRows rows(random);
+  Eigen::MatrixXd x(RandomRows::Columns, 4);
+  for (int j = 0; j < RandomRows::Columns; ++j)
+  {
+    x.row(j) = rows.xDouble[j];
+  }
+  const Eigen::MatrixXd product = rows.doubles * x;
+  MultiVector result(rows.A.rows);
+  rowProducts(rows.doubles, rows.xDouble, 0, rows.A.rows, result.data());
+  FloatMultiVector inFloat(rows.A.rows);
+  rowProducts(rows.A, rows.x, 0, rows.A.rows, inFloat.data());
+  for (int i = 0; i < rows.A.rows; ++i)
+  {
+    EXPECT_LE((result[i].transpose() - product.row(i)).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LE((inFloat[i].cast<double>().transpose() - product.row(i)).cwiseAbs().maxCoeff(), 1e-4);
+  }
+}
