@@ -101,40 +101,54 @@ TEST(WorstCornerNorm, ValueAndGradientAtOnceAreThoseOfEach)
   }
 }
 
-namespace
+TEST(WorstCornerNorm, GradientAtShortEdgesIsThatOfFiniteDifferences)
 {
-/// Counts the sums and minima over processes.
-struct Counting : morph::Communicator
-{
-  using morph::Communicator::sum;
-  double sum(double value) const override
+  meshes::ThreadedMonitor monitor;
+  for (auto& [name, mesh] : motions::jittered())
   {
-    ++this->calls;
-    return value;
+    SCOPED_TRACE(name);
+    const std::vector<Index> free = motions::outerPartition(mesh).free;
+    WorstCornerNorm norm(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7, 3);
+    const double before = norm.value(mesh.points, monitor).energy;
+    norm.keepEdges(mesh, 8 * mesh.points); // edges are short beside these
+    const bool isOfTetrahedra = name.find("tet") == 0;
+    EXPECT_EQ(norm.value(mesh.points, monitor).energy > before, !isOfTetrahedra);
+    Points gradient;
+    norm.gradient(mesh.points, gradient, monitor);
+    const double h = 1e-6;
+    for (Index i = 0; i < gradient.rows(); ++i)
+    {
+      Points plus = mesh.points, minus = plus;
+      plus(free[i], 0) += h;
+      minus(free[i], 0) -= h;
+      const double difference =
+        (norm.value(plus, monitor).energy - norm.value(minus, monitor).energy) / (2 * h);
+      EXPECT_NEAR(gradient(i, 0), difference, 1e-5 * (1 + gradient.norm()));
+    }
   }
-  double minimum(double value) const override
-  {
-    ++this->calls;
-    return value;
-  }
-  mutable int calls = 0;
-};
 }
 
-TEST(WorstCornerNorm, AGradientAloneNeedsNoSumOverProcesses)
+TEST(WorstCornerNorm, EdgesOfHexahedraDoNotCollapse)
 {
-  const Mesh mesh = meshes::hexes(4, 4, 4);
-  const std::vector<Index> free = motions::outerPartition(mesh).free;
-  const Counting processes;
-  const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7, 3,
-    std::numeric_limits<double>::infinity(), processes);
   meshes::ThreadedMonitor monitor;
-  Points gradient;
-  processes.calls = 0;
-  angles.gradient(mesh.points, gradient, monitor);
-  EXPECT_EQ(processes.calls, 0);
-  angles.value(mesh.points, monitor);
-  EXPECT_EQ(processes.calls, 2);
+  Mesh mesh = meshes::hexes(3, 3, 3);
+  const std::vector<Index> free = motions::outerPartition(mesh).free;
+  // Layers of hexahedra have right angles whatever their thickness.
+  const auto value = [&](const WorstCornerNorm& norm, double height)
+  {
+    Points points = mesh.points;
+    for (Index node = 0; node < mesh.numberOfNodes(); ++node)
+    {
+      points(node, 2) = points(node, 2) == 1 ? height : points(node, 2);
+    }
+    return norm.value(points, monitor).energy;
+  };
+  WorstCornerNorm norm(mesh, orientationOf(mesh), volumeCells(mesh), free, 1, 3);
+  EXPECT_NEAR(value(norm, 0.01), 1, 1e-12);
+  norm.keepEdges(mesh, mesh.points);
+  EXPECT_NEAR(value(norm, 1), 1, 1e-7);
+  EXPECT_LT(value(norm, 0.3), 1.001);
+  EXPECT_GT(value(norm, 0.05), 10);
 }
 
 TEST(WorstCornerNorm, IsEnoughWhereTheMinimumIsAtTheGoal)

@@ -68,28 +68,39 @@ MORPH_SIMD_INLINE void exclude(
 struct Corner
 {
   SimdMatrix edges, normals; ///< the normals of pairs of edges are the determinant's gradient
-  SimdDouble4 byDeterminant, byProduct, squares[3]; ///< reciprocals, and squared lengths
-  SimdDouble4 power[1];                             ///< of 1 / s
+  SimdDouble4 byDeterminant, bySquare[3]; ///< reciprocals
+  SimdDouble4 ofAngles, ofEdge[3], all;   ///< the summands of 1 / s^2, and their sum
+  SimdDouble4 power[1];                   ///< of 1 / s
 
-  MORPH_SIMD_INLINE Corner(
-    const SimdVector (&x)[8], const int* corner, const SimdDouble4& unit, int squarings)
+  MORPH_SIMD_INLINE Corner(const SimdVector (&x)[8], const int* corner,
+    const WorstCornerNorm::Scales& scales, int squarings)
   {
-    SimdDouble4 determinant;
+    const SimdDouble4 unit = load(scales.unit);
+    SimdDouble4 determinant, squares[3];
     edgesOf(x, corner, this->edges);
     cofactor(this->edges, this->normals);
     dot(this->edges[0], this->normals[0], determinant);
     for (int k = 0; k < 3; ++k)
     {
-      dot(this->edges[k], this->edges[k], this->squares[k]);
+      dot(this->edges[k], this->edges[k], squares[k]);
     }
     const SimdDouble4 one = SimdDouble4{} + 1.;
-    const SimdDouble4 product = this->squares[0] * this->squares[1] * this->squares[2];
+    const SimdDouble4 product = squares[0] * squares[1] * squares[2];
     const SimdDouble4 both = determinant * product;
     const SimdDouble4 inverse = 1. / (both == 0. ? one : both);
     this->byDeterminant = inverse * product;
-    this->byProduct = inverse * determinant;
-    const SimdDouble4 ratio = unit * this->byDeterminant;
-    this->power[0] = ratio * ratio * product;
+    const SimdDouble4 ratio = unit * this->byDeterminant, byProduct = inverse * determinant;
+    this->ofAngles = ratio * ratio * product;
+    this->all = this->ofAngles;
+    for (int k = 0; k < 3; ++k)
+    {
+      this->bySquare[k] = byProduct * squares[(k + 1) % 3] * squares[(k + 2) % 3];
+      const SimdDouble4 square = load(scales.shortest[k]) * this->bySquare[k];
+      const SimdDouble4 fourth = square * square;
+      this->ofEdge[k] = fourth * fourth;
+      this->all += this->ofEdge[k];
+    }
+    this->power[0] = this->all;
     raise(squarings, this->power[0]);
     exclude(unit * both, unit, this->power[0]);
   }
@@ -166,6 +177,48 @@ Corners scaledCorners(const CellBatches& batches, const std::vector<std::int8_t>
   }
   return result;
 }
+
+// An edge is short at this part of its undeformed length, once the cell has its size in the mesh
+// that the search starts from, or at that part of its length there.
+constexpr double ShortOfUndeformed = 0.1, ShortOfStart = 0.8;
+
+/// Sets the short lengths of one cell. Edges between prescribed nodes have none.
+void keepEdgesOf(const CellBatches& batches, Index batch, int lane, const Points& undeformed,
+  const Points& start, WorstCornerNorm::Scales* scales)
+{
+  const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
+  const auto place = [&](int a) { return a * SimdWidth + lane; };
+  const auto length = [&](const Points& points, const int* corner, int k)
+  {
+    const std::int32_t* nodes = batches.nodes(batch);
+    return (points.row(nodes[place(corner[k + 1])]) - points.row(nodes[place(corner[0])])).norm();
+  };
+  double before = 0, now = 0;
+  for (int t = 0; t < parts.count; ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      before += length(undeformed, parts.tets[t].corner, k);
+      now += length(start, parts.tets[t].corner, k);
+    }
+  }
+  const Index first = batches.firstPlace(batch);
+  for (int t = 0; t < parts.count && before > 0; ++t)
+  {
+    const int* corner = parts.tets[t].corner;
+    for (int k = 0; k < 3; ++k)
+    {
+      if (batches.row(first + place(corner[0])) >= 0 ||
+          batches.row(first + place(corner[k + 1])) >= 0)
+      {
+        const double shortest =
+          std::min(ShortOfUndeformed * now / before * length(undeformed, corner, k),
+            ShortOfStart * length(start, corner, k));
+        scales[t].shortest[k][lane] = shortest * shortest;
+      }
+    }
+  }
+}
 }
 
 /// Powers of all corners, by lane. Doubles, as memory of a vector is aligned for no wider ones.
@@ -218,7 +271,7 @@ struct WorstCornerNorm::BatchValue
     const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
     for (int t = 0; t < parts.count; ++t)
     {
-      const Corner own(x, parts.tets[t].corner, load(scales[t].unit), corners.squarings);
+      const Corner own(x, parts.tets[t].corner, scales[t], corners.squarings);
       sum.add(own.power);
     }
   }
@@ -243,7 +296,7 @@ struct WorstCornerNorm::BatchGradient
     const SimplicialDecomposition parts = cornerTets(batches.shape(batch));
     for (int t = 0; t < parts.count; ++t)
     {
-      addCorner(x, parts.tets[t].corner, load(scales[t].unit), corners.squarings, mean, sum, value);
+      addCorner(x, parts.tets[t].corner, scales[t], corners.squarings, mean, sum, value);
     }
     storeAtPlaces(batches, batch, sum, forces);
   }
@@ -284,17 +337,18 @@ private:
   }
 
   static MORPH_SIMD_INLINE void addCorner(const SimdVector (&x)[8], const int* corner,
-    const SimdDouble4& unit, int squarings, double mean, SimdVector (&sum)[8], Sum& value)
+    const WorstCornerNorm::Scales& scales, int squarings, double mean, SimdVector (&sum)[8],
+    Sum& value)
   {
-    const Corner own(x, corner, unit, squarings);
+    const Corner own(x, corner, scales, squarings);
     value.add(own.power);
-    const SimdDouble4 factor = mean * own.power[0];
-    const SimdDouble4 byDeterminant = factor * own.byDeterminant;
-    const SimdDouble4 byProduct = factor * own.byProduct;
+    const SimdDouble4 one = SimdDouble4{} + 1.;
+    const SimdDouble4 factor = mean * own.power[0] / (own.all == 0. ? one : own.all);
+    const SimdDouble4 byDeterminant = factor * own.ofAngles * own.byDeterminant;
     SimdVector all = {};
     for (int k = 0; k < 3; ++k)
     {
-      const SimdDouble4 byLength = byProduct * own.squares[(k + 1) % 3] * own.squares[(k + 2) % 3];
+      const SimdDouble4 byLength = factor * (own.ofAngles - 4. * own.ofEdge[k]) * own.bySquare[k];
       for (int i = 0; i < 3; ++i)
       {
         const SimdDouble4 force = byLength * own.edges[k][i] - byDeterminant * own.normals[k][i];
@@ -306,16 +360,6 @@ private:
     {
       sum[corner[0]][i] -= all[i];
     }
-  }
-};
-
-struct WorstCornerNorm::BatchGradientAlone
-{
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Corners& corners,
-    const Points& points, Points& forces)
-  {
-    Sum ignored;
-    BatchGradient::run(batch, batches, corners, points, forces, ignored);
   }
 };
 
@@ -331,13 +375,33 @@ WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t
   this->corners_.count = std::max<Index>(1, communicator.sum(this->corners_.count));
 }
 
+void WorstCornerNorm::keepEdges(const Mesh& shapes, const Points& start)
+{
+  for (Index batch = 0; batch < this->batches_.size(); ++batch)
+  {
+    if (this->batches_.shape(batch) == Shape::Tet)
+    {
+      continue;
+    }
+    Scales* scales = this->corners_.scales.data() + this->batches_.firstPlace(batch) / SimdWidth;
+    for (int lane = 0; lane < this->batches_.cells(batch); ++lane)
+    {
+      keepEdgesOf(this->batches_, batch, lane, shapes.points, start, scales);
+    }
+  }
+}
+
 Objective::Value WorstCornerNorm::valueOf(const Sum& sum) const
 {
   const Communicator& processes = this->communicator();
   const double all = processes.sum((sum.lanes[0] + sum.lanes[1]) + (sum.lanes[2] + sum.lanes[3]));
   const double largest = processes.maximum(*std::max_element(sum.largest, sum.largest + SimdWidth));
-  return { all / static_cast<double>(this->corners_.count), std::isfinite(all),
-    largest <= this->corners_.enough };
+  double mean = all / static_cast<double>(this->corners_.count);
+  for (int k = 0; k < this->corners_.squarings; ++k)
+  {
+    mean = std::sqrt(mean);
+  }
+  return { mean, std::isfinite(all), largest <= this->corners_.enough };
 }
 
 Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) const
@@ -348,9 +412,7 @@ Objective::Value WorstCornerNorm::value(const Points& points, Monitor& monitor) 
 
 void WorstCornerNorm::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  gatherFromBatches<BatchGradientAlone>(
-    this->batches_, this->parts_, result, monitor, this->corners_, points);
-  this->rows().add(result);
+  this->valueAndGradient(points, result, monitor);
 }
 
 Objective::Value WorstCornerNorm::valueAndGradient(
@@ -359,6 +421,11 @@ Objective::Value WorstCornerNorm::valueAndGradient(
   const Value value = this->valueOf(sumAndGather<BatchGradient, Sum>(
     this->batches_, this->parts_, result, monitor, this->corners_, points));
   this->rows().add(result);
+  if (value.energy > 0 && std::isfinite(value.energy))
+  {
+    const double p = 1 << this->corners_.squarings;
+    result *= std::pow(value.energy, 1 - p) / p; // the mean's gradient becomes the norm's
+  }
   return value;
 }
 }

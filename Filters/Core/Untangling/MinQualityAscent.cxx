@@ -9,29 +9,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace morph
 {
 namespace
 {
-constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
+constexpr int FirstSquarings = 2, FirstOfTetrahedra = 1, LastSquarings = 7; // powers to 128
 constexpr int Rounds = 40;
-// A ring of tetrahedra has several times as many cells, and more of them are poor.
-constexpr int Rings = 5, RingsOfTetrahedra = 3;
+// A ring of tetrahedra has several times as many cells, and more of them are poor. With five rings
+// of hexahedra the nodes that stay hold the minimum down.
+constexpr int Rings = 7, RingsOfTetrahedra = 3;
 // A gain of this many significant ones in a full round promises more from the same power.
 constexpr double Promising = 30;
 // A mesh within this part of the bound is left as it is.
 constexpr double NearBound = 5e-3;
 constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
 
-// After the last power those from 16 on run again, as long as that raises the minimum by this: by
-// then other cells are the worst, and other nodes move. Without it, or where a round ends at its
-// first short steps, rounding decides how high the search comes. On tetrahedra the first run comes
-// to the same minimum whatever the rounding, and a repetition takes as long and gains nothing.
-constexpr int RepeatedSquarings = 4, Repetitions = 3;
-constexpr double WorthRepeating = 1.003;
-constexpr int SettledSteps = 5;
+// The norm is about the minimum's reciprocal, so smaller gains than this are not worth their steps.
+constexpr double LeastDecrease = 3e-5;
+constexpr int SettledSteps = 5; // in a row, as the first ones may be short
 
 int stepsOf(int squarings)
 {
@@ -42,11 +40,10 @@ int stepsOf(int squarings)
 // In hexahedra low powers also lead to higher minima in the end.
 constexpr double OfUse = 1.2, OfUseInTetrahedra = 10;
 
-/// Returns the least number of squarings of use. Lower powers cannot tell the goal from the
-/// minimum: they move far nodes and lower the minimum as often as not.
-int firstSquarings(double minimum, double goal, double ofUse)
+/// Returns the least number of squarings of use, from `squarings` on. Lower powers cannot tell the
+/// goal from the minimum: they move far nodes and lower the minimum as often as not.
+int firstSquarings(double minimum, double goal, double ofUse, int squarings)
 {
-  int squarings = FirstSquarings;
   while (
     squarings < LastSquarings && std::exp2(squarings) * std::log(goal / minimum) < std::log(ofUse))
   {
@@ -76,7 +73,7 @@ std::vector<Index> worstCells(const Mesh& mesh, const MovableQuality::Result& qu
 
 namespace
 {
-constexpr int MostLevels = 2;
+constexpr int MostLevels = 6;
 constexpr double FewCells = 0.01; // of all: where more are at the minimum, it is no single place's
 // Raising the next-worst cells may evaluate this part of what raising the minimum has, or as much
 // as these passes over the mesh.
@@ -122,7 +119,6 @@ struct Limits
 {
   int squarings;          ///< of the first power, at least
   double cellEvaluations; ///< in all
-  int repetitions;        ///< of the high powers, at most
 };
 
 /// Raises the minimum as raiseMinimumQuality() does, and adds to `effort`.
@@ -141,38 +137,18 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   const Adjacency around = nodeToCells(mesh);
   const bool isOfTetrahedra = mostlyTetrahedra(mesh, communicator);
   const int rings = isOfTetrahedra ? RingsOfTetrahedra : Rings;
-  // Minima of tetrahedra rise by every second power about as far, for half the work.
-  const int doublings = isOfTetrahedra ? 2 : 1;
+  const Points start = points;
   Points trial = points;
   const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
-  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse));
+  const int first = isOfTetrahedra ? FirstOfTetrahedra : FirstSquarings;
+  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse, first));
   double best = quality.minimum; // of `points`; `quality` is that of `trial`
   // Once a power's second round has gained little, those of higher powers do.
   bool repeats = true, isRepeated = false;
   const auto canGain = [&]
   { return !hasReached(best, goal) && best + significantGain(best) < goal; };
-  double before = best; // the repetition of the high powers
-  const int mostRepetitions = isOfTetrahedra ? 0 : limits.repetitions;
-  int repetitions = 0;
-  for (int round = 0; round < Rounds && canGain(); ++round)
+  for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
   {
-    if (squarings > LastSquarings)
-    {
-      if (repetitions == mostRepetitions || best < WorthRepeating * before)
-      {
-        break;
-      }
-      ++repetitions;
-      before = best;
-      squarings = RepeatedSquarings;
-      repeats = true;
-      isRepeated = false;
-      if (quality.minimum < best)
-      {
-        trial = points;
-        quality = measured.measure(trial, monitor);
-      }
-    }
     const KRing patch =
       kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings, communicator);
     const auto cells = communicator.sum(static_cast<double>(patch.cells.size()));
@@ -181,10 +157,12 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     {
       break;
     }
-    const WorstCornerNorm norm(mesh, measured.orientation(), patch.cells, patch.nodes,
-      quality.minimum, squarings, goal * (1 - NearBound / 2), communicator);
+    WorstCornerNorm norm(mesh, measured.orientation(), patch.cells, patch.nodes, quality.minimum,
+      squarings, goal * (1 - NearBound / 2), communicator);
+    norm.keepEdges(mesh, start);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
+    stepLimits.decrease = LeastDecrease;
     stepLimits.settledSteps = SettledSteps;
     MinimizerEffort steps;
     limitedMemoryBfgs(norm, trial, stepLimits, steps, monitor);
@@ -193,7 +171,9 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     MovableQuality::Result next = measured.measure(trial, monitor);
     const double gain = next.minimum - quality.minimum, least = significantGain(quality.minimum);
     const bool isPromising = gain > Promising * least;
-    const bool more = isPromising && steps.steps >= stepLimits.steps && repeats;
+    // Where as much again would pass the goal, a higher power gets there in a few steps.
+    const bool isNear = next.minimum + gain >= goal;
+    const bool more = isPromising && !isNear && steps.steps >= stepLimits.steps && repeats;
     repeats = repeats && (isPromising || !isRepeated);
     isRepeated = more;
     // A low power's norm can be lower with a lower minimum. The next power still starts there.
@@ -207,11 +187,12 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     monitor.progress(1 - std::pow(0.8, round + 1)); // how many rounds there will be is not known
     if (!more)
     {
-      squarings += doublings;
+      // Where minima of tetrahedra rise little, every second power is enough.
+      squarings += isOfTetrahedra && !isPromising ? 2 : 1;
     }
     if (isOfTetrahedra)
     {
-      squarings = std::max(squarings, firstSquarings(best, goal, ofUse));
+      squarings = std::max(squarings, firstSquarings(best, goal, ofUse, first));
     }
   }
 }
@@ -221,8 +202,7 @@ AscentEffort raiseMinimumQuality(
   const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
 {
   AscentEffort effort;
-  raise(measured, bound, { FirstSquarings, std::numeric_limits<double>::infinity(), Repetitions },
-    points, effort, monitor);
+  raise(measured, bound, { 0, std::numeric_limits<double>::infinity() }, points, effort, monitor);
   return effort;
 }
 
@@ -236,16 +216,16 @@ AscentEffort raiseNextWorst(
   const double part = isOfTetrahedra ? OfSpentOnTetrahedra : OfSpent;
   const double passes = isOfTetrahedra ? FewPassesOfTetrahedra : FewPasses;
   // Its mesh is the best for the powers that are done.
-  const Limits limits{ std::max(FirstSquarings, before.squarings),
-    std::max(part * before.cellEvaluations, passes * cells), 0 };
+  const Limits limits{ before.squarings, std::max(part * before.cellEvaluations, passes * cells) };
   AscentEffort effort;
   raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
+  std::optional<MovableQuality> rest(
+    std::in_place, mesh, measured.orientation(), free, communicator);
   for (int level = 0; level < MostLevels && !communicator.all(free.empty()); ++level)
   {
-    const MovableQuality rest(mesh, measured.orientation(), free, communicator);
-    const MovableQuality::Result quality = rest.measure(points, monitor);
+    const MovableQuality::Result quality = rest->measure(points, monitor);
     if (!(quality.minimum > 0) || quality.minimum >= 1 - NearBound)
     {
       break;
@@ -265,8 +245,8 @@ AscentEffort raiseNextWorst(
     std::for_each(corners.begin(), corners.end(), [&](Index node) { stays[node] = 1; });
     free.erase(std::remove_if(free.begin(), free.end(), [&](Index node) { return stays[node]; }),
       free.end());
-    const MovableQuality others(mesh, measured.orientation(), free, communicator);
-    raise(others, others.bounds(points).movable, limits, points, effort, monitor);
+    rest.emplace(mesh, measured.orientation(), free, communicator);
+    raise(*rest, rest->bounds(points).movable, limits, points, effort, monitor);
   }
   return effort;
 }

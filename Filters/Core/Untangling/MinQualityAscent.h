@@ -27,20 +27,21 @@ struct AscentEffort
 };
 
 /// Raises the minimum scaled Jacobian over what free nodes can change in a mesh that is valid
-/// there, and stays so. Nodes within five rings of the worst cells (three in a mesh of tetrahedra)
-/// move to lower their WorstCornerNorm by L-BFGS. The norm's power begins low, where far corners
-/// help the worst ones, but high enough to tell `goal` from the minimum. It doubles whenever a
-/// round gains little or has converged, twice in a mesh of tetrahedra. Each starts where the last
-/// one ended, even if its minimum is lower. Powers from 16 on are repeated up to three times,
-/// as long as that gains 0.3 %. A round ends as soon as its cells are at `goal`, and all end there.
-/// A mesh that has reached it, see hasReached(), is left as it is. `points`: #nodes x 3, start and
-/// best result. Cost: a pass over the cells a round, and the minimisation near the worst cells.
+/// there, and stays so. Nodes within seven rings of the worst cells (three in a mesh of tetrahedra)
+/// move to lower their WorstCornerNorm by L-BFGS, which keeps edges from collapsing. The norm's
+/// power begins low, where far corners help the worst ones, but high enough to tell `goal` from the
+/// minimum. It doubles whenever a round gains little, has converged or is near `goal`. In a mesh of
+/// tetrahedra it doubles twice where a round gains little. Each power starts where the last one
+/// ended, even if its minimum is lower. A round ends as soon as its cells are at `goal`, and all
+/// end there. A mesh that has reached it, see hasReached(), is left as it is. `points`: #nodes x 3,
+/// start and best result. Cost: a pass over the cells a round, and the minimisation near the worst
+/// cells.
 AscentEffort raiseMinimumQuality(
   const MovableQuality& quality, double goal, Points& points, Monitor& monitor);
 
 /// Raises the next-worst cells of a mesh whose minimum has reached a bound. First the minimum over
 /// what free nodes can change is raised as far as prescribed nodes allow. Then the nodes of the
-/// cells at the minimum stay, and the minimum over the others is raised, twice at most. That ends
+/// cells at the minimum stay, and the minimum over the others is raised, six times at most. It ends
 /// where more than 1 % of the cells are at the minimum. No minimum falls. `before`: of raising the
 /// minimum, from whose last power it goes on. Cost: 0.3 times that of `before`, or as much as 20
 /// passes over the cells; 0.1 times, or 10 passes, in a mesh of tetrahedra.
