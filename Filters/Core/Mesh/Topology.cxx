@@ -127,7 +127,7 @@ std::vector<Place> outerFaces(const Mesh& mesh, Monitor& monitor)
   // Buckets the faces by their lowest corner: equal faces are in one bucket.
   const Index nodes = mesh.numberOfNodes();
   const Index cells = mesh.numberOfCells();
-  std::vector<Index> offsets(nodes + 1, 0);
+  auto offsets = largeVector<Index>(nodes + 1, 0);
   const auto eachFace = [&mesh, cells](auto&& visit)
   {
     for (Index c = 0; c < cells; ++c)
@@ -148,9 +148,10 @@ std::vector<Place> outerFaces(const Mesh& mesh, Monitor& monitor)
   };
   eachFace([&](Index, int, Index lowest) { ++offsets[lowest + 1]; });
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<Index> faces(offsets.back());
+  auto faces = largeVector<Index>(offsets.back());
   {
-    std::vector<Index> next(offsets.begin(), offsets.end() - 1);
+    auto next = largeVector<Index>(nodes);
+    std::copy(offsets.begin(), offsets.end() - 1, next.begin());
     eachFace([&](Index c, int f, Index lowest) { faces[next[lowest]++] = c * MostFaces + f; });
   }
   monitor.check();

@@ -4,6 +4,7 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
+#include "Support/HugePages.h"
 
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
@@ -79,6 +80,13 @@ bool equals(const Value* values, vtkIdType count, const std::vector<morph::Index
   return static_cast<std::size_t>(count) == kept.size() &&
          std::equal(kept.begin(), kept.end(), values,
            [](morph::Index a, Value b) { return a == static_cast<morph::Index>(b); });
+}
+
+template <typename Value>
+void copyIntegers(const Value* values, vtkIdType count, std::vector<morph::Index>& to)
+{
+  morph::resizeLarge(to, count);
+  std::copy_n(values, count, to.begin());
 }
 
 /// Copies the faces of polyhedra. Returns those whose faces the grid does not hold.
@@ -165,11 +173,11 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown)
   if (grid->GetNumberOfCells() > 0)
   {
     mesh.types = typesOf(grid);
-    visitIntegers(grid->GetCells()->GetOffsetsArray(), [&mesh](const auto* values, vtkIdType count)
-      { mesh.offsets.assign(values, values + count); });
+    visitIntegers(grid->GetCells()->GetOffsetsArray(),
+      [&mesh](const auto* values, vtkIdType count) { copyIntegers(values, count, mesh.offsets); });
     visitIntegers(grid->GetCells()->GetConnectivityArray(),
       [&mesh](const auto* values, vtkIdType count)
-      { mesh.connectivity.assign(values, values + count); });
+      { copyIntegers(values, count, mesh.connectivity); });
   }
   const std::vector<morph::Index> withoutFaces = readFaces(grid, mesh);
   if (!withoutFaces.empty())
@@ -198,7 +206,8 @@ morph::Points FromVectors(vtkDataArray* vectors)
 {
   const vtkIdType count = vectors->GetNumberOfTuples();
   const int components = vectors->GetNumberOfComponents();
-  morph::Points result(count, 3);
+  morph::Points result;
+  morph::resizeUndefined(result, count, 3);
   if (auto* doubles = vtkDoubleArray::FastDownCast(vectors); doubles && components >= 3)
   {
     using Stride = Eigen::OuterStride<>;
