@@ -16,7 +16,7 @@ namespace morph
 {
 namespace
 {
-constexpr int FirstSquarings = 2, FirstOfTetrahedra = 1, LastSquarings = 7; // powers to 128
+constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
 constexpr int Rounds = 40;
 // A ring of tetrahedra has several times as many cells, and more of them are poor. With five rings
 // of hexahedra the nodes that stay hold the minimum down.
@@ -40,10 +40,11 @@ int stepsOf(int squarings)
 // In hexahedra low powers also lead to higher minima in the end.
 constexpr double OfUse = 1.2, OfUseInTetrahedra = 10;
 
-/// Returns the least number of squarings of use, from `squarings` on. Lower powers cannot tell the
-/// goal from the minimum: they move far nodes and lower the minimum as often as not.
-int firstSquarings(double minimum, double goal, double ofUse, int squarings)
+/// Returns the least number of squarings of use. Lower powers cannot tell the goal from the
+/// minimum: they move far nodes and lower the minimum as often as not.
+int firstSquarings(double minimum, double goal, double ofUse)
 {
+  int squarings = FirstSquarings;
   while (
     squarings < LastSquarings && std::exp2(squarings) * std::log(goal / minimum) < std::log(ofUse))
   {
@@ -140,8 +141,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
   const Points start = points;
   Points trial = points;
   const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
-  const int first = isOfTetrahedra ? FirstOfTetrahedra : FirstSquarings;
-  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse, first));
+  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse));
   double best = quality.minimum; // of `points`; `quality` is that of `trial`
   // Once a power's second round has gained little, those of higher powers do.
   bool repeats = true, isRepeated = false;
@@ -192,7 +192,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     }
     if (isOfTetrahedra)
     {
-      squarings = std::max(squarings, firstSquarings(best, goal, ofUse, first));
+      squarings = std::max(squarings, firstSquarings(best, goal, ofUse));
     }
   }
 }
