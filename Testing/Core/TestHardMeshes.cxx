@@ -200,7 +200,7 @@ TEST(HardMeshes, ManySliversConvergeAndTheResidualIsTrue)
     meshes::ThreadedMonitor monitor;
     const Outcome result = morphOuter(mesh, bend, monitor);
     EXPECT_TRUE(result.moved.allFinite()) << height;
-    EXPECT_LT(result.report.iterations, 1000) << height; // most at 1e-6, where they are stiffest
+    EXPECT_LT(result.report.iterations, 1500) << height; // most at 1e-6, where they are stiffest
     // What is reported is what x really leaves, and where it is above the tolerance a warning says
     // so.
     EXPECT_NEAR(std::log10(result.report.relativeResidual), std::log10(result.trueResidual), 1)

@@ -15,7 +15,7 @@ namespace morph
 {
 namespace
 {
-constexpr int MaxIterations = 2000;
+constexpr int MaxIterations = 3000;
 
 [[noreturn]] void throwSingular(const std::vector<Index>& nodes)
 {

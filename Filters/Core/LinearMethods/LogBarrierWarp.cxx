@@ -14,7 +14,7 @@ namespace morph
 {
 namespace
 {
-constexpr int MaxIterations = 2000;
+constexpr int MaxIterations = 3000;
 
 void requireWeights(const LogBarrierSystem& system, bool relax)
 {
