@@ -79,28 +79,32 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const motions::Map& map, c
   return measured(whole, pieces::gathered(mine.mesh, moved), report);
 }
 
-/// Expects a mesh whose minimum is at most 1 % below that of one process.
+void notRaised(InversionFree& method)
+{
+  method.setRaising(false);
+}
+
+/// Expects a mesh whose minimum is at most 1 % below that of one process, or 3 % where the minimum
+/// is raised: that ends at one of several maxima.
 void compare(
   const Ranks& ranks, const std::string& name, const Mesh& whole, const motions::Map& map,
   const Setting& set = [](InversionFree&) {})
 {
   SCOPED_TRACE(name);
+  InversionFree settings;
+  set(settings);
+  const double share = settings.raises() ? 0.97 : 0.99;
   const Result expected = serial(whole, map, set), mine = onRanks(ranks, whole, map, set);
   EXPECT_EQ(expected.inverted, 0);
   EXPECT_EQ(mine.inverted, expected.inverted);
   EXPECT_EQ(mine.untangled, expected.untangled);
   EXPECT_EQ(mine.steps > 0, expected.steps > 0);
-  EXPECT_GT(mine.minimum, 0.99 * expected.minimum);
+  EXPECT_GT(mine.minimum, share * expected.minimum);
   if (ranks.rank() == 0)
   {
     std::cout << name << ": minimum " << mine.minimum << ", on one rank " << expected.minimum
               << "; Newton steps " << mine.steps << ", " << expected.steps << "\n";
   }
-}
-
-void notRaised(InversionFree& method)
-{
-  method.setRaising(false);
 }
 
 /// Steep waves along a box of length 4, with crests across it.
