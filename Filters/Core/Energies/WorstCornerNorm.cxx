@@ -69,7 +69,7 @@ struct Corner
 {
   SimdMatrix edges, normals; ///< the normals of pairs of edges are the determinant's gradient
   SimdDouble4 byDeterminant, bySquare[3]; ///< reciprocals
-  SimdDouble4 ofAngles, ofEdge[3], all;   ///< the summands of 1 / s^2, and their sum
+  SimdDouble4 ofAngles, ofEdge[3], all;   ///< the summands of (least / s)^2, and their sum
   SimdDouble4 power[1];                   ///< of 1 / s
 
   MORPH_SIMD_INLINE Corner(const SimdVector (&x)[8], const int* corner,
@@ -363,6 +363,19 @@ private:
   }
 };
 
+namespace
+{
+/// Returns x to the power of 2^times. std::pow() would have other bits on other processors.
+double squared(double x, int times)
+{
+  for (int k = 0; k < times; ++k)
+  {
+    x *= x;
+  }
+  return x;
+}
+}
+
 WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
   double goal, const Communicator& communicator)
@@ -370,7 +383,7 @@ WorstCornerNorm::WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t
   , batches_(mesh, this->free_, cells)
   , corners_(scaledCorners(this->batches_, orientation, least, squarings))
 {
-  this->corners_.enough = std::pow(least / goal, 1 << squarings);
+  this->corners_.enough = squared(least / goal, squarings);
   this->share(communicator, this->free_);
   this->corners_.count = std::max<Index>(1, communicator.sum(this->corners_.count));
 }
@@ -423,8 +436,9 @@ Objective::Value WorstCornerNorm::valueAndGradient(
   this->rows().add(result);
   if (value.energy > 0 && std::isfinite(value.energy))
   {
-    const double p = 1 << this->corners_.squarings;
-    result *= std::pow(value.energy, 1 - p) / p; // the mean's gradient becomes the norm's
+    // p times the mean's gradient becomes the norm's
+    const double mean = squared(value.energy, this->corners_.squarings);
+    result *= mean > 0 ? value.energy / mean / (1 << this->corners_.squarings) : 0;
   }
   return value;
 }

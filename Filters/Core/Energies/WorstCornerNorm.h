@@ -20,21 +20,24 @@ class WorstCornerNorm : public Objective
 public:
   /// `cells`: ids of volume cells; `orientation`: #cells of the mesh; `free`: ids of the nodes that
   /// move, ascending; `least`: reference value for s, above 0; `squarings`: the power p is 2 to
-  /// this, in [0, 9]; `goal`: a minimum of s that is enough. Cost: 75 bytes a corner.
+  /// this, in [0, 9]; `goal`: a minimum of s that is enough, where no edge is short. Cost: 75 bytes
+  /// a corner.
   WorstCornerNorm(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& cells, const std::vector<Index>& free, double least, int squarings,
     double goal = std::numeric_limits<double>::infinity(),
     const Communicator& communicator = Communicator::alone());
 
   /// Keeps edges from collapsing. Angles do not prevent that in hexahedra, wedges and pyramids, and
-  /// the gradient grows with 1 / length, so that no step gets far. 1 / s^2 becomes that plus a sum
-  /// of (c / l)^8 over the corner's edges, where l is the length. c is a tenth of the undeformed
-  /// length, scaled as the cell's mean edge from `shapes` to `start`, but at most 0.8 of that in
-  /// `start`. `shapes`: the undeformed mesh; `start`: #nodes x 3. Cost: a pass over the cells.
+  /// the gradient grows with 1 / length, so that no step gets far. (least / s)^2 becomes that plus
+  /// a sum of (c / l)^8 over the corner's edges, where l is the length. c is a tenth of the
+  /// undeformed length, scaled as the cell's mean edge from `shapes` to `start`, but at most 0.8 of
+  /// that in `start`. `shapes`: the undeformed mesh; `start`: #nodes x 3. Cost: a pass over the
+  /// cells.
   void keepEdges(const Mesh& shapes, const Points& start);
 
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
+  /// Collective, as the root's gradient depends on the sum over all processes.
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
   Value valueAndGradient(const Points& points, Points& result, Monitor& monitor) const override;
 

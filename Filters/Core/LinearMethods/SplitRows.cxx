@@ -15,7 +15,7 @@ void joinRows(CsrMatrix& matrix, Index rows, Index width, SplitChunks::Part& par
   start[0] = 0;
   for (std::size_t c = 0; c < part.size(); ++c)
   {
-    part[c].number(start + static_cast<Index>(c) * ChunkRows);
+    part[c].setEnds(start + static_cast<Index>(c) * ChunkRows);
   }
   monitor.parallelFor(static_cast<Index>(part.size()), 1,
     [&](Index first, Index last)
@@ -23,7 +23,7 @@ void joinRows(CsrMatrix& matrix, Index rows, Index width, SplitChunks::Part& par
       for (Index c = first; c < last; ++c)
       {
         const int at = start[c * ChunkRows];
-        part[c].moveTo(matrix.innerIndexPtr() + at, matrix.valuePtr() + at);
+        part[c].copyAndRelease(matrix.innerIndexPtr() + at, matrix.valuePtr() + at);
       }
     });
 }

@@ -45,10 +45,15 @@ SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
     {
       auto makeRow = makeRows();
       SplitRows scratch; // keeps its capacity between chunks
-      // The coupling is joined when all of the interior is: an arena of its own lets go earlier.
-      const auto interior = std::make_shared<PageArena>(), coupling = std::make_shared<PageArena>();
+      // Two arenas, so that the interior's memory is freed before the coupling is joined.
+      std::shared_ptr<PageArena> interior, coupling;
       for (Index c = first; c < last; ++c)
       {
+        if ((c - first) % ChunksOfArena == 0)
+        {
+          interior = std::make_shared<PageArena>();
+          coupling = std::make_shared<PageArena>();
+        }
         scratch.clear();
         const Index end = std::min(rows, (c + 1) * ChunkRows);
         for (Index i = c * ChunkRows; i < end; ++i)

@@ -19,7 +19,7 @@ namespace morph
 {
 /// Makes the rows of one chunk. `local`: the columns in a row.
 template <typename Scalar, typename ColumnMap, typename MakeRow>
-void makeRows(
+void makeChunk(
   int first, int last, const MakeRow& makeRow, ColumnMap& local, RowsInWork<Scalar>& rows)
 {
   rows.clear();
@@ -46,7 +46,7 @@ void makeRows(
 /// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
 /// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
 /// have the order of their first call. `columns`: of the matrix. Cost: no memory beside the chunks'
-/// rows, and 1 MiB a range of threads at most.
+/// rows, 1 MiB a range of threads, and the rest of the last page of each arena.
 template <typename Scalar, typename MakeRow>
 CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
 {
@@ -56,14 +56,18 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
   monitor.parallelFor(chunks, 1,
     [&](Index firstChunk, Index lastChunk)
     {
-      const auto arena = std::make_shared<PageArena>();
+      std::shared_ptr<PageArena> arena;
       RowsInWork<Scalar> scratch; // keeps its capacity between chunks
       const auto makeChunks = [&](auto local)
       {
         for (Index c = firstChunk; c < lastChunk; ++c)
         {
+          if ((c - firstChunk) % ChunksOfArena == 0)
+          {
+            arena = std::make_shared<PageArena>();
+          }
           const Index last = std::min<Index>(rows, (c + 1) * ChunkRows);
-          makeRows(
+          makeChunk(
             static_cast<int>(c * ChunkRows), static_cast<int>(last), makeRow, local, scratch);
           parts[c] = { scratch, arena };
         }
@@ -86,7 +90,7 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
   {
     entries += parts[c].entries();
     requireEntries(static_cast<Index>(entries));
-    parts[c].number(result.ownStart.data() + c * ChunkRows);
+    parts[c].setEnds(result.ownStart.data() + c * ChunkRows);
   }
   resizeUndefined(result.ownColumn, static_cast<Index>(entries));
   resizeUndefined(result.ownValue, static_cast<Index>(entries));
@@ -96,7 +100,7 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
       for (Index c = first; c < last; ++c)
       {
         const int at = result.ownStart[c * ChunkRows];
-        parts[c].moveTo(result.ownColumn.data() + at, result.ownValue.data() + at);
+        parts[c].copyAndRelease(result.ownColumn.data() + at, result.ownValue.data() + at);
       }
     });
   result.adopt();

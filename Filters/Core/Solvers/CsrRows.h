@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 
 #include <Eigen/Core>

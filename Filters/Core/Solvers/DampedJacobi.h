@@ -2,8 +2,10 @@
 #pragma once
 
 #include "Solvers/CsrRows.h"
+#include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace morph

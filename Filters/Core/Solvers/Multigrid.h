@@ -4,6 +4,7 @@
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
 #include "Solvers/DampedJacobi.h"
+#include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace morph
 {
-/// Rows of a matrix that are assembled in chunks of this many, whatever the threads.
+/// Number of rows in a chunk; it does not depend on threads.
 constexpr Index ChunkRows = 4096;
+/// Number of chunks that share an arena, and so are freed together.
+constexpr Index ChunksOfArena = 16;
 
 inline Index chunksOf(Index rows)
 {
@@ -34,8 +37,8 @@ struct RowsInWork
   }
 };
 
-/// Some rows that wait until all are joined. Those of one thread's range share an arena, which is
-/// freed with the last of them.
+/// Some rows that wait until all are joined. ChunksOfArena chunks share an arena, which is freed
+/// with the last of them.
 template <typename Scalar>
 class StoredRows
 {
@@ -54,7 +57,7 @@ public:
   std::size_t entries() const { return this->entries_; }
 
   /// Sets the ends of the rows in start[1], start[2], ...; start[0] is given.
-  void number(int* start) const
+  void setEnds(int* start) const
   {
     for (std::size_t i = 0; i < this->rows_; ++i)
     {
@@ -62,8 +65,8 @@ public:
     }
   }
 
-  /// Copies the entries and frees them here.
-  void moveTo(int* column, Scalar* value)
+  /// Copies the entries, and lets go of the arena.
+  void copyAndRelease(int* column, Scalar* value)
   {
     std::copy_n(this->column_, this->entries_, column);
     std::copy_n(this->value_, this->entries_, value);
@@ -75,6 +78,6 @@ private:
   const int* size_ = nullptr;
   const int* column_ = nullptr;
   const Scalar* value_ = nullptr;
-  std::shared_ptr<PageArena> arena_;
+  std::shared_ptr<PageArena> arena_; // last: the constructor copies the others by it
 };
 }

@@ -10,7 +10,6 @@ namespace morph
 namespace
 {
 constexpr std::size_t FirstBlock = std::size_t(1) << 16, LargestBlock = std::size_t(1) << 24;
-constexpr std::size_t Unit = 16; // fits any number
 }
 
 PageArena::~PageArena()
@@ -29,7 +28,7 @@ void* PageArena::take(std::size_t bytes)
   bytes = (bytes + Unit - 1) / Unit * Unit;
   if (bytes > this->left_)
   {
-    const std::size_t doublings = std::min<std::size_t>(this->blocks_.size(), 16);
+    const std::size_t doublings = std::min<std::size_t>(this->blocks_.size(), 8);
     const std::size_t size = std::max(bytes, std::min(LargestBlock, FirstBlock << doublings));
     this->blocks_.push_back({ nullptr, size });
     this->blocks_.back().data = allocatePages(size);

@@ -22,7 +22,7 @@ public:
   template <typename T>
   const T* copy(const std::vector<T>& values)
   {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= Unit);
     const std::size_t bytes = values.size() * sizeof(T);
     void* place = this->take(bytes);
     if (bytes > 0)
@@ -33,6 +33,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t Unit = 16; ///< of sizes, and so of places
+
   void* take(std::size_t bytes);
 
   struct Block

@@ -85,8 +85,10 @@ bool equals(const Value* values, vtkIdType count, const std::vector<morph::Index
 template <typename Value>
 void copyIntegers(const Value* values, vtkIdType count, std::vector<morph::Index>& to)
 {
-  morph::resizeLarge(to, count);
-  std::copy_n(values, count, to.begin());
+  to.clear();
+  to.reserve(count);
+  morph::adviseHugePages(to.data(), count * sizeof(morph::Index));
+  to.assign(values, values + count);
 }
 
 /// Copies the faces of polyhedra. Returns those whose faces the grid does not hold.
