@@ -28,7 +28,7 @@ constexpr double NearBound = 5e-3;
 constexpr int LowSquarings = 2; // norms that often lower the minimum at first: fewer steps
 
 // The norm is about the minimum's reciprocal, so smaller gains than this are not worth their steps.
-constexpr double LeastDecrease = 3e-5;
+constexpr double LeastDecrease = 5e-5, LeastDecreaseInTetrahedra = 1e-4;
 constexpr int SettledSteps = 5; // in a row, as the first ones may be short
 
 int stepsOf(int squarings)
@@ -162,7 +162,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     norm.keepEdges(mesh, start);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
-    stepLimits.decrease = LeastDecrease;
+    stepLimits.decrease = isOfTetrahedra ? LeastDecreaseInTetrahedra : LeastDecrease;
     stepLimits.settledSteps = SettledSteps;
     MinimizerEffort steps;
     limitedMemoryBfgs(norm, trial, stepLimits, steps, monitor);
@@ -187,8 +187,8 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     monitor.progress(1 - std::pow(0.8, round + 1)); // how many rounds there will be is not known
     if (!more)
     {
-      // Where minima of tetrahedra rise little, every second power is enough.
-      squarings += isOfTetrahedra && !isPromising ? 2 : 1;
+      // Minima of tetrahedra rise by every second power about as far, for half the work.
+      squarings += isOfTetrahedra ? 2 : 1;
     }
     if (isOfTetrahedra)
     {
