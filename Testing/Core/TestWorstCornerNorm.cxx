@@ -42,6 +42,27 @@ int raise(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const morph::MovableQuality quality(mesh, orientation, free);
   return morph::raiseMinimumQuality(quality, goal, points, monitor).rounds;
 }
+
+void expectGradientOfDifferences(
+  const WorstCornerNorm& norm, const Points& points, const std::vector<Index>& free)
+{
+  meshes::ThreadedMonitor monitor;
+  Points gradient;
+  norm.gradient(points, gradient, monitor);
+  const double h = 1e-6;
+  for (Index i = 0; i < gradient.rows(); ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      Points plus = points, minus = plus;
+      plus(free[i], j) += h;
+      minus(free[i], j) -= h;
+      const double difference =
+        (norm.value(plus, monitor).energy - norm.value(minus, monitor).energy) / (2 * h);
+      EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
+    }
+  }
+}
 }
 
 TEST(WorstCornerNorm, GradientIsThatOfFiniteDifferences)
@@ -52,22 +73,8 @@ TEST(WorstCornerNorm, GradientIsThatOfFiniteDifferences)
     SCOPED_TRACE(name);
     const std::vector<Index> free = motions::outerPartition(mesh).free;
     const WorstCornerNorm angles(mesh, orientationOf(mesh), volumeCells(mesh), free, 0.7, 3);
-    Points gradient;
-    angles.gradient(mesh.points, gradient, monitor);
     ASSERT_TRUE(angles.value(mesh.points, monitor).allowed);
-    const double h = 1e-6;
-    for (Index i = 0; i < gradient.rows(); ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        Points plus = mesh.points, minus = plus;
-        plus(free[i], j) += h;
-        minus(free[i], j) -= h;
-        const double difference =
-          (angles.value(plus, monitor).energy - angles.value(minus, monitor).energy) / (2 * h);
-        EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
-      }
-    }
+    expectGradientOfDifferences(angles, mesh.points, free);
   }
 }
 
@@ -113,21 +120,7 @@ TEST(WorstCornerNorm, GradientAtShortEdgesIsThatOfFiniteDifferences)
     norm.keepEdges(mesh, 8 * mesh.points); // edges are short beside these
     const bool isOfTetrahedra = name.find("tet") == 0;
     EXPECT_EQ(norm.value(mesh.points, monitor).energy > before, !isOfTetrahedra);
-    Points gradient;
-    norm.gradient(mesh.points, gradient, monitor);
-    const double h = 1e-6;
-    for (Index i = 0; i < gradient.rows(); ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        Points plus = mesh.points, minus = plus;
-        plus(free[i], j) += h;
-        minus(free[i], j) -= h;
-        const double difference =
-          (norm.value(plus, monitor).energy - norm.value(minus, monitor).energy) / (2 * h);
-        EXPECT_NEAR(gradient(i, j), difference, 1e-5 * (1 + gradient.norm()));
-      }
-    }
+    expectGradientOfDifferences(norm, mesh.points, free);
   }
 }
 
