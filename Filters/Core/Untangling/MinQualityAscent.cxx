@@ -221,11 +221,11 @@ AscentEffort raiseNextWorst(
   raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
-  std::optional<MovableQuality> rest(
-    std::in_place, mesh, measured.orientation(), free, communicator);
+  std::optional<MovableQuality> rest; // refers to `free`: made again whenever that changes
+  const MovableQuality* current = &measured;
   for (int level = 0; level < MostLevels && !communicator.all(free.empty()); ++level)
   {
-    const MovableQuality::Result quality = rest->measure(points, monitor);
+    const MovableQuality::Result quality = current->measure(points, monitor);
     if (!(quality.minimum > 0) || quality.minimum >= 1 - NearBound)
     {
       break;
@@ -246,7 +246,8 @@ AscentEffort raiseNextWorst(
     free.erase(std::remove_if(free.begin(), free.end(), [&](Index node) { return stays[node]; }),
       free.end());
     rest.emplace(mesh, measured.orientation(), free, communicator);
-    raise(*rest, rest->bounds(points).movable, limits, points, effort, monitor);
+    current = &*rest;
+    raise(*current, current->bounds(points).movable, limits, points, effort, monitor);
   }
   return effort;
 }
