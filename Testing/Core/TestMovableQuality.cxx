@@ -66,6 +66,39 @@ TEST(MovableQuality, FreeNodesChangeNothingThatIsFixedAndNoMovableSampleExceedsI
   }
 }
 
+TEST(MovableQuality, MeasuringTheCellsOfAMovedNodeAgainIsMeasuringAll)
+{
+  for (const auto& [name, original] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    morph::Mesh mesh = original;
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = orientationOf(mesh);
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    const MovableQuality quality(mesh, orientation, partition.free);
+    const morph::Adjacency around = morph::nodeToCells(mesh);
+    MovableQuality::Result kept = quality.measure(mesh.points, monitor);
+    for (const Index node : partition.free)
+    {
+      // Far enough to invert cells.
+      mesh.points.row(node) += 0.6 * Eigen::RowVector3d::Random();
+      const std::vector<Index> cells(around.begin(node), around.end(node));
+      quality.measureAgain(cells, mesh.points, kept, monitor);
+    }
+    const MovableQuality::Result all = quality.measure(mesh.points, monitor);
+    EXPECT_EQ(kept.minimum, all.minimum);
+    EXPECT_EQ(kept.inverted, all.inverted);
+    EXPECT_GT(all.inverted, 0);
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      const double value = all.scaledJacobian[c];
+      EXPECT_TRUE(
+        std::isnan(value) ? std::isnan(kept.scaledJacobian[c]) : kept.scaledJacobian[c] == value)
+        << c;
+    }
+  }
+}
+
 TEST(MovableQuality, ASkewFaceIsTheBoundOfAHexahedron)
 {
   morph::Mesh mesh = meshes::hexes(2, 2, 2);

@@ -14,6 +14,7 @@ namespace morph
 namespace detail
 {
 constexpr Index BatchGrain = 128;
+constexpr Index BlockGrain = 4; // waking a thread takes as long as a block or more
 
 /// Sums body(first, last, sum) over blocks of batches, in order.
 template <typename Sum, typename Body>
@@ -22,7 +23,7 @@ Sum sumOfBlocks(const CellBatches& batches, Monitor& monitor, const Body& body)
   const Index count = batches.size();
   const Index blocks = (count + BatchGrain - 1) / BatchGrain;
   std::vector<Sum> part(blocks);
-  monitor.parallelFor(blocks, 1,
+  monitor.parallelFor(blocks, BlockGrain,
     [&](Index first, Index last)
     {
       for (Index b = first; b < last; ++b)

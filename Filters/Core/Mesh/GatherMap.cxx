@@ -13,38 +13,9 @@ std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index node
   return place;
 }
 
-Adjacency gatherMap(Index places, Index rows, const std::function<Index(Index place)>& rowOf)
-{
-  Adjacency result;
-  result.offsets.assign(rows + 1, 0);
-  for (Index place = 0; place < places; ++place)
-  {
-    const Index row = rowOf(place);
-    if (row >= 0)
-    {
-      ++result.offsets[row + 1];
-    }
-  }
-  for (Index row = 0; row < rows; ++row)
-  {
-    result.offsets[row + 1] += result.offsets[row];
-  }
-  result.values.resize(result.offsets.back());
-  std::vector<Index> at(result.offsets.begin(), result.offsets.end() - 1);
-  for (Index place = 0; place < places; ++place)
-  {
-    const Index row = rowOf(place);
-    if (row >= 0)
-    {
-      result.values[at[row]++] = place;
-    }
-  }
-  return result;
-}
-
 void gatherSum(const Adjacency& places, const Points& parts, Points& result, Monitor& monitor)
 {
-  constexpr Index Grain = 1024;
+  constexpr Index Grain = 4096;
   result.resize(static_cast<Index>(places.offsets.size()) - 1, 3);
   monitor.parallelFor(result.rows(), Grain,
     [&](Index first, Index last)

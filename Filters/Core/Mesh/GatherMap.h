@@ -5,7 +5,6 @@
 #include "Support/Monitor.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace morph
@@ -15,7 +14,35 @@ std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index node
 
 /// Returns for each of `rows` rows the places p in [0, places) with rowOf(p) equal to the row.
 /// Places are ascending; a negative rowOf(p) leaves p out. Calls `rowOf` twice a place.
-Adjacency gatherMap(Index places, Index rows, const std::function<Index(Index place)>& rowOf);
+template <typename RowOf>
+Adjacency gatherMap(Index places, Index rows, const RowOf& rowOf)
+{
+  Adjacency result;
+  result.offsets.assign(rows + 1, 0);
+  for (Index place = 0; place < places; ++place)
+  {
+    const Index row = rowOf(place);
+    if (row >= 0)
+    {
+      ++result.offsets[row + 1];
+    }
+  }
+  for (Index row = 0; row < rows; ++row)
+  {
+    result.offsets[row + 1] += result.offsets[row];
+  }
+  result.values.resize(result.offsets.back());
+  std::vector<Index> at(result.offsets.begin(), result.offsets.end() - 1);
+  for (Index place = 0; place < places; ++place)
+  {
+    const Index row = rowOf(place);
+    if (row >= 0)
+    {
+      result.values[at[row]++] = place;
+    }
+  }
+  return result;
+}
 
 /// Sums `parts` (#places x 3) over each row's places into `result`, which becomes #rows x 3. The
 /// fixed order of each sum makes the result independent of threads.

@@ -61,7 +61,14 @@ KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<
   }
   std::copy_if(free.begin(), free.end(), std::back_inserter(patch.nodes),
     [&](Index node) { return isNode[node] != 0; });
-  std::sort(patch.cells.begin(), patch.cells.end());
+  patch.cells.clear(); // sorting them would take longer than this pass
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isCell[c])
+    {
+      patch.cells.push_back(c);
+    }
+  }
   return patch;
 }
 }

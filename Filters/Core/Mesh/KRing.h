@@ -16,8 +16,8 @@ struct KRing
 };
 
 /// `seeds`: cell ids; `rings`: k; `around`: nodeToCells(mesh); `free`: node ids, ascending. Cost:
-/// passes over the nodes and the neighborhood. On several processes the seeds are those of all, and
-/// the result has the nodes and cells of this one.
+/// passes over nodes and cells, and the neighborhood. On several processes the seeds are those of
+/// all, and the result has the nodes and cells of this one.
 KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& seeds, int rings,
   const Communicator& communicator = Communicator::alone());

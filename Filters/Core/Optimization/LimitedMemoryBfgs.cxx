@@ -19,6 +19,7 @@ constexpr int Slots = Memory + 1;  // the newest pair is made before the oldest 
 constexpr double FirstStep = 1e-3; // of the mesh's size
 // Rows in a block: its part of the newest pair stays in cache while it meets all others.
 constexpr Index BlockRows = 512;
+constexpr Index Grain = 8; // blocks; waking a thread takes as long as some of them
 
 Index blocksOf(const Points& points)
 {
@@ -228,7 +229,7 @@ public:
     }
     const Coefficients c = this->coefficients();
     direction.resize(gradient.rows(), 3);
-    monitor.parallelFor(blocksOf(gradient), 1,
+    monitor.parallelFor(blocksOf(gradient), Grain,
       [&](Index first, Index last) {
         dispatchedFor<Combination>(first, last, this->order_, c, gradient, this->pairs_, direction);
       });
@@ -251,7 +252,7 @@ public:
     pair.step.resize(gradient.rows(), 3);
     pair.difference.resize(gradient.rows(), 3);
     std::vector<Products> parts(blocksOf(gradient));
-    monitor.parallelFor(static_cast<Index>(parts.size()), 1,
+    monitor.parallelFor(static_cast<Index>(parts.size()), Grain,
       [&](Index first, Index last)
       {
         dispatchedFor<NewestPair>(

@@ -78,6 +78,44 @@ MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& mo
         morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.movable);
     }
   }
+  this->summarise(result);
+  return result;
+}
+
+void MovableQuality::measureAgain(
+  const std::vector<Index>& cells, const Points& points, Result& result, Monitor& monitor) const
+{
+  constexpr Index Grain = 1024;
+  monitor.parallelFor(static_cast<Index>(cells.size()), Grain,
+    [&](Index first, Index last)
+    {
+      auto held = std::lower_bound(this->held_.begin(), this->held_.end(), cells[first],
+        [](const Cell& cell, Index id) { return cell.id < id; });
+      for (Index i = first; i < last; ++i)
+      {
+        const Index c = cells[i];
+        while (held != this->held_.end() && held->id < c)
+        {
+          ++held;
+        }
+        if (this->skip_[c])
+        {
+          continue;
+        }
+        double x[8][3];
+        this->cornersOf(c, points, x);
+        const bool isHeld = held != this->held_.end() && held->id == c;
+        result.scaledJacobian[c] = isHeld
+                                     ? morph::scaledJacobian(this->mesh_.types[c], x, held->movable)
+                                     : morph::scaledJacobian(this->mesh_.types[c], x);
+      }
+    });
+  this->summarise(result);
+}
+
+void MovableQuality::summarise(Result& result) const
+{
+  result.inverted = 0;
   result.minimum = std::numeric_limits<double>::infinity();
   for (const double value : result.scaledJacobian)
   {
@@ -86,7 +124,6 @@ MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& mo
   }
   result.minimum = this->communicator_.minimum(result.minimum);
   result.inverted = this->communicator_.sum(result.inverted);
-  return result;
 }
 
 MovableQuality::Bounds MovableQuality::bounds(const Points& points) const

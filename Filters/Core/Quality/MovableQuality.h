@@ -41,6 +41,10 @@ public:
   };
   /// Measures the mesh at `points`, #nodes x 3, by corners alone. Cost: measureCorners().
   Result measure(const Points& points, Monitor& monitor) const;
+  /// Measures `cells` again, ascending ids, as the nodes of no other cell have moved since. Cost: a
+  /// measurement of these cells, and a pass over the numbers of all.
+  void measureAgain(
+    const std::vector<Index>& cells, const Points& points, Result& result, Monitor& monitor) const;
 
   /// What the prescribed nodes alone allow; infinite where they set no limit.
   struct Bounds
@@ -64,6 +68,8 @@ private:
     unsigned movable, fixed; ///< samples
   };
   void cornersOf(Index cell, const Points& points, double (*x)[3]) const;
+  /// Sets what depends on all cells.
+  void summarise(Result& result) const;
 
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;

@@ -17,6 +17,8 @@ namespace morph
 namespace
 {
 constexpr int FirstSquarings = 1, LastSquarings = 7; // powers 2, 4, ... 128
+// A third of the work raised the minimum of the pipe's tetrahedra by another 5 %.
+constexpr int LastSquaringsOfTetrahedra = 6;
 constexpr int Rounds = 40;
 // A ring of tetrahedra has several times as many cells, and more of them are poor. With five rings
 // of hexahedra the nodes that stay hold the minimum down.
@@ -122,44 +124,75 @@ struct Limits
   double cellEvaluations; ///< in all
 };
 
-/// Raises the minimum as raiseMinimumQuality() does, and adds to `effort`.
-void raise(const MovableQuality& measured, double bound, const Limits& limits, Points& points,
-  AscentEffort& effort, Monitor& monitor)
+/// What all searches on a mesh share.
+class Ascent
+{
+public:
+  explicit Ascent(const MovableQuality& measured)
+    : mesh_(measured.mesh())
+    , communicator_(measured.communicator())
+    , isOfTetrahedra_(mostlyTetrahedra(this->mesh_, this->communicator_))
+  {
+  }
+
+  bool isOfTetrahedra() const { return this->isOfTetrahedra_; }
+  /// Raises the minimum as raiseMinimumQuality() does, and adds to `effort`.
+  void raise(const MovableQuality& measured, double bound, const Limits& limits, Points& points,
+    AscentEffort& effort, Monitor& monitor);
+
+private:
+  const Adjacency& around()
+  {
+    if (!this->around_)
+    {
+      this->around_.emplace(nodeToCells(this->mesh_));
+    }
+    return *this->around_;
+  }
+
+  const Mesh& mesh_;
+  const Communicator& communicator_;
+  bool isOfTetrahedra_ = false;
+  std::optional<Adjacency> around_; ///< cells round nodes; made for the first search
+};
+
+void Ascent::raise(const MovableQuality& measured, double bound, const Limits& limits,
+  Points& points, AscentEffort& effort, Monitor& monitor)
 {
   const double goal = std::min(bound, 1.);
-  const Mesh& mesh = measured.mesh();
-  const Communicator& communicator = measured.communicator();
   MovableQuality::Result quality = measured.measure(points, monitor);
   if (!(quality.minimum > 0) || hasReached(quality.minimum, goal) ||
-      communicator.all(measured.free().empty()))
+      this->communicator_.all(measured.free().empty()))
   {
     return;
   }
-  const Adjacency around = nodeToCells(mesh);
-  const bool isOfTetrahedra = mostlyTetrahedra(mesh, communicator);
+  const bool isOfTetrahedra = this->isOfTetrahedra_;
   const int rings = isOfTetrahedra ? RingsOfTetrahedra : Rings;
+  const int lastSquarings = isOfTetrahedra ? LastSquaringsOfTetrahedra : LastSquarings;
+  const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
+  const auto first = [&](double minimum)
+  { return std::min(lastSquarings, firstSquarings(minimum, goal, ofUse)); };
   const Points start = points;
   Points trial = points;
-  const double ofUse = isOfTetrahedra ? OfUseInTetrahedra : OfUse;
-  int squarings = std::max(limits.squarings, firstSquarings(quality.minimum, goal, ofUse));
+  int squarings = std::max(limits.squarings, first(quality.minimum));
   double best = quality.minimum; // of `points`; `quality` is that of `trial`
   // Once a power's second round has gained little, those of higher powers do.
   bool repeats = true, isRepeated = false;
   const auto canGain = [&]
   { return !hasReached(best, goal) && best + significantGain(best) < goal; };
-  for (int round = 0; round < Rounds && squarings <= LastSquarings && canGain(); ++round)
+  for (int round = 0; round < Rounds && squarings <= lastSquarings && canGain(); ++round)
   {
-    const KRing patch =
-      kRingOfCells(mesh, around, measured.free(), worstCells(mesh, quality), rings, communicator);
-    const auto cells = communicator.sum(static_cast<double>(patch.cells.size()));
+    const KRing patch = kRingOfCells(this->mesh_, this->around(), measured.free(),
+      worstCells(this->mesh_, quality), rings, this->communicator_);
+    const auto cells = this->communicator_.sum(static_cast<double>(patch.cells.size()));
     const double left = (limits.cellEvaluations - effort.cellEvaluations) / cells;
     if (left < LeastSteps)
     {
       break;
     }
-    WorstCornerNorm norm(mesh, measured.orientation(), patch.cells, patch.nodes, quality.minimum,
-      squarings, goal * (1 - NearBound / 2), communicator);
-    norm.keepEdges(mesh, start);
+    WorstCornerNorm norm(this->mesh_, measured.orientation(), patch.cells, patch.nodes,
+      quality.minimum, squarings, goal * (1 - NearBound / 2), this->communicator_);
+    norm.keepEdges(this->mesh_, start);
     MinimizerLimits stepLimits;
     stepLimits.steps = static_cast<int>(std::min<double>(stepsOf(squarings), left));
     stepLimits.decrease = isOfTetrahedra ? LeastDecreaseInTetrahedra : LeastDecrease;
@@ -168,7 +201,8 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     limitedMemoryBfgs(norm, trial, stepLimits, steps, monitor);
     effort.cellEvaluations += cells * static_cast<double>(steps.evaluations);
     effort.squarings = squarings;
-    MovableQuality::Result next = measured.measure(trial, monitor);
+    MovableQuality::Result next = quality;
+    measured.measureAgain(patch.cells, trial, next, monitor);
     const double gain = next.minimum - quality.minimum, least = significantGain(quality.minimum);
     const bool isPromising = gain > Promising * least;
     // Where as much again would pass the goal, a higher power gets there in a few steps.
@@ -192,7 +226,7 @@ void raise(const MovableQuality& measured, double bound, const Limits& limits, P
     }
     if (isOfTetrahedra)
     {
-      squarings = std::max(squarings, firstSquarings(best, goal, ofUse));
+      squarings = std::max(squarings, first(best));
     }
   }
 }
@@ -202,7 +236,8 @@ AscentEffort raiseMinimumQuality(
   const MovableQuality& measured, double bound, Points& points, Monitor& monitor)
 {
   AscentEffort effort;
-  raise(measured, bound, { 0, std::numeric_limits<double>::infinity() }, points, effort, monitor);
+  Ascent(measured).raise(
+    measured, bound, { 0, std::numeric_limits<double>::infinity() }, points, effort, monitor);
   return effort;
 }
 
@@ -212,18 +247,20 @@ AscentEffort raiseNextWorst(
   const Mesh& mesh = measured.mesh();
   const Communicator& communicator = measured.communicator();
   const auto cells = communicator.sum(static_cast<double>(mesh.numberOfCells()));
-  const bool isOfTetrahedra = mostlyTetrahedra(mesh, communicator);
-  const double part = isOfTetrahedra ? OfSpentOnTetrahedra : OfSpent;
-  const double passes = isOfTetrahedra ? FewPassesOfTetrahedra : FewPasses;
+  Ascent ascent(measured);
+  const double part = ascent.isOfTetrahedra() ? OfSpentOnTetrahedra : OfSpent;
+  const double passes = ascent.isOfTetrahedra() ? FewPassesOfTetrahedra : FewPasses;
   // Its mesh is the best for the powers that are done.
   const Limits limits{ before.squarings, std::max(part * before.cellEvaluations, passes * cells) };
   AscentEffort effort;
-  raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
+  ascent.raise(measured, measured.bounds(points).movable, limits, points, effort, monitor);
   std::vector<char> stays(mesh.numberOfNodes(), 0);
   std::vector<Index> free = measured.free();
   std::optional<MovableQuality> rest; // refers to `free`: made again whenever that changes
   const MovableQuality* current = &measured;
-  for (int level = 0; level < MostLevels && !communicator.all(free.empty()); ++level)
+  for (int level = 0; level < MostLevels && effort.cellEvaluations < limits.cellEvaluations &&
+                      !communicator.all(free.empty());
+       ++level)
   {
     const MovableQuality::Result quality = current->measure(points, monitor);
     if (!(quality.minimum > 0) || quality.minimum >= 1 - NearBound)
@@ -247,7 +284,7 @@ AscentEffort raiseNextWorst(
       free.end());
     rest.emplace(mesh, measured.orientation(), free, communicator);
     current = &*rest;
-    raise(*current, current->bounds(points).movable, limits, points, effort, monitor);
+    ascent.raise(*current, current->bounds(points).movable, limits, points, effort, monitor);
   }
   return effort;
 }

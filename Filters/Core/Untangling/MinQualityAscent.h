@@ -31,7 +31,7 @@ struct AscentEffort
 /// move to lower their WorstCornerNorm by L-BFGS, which keeps edges from collapsing. The norm's
 /// power begins low, where far corners help the worst ones, but high enough to tell `goal` from the
 /// minimum. It doubles whenever a round gains little, has converged or is near `goal`. In a mesh of
-/// tetrahedra it doubles twice. Each power starts where the last one
+/// tetrahedra it doubles twice, and ends at 64 instead of 128. Each power starts where the last one
 /// ended, even if its minimum is lower. A round ends as soon as its cells are at `goal`, and all
 /// end there. A mesh that has reached it, see hasReached(), is left as it is. `points`: #nodes x 3,
 /// start and best result. Cost: a pass over the cells a round, and the minimisation near the worst
