@@ -244,7 +244,7 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
   this->addGhosts(layers, monitor);
   this->halo_ =
     Halo(ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
-  this->findBodies();
+  this->findBodies(monitor);
   this->findOuter(monitor);
 }
 
@@ -396,10 +396,10 @@ void DistributedMesh::addGhosts(int layers, Monitor&)
   this->cellHalo_ = Halo(builder.packed, builder.unpacked);
 }
 
-void DistributedMesh::findBodies()
+void DistributedMesh::findBodies(Monitor& monitor)
 {
   const Ranks& ranks = *this->ranks_;
-  this->bodies_ = connectedComponents(this->mesh_);
+  this->bodies_ = connectedComponents(this->mesh_, monitor);
   std::vector<std::int64_t> label(this->bodies_.count, NoBody);
   std::vector<std::int64_t> ofNode(this->mesh_.numberOfNodes(), NoBody);
   for (std::size_t n = 0; n < ofNode.size(); ++n)
@@ -445,7 +445,7 @@ void DistributedMesh::findBodies()
   }
   this->bodies_.count = static_cast<Index>(labels.size());
 
-  ShapeVolumes volumes = shapeVolumes(this->mesh_, this->bodies_, this->isGhost_);
+  ShapeVolumes volumes = shapeVolumes(this->mesh_, this->bodies_, this->isGhost_, monitor);
   ranks.sum(volumes.volume.data(), volumes.volume.size());
   ranks.sum(volumes.cells.data(), volumes.cells.size());
   this->orientation_ = cellSigns(this->mesh_, this->bodies_, volumes);

@@ -85,7 +85,7 @@ private:
   struct Builder;
   std::vector<NodeRecord> numberNodes();
   void addGhosts(int layers, Monitor& monitor);
-  void findBodies();
+  void findBodies(Monitor& monitor);
   void findOuter(Monitor& monitor);
   void measure();
 

@@ -34,12 +34,12 @@ void FemWarp::setTolerance(double tolerance)
 void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const NodePartition& partition = this->partition();
-  const ConnectedComponents parts = connectedComponents(rest);
+  const ConnectedComponents parts = connectedComponents(rest, monitor);
   requirePrescribedBodies(rest, parts, partition);
   const std::vector<double> factors =
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
-  Adjacency around = nodeToCells(rest);
+  Adjacency around = nodeToCells(rest, monitor);
   // Where the stiffness varies, the fit that is taken off would have to be taken off centres, too.
   this->stars_ = this->isUniform_ ? CentreStars(rest, partition.free, this->firstCentre(), around)
                                   : CentreStars();
@@ -54,7 +54,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   if (system.hasBadCells)
   {
     const std::string warning =
-      describe(badCells(rest, cellSigns(rest, parts), system.cellSign, monitor));
+      describe(badCells(rest, cellSigns(rest, parts, monitor), system.cellSign, monitor));
     if (!warning.empty())
     {
       monitor.warn(warning);

@@ -382,7 +382,7 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor)
 {
   CentreStars none;
-  return femWarpSystem(mesh, nodeToCells(mesh), rows, prescribed, factors, none, monitor);
+  return femWarpSystem(mesh, nodeToCells(mesh, monitor), rows, prescribed, factors, none, monitor);
 }
 
 FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vector<Index>& rows,

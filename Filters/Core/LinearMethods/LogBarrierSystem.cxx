@@ -70,7 +70,7 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
   Monitor& monitor)
 {
-  const Adjacency around = nodeToCells(mesh);
+  const Adjacency around = nodeToCells(mesh, monitor);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
   monitor.check();
   monitor.progress(0.1);

@@ -47,7 +47,7 @@ void LogBarrierWarp::setTolerance(double tolerance)
 void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const NodePartition& partition = this->partition();
-  requirePrescribedBodies(rest, connectedComponents(rest), partition);
+  requirePrescribedBodies(rest, connectedComponents(rest, monitor), partition);
   this->rows_ = unknownOrdering(rest, partition.free);
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
   const std::vector<double> factors =

@@ -12,7 +12,7 @@ void SlidingWarp::prepare(const Mesh& rest, const std::vector<Index>& prescribed
   const std::vector<Index>& sliding, Monitor& monitor)
 {
   const NodePartition partition = partitionNodes(rest, prescribed);
-  requirePrescribedBodies(rest, connectedComponents(rest), partition);
+  requirePrescribedBodies(rest, connectedComponents(rest, monitor), partition);
   this->points_ = rest.points;
   this->prescribed_ = partition.prescribed;
   this->rows_ = unknownOrdering(rest, partition.free);

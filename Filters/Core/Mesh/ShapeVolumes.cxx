@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Support/FirstTouch.h"
 
 namespace morph
 {
@@ -24,31 +25,39 @@ std::size_t slot(const ConnectedComponents& bodies, Index cell, Shape shape)
 
 const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 
-ShapeVolumes shapeVolumes(
-  const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<std::uint8_t>& skip)
+ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<std::uint8_t>& skip, Monitor& monitor)
 {
+  constexpr Index Grain = 4096;
+  auto volume = largeVector<double>(mesh.numberOfCells(), 0., monitor);
+  monitor.parallelFor(mesh.numberOfCells(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        if (isPolyhedron(mesh, c))
+        {
+          volume[c] = polyhedronVolume(mesh, c, mesh.points);
+        }
+        else if (const CellShape* shape = volumeShape(mesh, c))
+        {
+          double corners[8][3];
+          copyCorners(mesh, c, *shape, mesh.points, corners[0]);
+          volume[c] = signedVolume(shape->shape, corners);
+        }
+      }
+    });
   ShapeVolumes sums;
   sums.volume.assign(bodies.count * ShapeVolumes::Shapes, 0);
   sums.cells.assign(sums.volume.size(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape* shape = skip.empty() || skip[c] == 0 ? volumeShape(mesh, c) : nullptr;
-    if (!shape)
+    if (const CellShape* shape = skip.empty() || skip[c] == 0 ? volumeShape(mesh, c) : nullptr)
     {
-      continue;
+      const std::size_t at = slot(bodies, c, shape->shape);
+      sums.volume[at] += volume[c];
+      ++sums.cells[at];
     }
-    const std::size_t at = slot(bodies, c, shape->shape);
-    if (isPolyhedron(mesh, c))
-    {
-      sums.volume[at] += polyhedronVolume(mesh, c, mesh.points);
-    }
-    else
-    {
-      double corners[8][3];
-      copyCorners(mesh, c, *shape, mesh.points, corners[0]);
-      sums.volume[at] += signedVolume(shape->shape, corners);
-    }
-    ++sums.cells[at];
   }
   return sums;
 }

@@ -20,8 +20,8 @@ struct ShapeVolumes
 };
 
 /// Sums up the volume cells, but for those with a nonzero entry in `skip` (#cells, or empty).
-ShapeVolumes shapeVolumes(
-  const Mesh& mesh, const ConnectedComponents& bodies, const std::vector<std::uint8_t>& skip);
+ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
+  const std::vector<std::uint8_t>& skip, Monitor& monitor);
 
 /// cellSigns() by volumes that are known.
 std::vector<std::int8_t> cellSigns(

@@ -7,7 +7,8 @@
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
-#include "Support/HugePages.h"
+#include "Support/Buckets.h"
+#include "Support/FirstTouch.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -89,34 +90,30 @@ std::vector<Place> outerFacesAmongAll(const Mesh& mesh, Monitor& monitor)
 
 Adjacency nodeToCells(const Mesh& mesh)
 {
-  Adjacency result;
-  result.offsets = largeVector<Index>(mesh.numberOfNodes() + 1, 0);
-  const auto eachCorner = [&mesh](auto&& visit)
-  {
-    auto last = largeVector<Index>(mesh.numberOfNodes(), -1); // a collapsed cell repeats nodes
-    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  Monitor serial;
+  return nodeToCells(mesh, serial);
+}
+
+Adjacency nodeToCells(const Mesh& mesh, Monitor& monitor)
+{
+  return sortIntoBuckets(mesh.numberOfCells(), mesh.numberOfNodes(), monitor,
+    [&mesh](Index first, Index last, const auto& add)
     {
-      if (const CellShape* shape = volumeShape(mesh, c))
+      for (Index c = first; c < last; ++c)
       {
-        const Index* end = mesh.cell(c) + cornerCount(mesh, c, *shape);
-        for (const Index* node = mesh.cell(c); node != end; ++node)
+        if (const CellShape* shape = volumeShape(mesh, c))
         {
-          if (last[*node] != c)
+          const Index *begin = mesh.cell(c), *end = begin + cornerCount(mesh, c, *shape);
+          for (const Index* node = begin; node != end; ++node)
           {
-            last[*node] = c;
-            visit(c, *node);
+            if (std::find(begin, node, *node) == node) // a collapsed cell repeats nodes
+            {
+              add(*node, c);
+            }
           }
         }
       }
-    }
-  };
-  eachCorner([&](Index, Index node) { ++result.offsets[node + 1]; });
-  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  resizeLarge(result.values, result.offsets.back());
-  auto next = largeVector<Index>(mesh.numberOfNodes());
-  std::copy(result.offsets.begin(), result.offsets.end() - 1, next.begin());
-  eachCorner([&](Index cell, Index node) { result.values[next[node]++] = cell; });
-  return result;
+    });
 }
 
 namespace
@@ -127,33 +124,27 @@ std::vector<Place> outerFaces(const Mesh& mesh, Monitor& monitor)
   // Buckets the faces by their lowest corner: equal faces are in one bucket.
   const Index nodes = mesh.numberOfNodes();
   const Index cells = mesh.numberOfCells();
-  auto offsets = largeVector<Index>(nodes + 1, 0);
-  const auto eachFace = [&mesh, cells](auto&& visit)
-  {
-    for (Index c = 0; c < cells; ++c)
+  Adjacency buckets = sortIntoBuckets(cells, nodes, monitor,
+    [&mesh](Index first, Index last, const auto& add)
     {
-      if (const CellShape* shape = volumeShape(mesh, c))
+      for (Index c = first; c < last; ++c)
       {
-        for (int f = 0; f < shape->numberOfFaces; ++f)
+        if (const CellShape* shape = volumeShape(mesh, c))
         {
-          Index lowest = mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[0]]];
-          for (int k = 1; k < shape->faces[f].size; ++k)
+          for (int f = 0; f < shape->numberOfFaces; ++f)
           {
-            lowest = std::min(lowest, mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
+            Index lowest = NoNode;
+            for (int k = 0; k < shape->faces[f].size; ++k)
+            {
+              lowest = std::min(lowest, mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
+            }
+            add(lowest, c * MostFaces + f);
           }
-          visit(c, f, lowest);
         }
       }
-    }
-  };
-  eachFace([&](Index, int, Index lowest) { ++offsets[lowest + 1]; });
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  auto faces = largeVector<Index>(offsets.back());
-  {
-    auto next = largeVector<Index>(nodes);
-    std::copy(offsets.begin(), offsets.end() - 1, next.begin());
-    eachFace([&](Index c, int f, Index lowest) { faces[next[lowest]++] = c * MostFaces + f; });
-  }
+    });
+  const std::vector<Index>& offsets = buckets.offsets;
+  std::vector<Index>& faces = buckets.values;
   monitor.check();
 
   // In a bucket, a face whose key is unique is on the boundary; the others are marked -1.
@@ -339,12 +330,18 @@ BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>
 
 ConnectedComponents connectedComponents(const Mesh& mesh)
 {
+  Monitor serial;
+  return connectedComponents(mesh, serial);
+}
+
+ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
+{
   const Index nodes = mesh.numberOfNodes();
   UnionFind<Index> bodies(nodes);
 
   ConnectedComponents result;
-  result.ofCell = largeVector<Index>(mesh.numberOfCells(), -1);
-  result.ofNode = largeVector<Index>(nodes, -1);
+  result.ofCell = largeVector<Index>(mesh.numberOfCells(), -1, monitor);
+  result.ofNode = largeVector<Index>(nodes, -1, monitor);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (const CellShape* shape = volumeShape(mesh, c))
@@ -357,7 +354,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
     }
   }
   // Numbers bodies in the order of their first cell.
-  auto number = largeVector<Index>(nodes, -1);
+  auto number = largeVector<Index>(nodes, -1, monitor);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (const CellShape* shape = volumeShape(mesh, c))
@@ -379,7 +376,15 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
 
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies)
 {
-  std::vector<std::int8_t> result = cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}));
+  Monitor serial;
+  return cellSigns(mesh, bodies, serial);
+}
+
+std::vector<std::int8_t> cellSigns(
+  const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor)
+{
+  std::vector<std::int8_t> result =
+    cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}, monitor));
   alignShapeSigns(mesh, bodies, result);
   return result;
 }

@@ -24,8 +24,11 @@ struct BoundaryFaces
 };
 
 /// Returns for each node the volume cells with this corner, ascending and unique. Cost: two passes
-/// over the connectivity.
+/// over the connectivity. Threads come from `monitor`; without it there is one.
+///@{
+Adjacency nodeToCells(const Mesh& mesh, Monitor& monitor);
 Adjacency nodeToCells(const Mesh& mesh);
+///@}
 
 /// Returns the faces that one cell alone uses. Faces are equal if their sets of corners are: a
 /// collapsed quadrilateral is a triangle. A face collapsed to an edge is left out. Allows unused
@@ -41,11 +44,18 @@ struct ConnectedComponents
   /// #nodes, body number, or -1 for a node that is no corner of a volume cell
   std::vector<Index> ofNode;
 };
+///@{
+ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor);
 ConnectedComponents connectedComponents(const Mesh& mesh);
+///@}
 
 /// Returns +1 or -1 for each cell: the orientation of its node list, one sign per body and shape.
 /// The sign is that of the summed signed volume. A single tet, hex or pyramid in a body has VTK's
 /// order (+1). So a wholly mirrored body, or wedges in VTK's older order, count as valid. A cell
 /// that is inverted among valid neighbors stays inverted. Cells below dimension 3 have +1.
+///@{
+std::vector<std::int8_t> cellSigns(
+  const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor);
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
+///@}
 }

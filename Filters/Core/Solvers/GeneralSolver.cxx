@@ -91,18 +91,24 @@ struct GeneralSolver::System
     this->spare = std::move(workspace);
   }
 
-  void findNorm()
+  void findNorm(Monitor& monitor)
   {
-    this->norm = 0;
-    for (int i = 0; i < this->A.rows(); ++i)
-    {
-      double sum = 0;
-      for (CsrMatrix::InnerIterator entry(this->A, i); entry; ++entry)
+    const Index blocks = (this->A.rows() + Grain - 1) / Grain;
+    std::vector<double> most(blocks, 0);
+    monitor.parallelFor(blocks, 1,
+      [&](Index first, Index last)
       {
-        sum += std::abs(entry.value());
-      }
-      this->norm = std::max(this->norm, sum);
-    }
+        for (Index row = first * Grain; row < std::min<Index>(this->A.rows(), last * Grain); ++row)
+        {
+          double sum = 0;
+          for (CsrMatrix::InnerIterator entry(this->A, static_cast<int>(row)); entry; ++entry)
+          {
+            sum += std::abs(entry.value());
+          }
+          most[row / Grain] = std::max(most[row / Grain], sum);
+        }
+      });
+    this->norm = most.empty() ? 0 : *std::max_element(most.begin(), most.end());
   }
 
   std::size_t memory() const
@@ -443,7 +449,7 @@ struct GeneralSolver::Implementation
   std::mutex mutex;
   std::unique_ptr<System> transposed; ///< made at the first use
 
-  const System& transposedSystem()
+  const System& transposedSystem(Monitor& monitor)
   {
     const std::lock_guard<std::mutex> lock(this->mutex);
     if (!this->transposed)
@@ -451,7 +457,7 @@ struct GeneralSolver::Implementation
       auto fresh = std::make_unique<System>();
       fresh->A = this->forward.A.transpose();
       fresh->components = this->forward.components;
-      fresh->findNorm();
+      fresh->findNorm(monitor);
       fresh->preconditioner.prepareTransposed(this->forward.preconditioner);
       this->transposed = std::move(fresh);
     }
@@ -469,7 +475,7 @@ void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, M
   auto fresh = std::make_unique<Implementation>();
   System& system = fresh->forward;
   system.A.swap(matrix);
-  const Eigen::VectorXd diagonal = system.A.diagonal();
+  const Eigen::VectorXd diagonal = diagonalOf(system.A, monitor);
   std::vector<Index> notPositive;
   for (Index i = 0; i < diagonal.size(); ++i)
   {
@@ -482,7 +488,7 @@ void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, M
   {
     throw SingularRows(notPositive);
   }
-  system.findNorm();
+  system.findNorm(monitor);
   system.components = rowComponents(system.A);
   system.preconditioner.prepare(
     system.A, Multigrid::Symmetry::General, diagonal.maxCoeff(), coordinates, monitor);
@@ -504,7 +510,8 @@ GeneralSolver::Report GeneralSolver::solve(
 GeneralSolver::Report GeneralSolver::solveTransposed(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
-  return this->implementation_->transposedSystem().solve(b, x, tolerance, maxIterations, monitor);
+  return this->implementation_->transposedSystem(monitor).solve(
+    b, x, tolerance, maxIterations, monitor);
 }
 
 const CsrMatrix& GeneralSolver::matrix() const

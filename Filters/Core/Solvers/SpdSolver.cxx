@@ -122,15 +122,7 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
   fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
   fresh->A.makeCompressed();
   const Index rows = fresh->A.rows();
-  Eigen::VectorXd diagonal(rows);
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        diagonal[i] = fresh->A.coeff(static_cast<int>(i), static_cast<int>(i));
-      }
-    });
+  const Eigen::VectorXd diagonal = diagonalOf(fresh->A, monitor);
   std::vector<Index> notPositive;
   for (Index i = 0; i < rows; ++i)
   {

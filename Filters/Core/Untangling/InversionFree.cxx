@@ -26,7 +26,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
     this->referenceMesh_.points = this->reference_;
     validate(this->referenceMesh_);
   }
-  this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest));
+  this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest, monitor), monitor);
   this->scale_ = unitEdgeScale(this->referenceMesh_);
   this->referenceMesh_.points *= this->scale_;
   const Points atRest = rest.points * this->scale_;
@@ -90,7 +90,7 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
     {
       throw;
     }
-    requirePrescribedBodies(rest, connectedComponents(rest), this->partition());
+    requirePrescribedBodies(rest, connectedComponents(rest, monitor), this->partition());
     this->hasFemWarp_ = false;
   }
 }

@@ -4,7 +4,8 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
+#include "Support/FirstTouch.h"
+#include "Support/Monitor.h"
 
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
@@ -83,12 +84,14 @@ bool equals(const Value* values, vtkIdType count, const std::vector<morph::Index
 }
 
 template <typename Value>
-void copyIntegers(const Value* values, vtkIdType count, std::vector<morph::Index>& to)
+void copyIntegers(
+  const Value* values, vtkIdType count, std::vector<morph::Index>& to, morph::Monitor& monitor)
 {
-  to.clear();
-  to.reserve(count);
-  morph::adviseHugePages(to.data(), count * sizeof(morph::Index));
-  to.assign(values, values + count);
+  constexpr morph::Index Grain = 1 << 16;
+  morph::resizeLarge(to, count, monitor);
+  monitor.parallelFor(count, Grain,
+    [&](morph::Index first, morph::Index last)
+    { std::copy(values + first, values + last, to.begin() + first); });
 }
 
 /// Copies the faces of polyhedra. Returns those whose faces the grid does not hold.
@@ -169,17 +172,22 @@ namespace GridMesh
 {
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown)
 {
+  morph::Monitor serial;
+  return FromGrid(grid, unknown, serial);
+}
+
+morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Monitor& monitor)
+{
   morph::Mesh mesh;
   mesh.points = FromPoints(grid->GetPoints());
   mesh.offsets = { 0 };
   if (grid->GetNumberOfCells() > 0)
   {
     mesh.types = typesOf(grid);
-    visitIntegers(grid->GetCells()->GetOffsetsArray(),
-      [&mesh](const auto* values, vtkIdType count) { copyIntegers(values, count, mesh.offsets); });
-    visitIntegers(grid->GetCells()->GetConnectivityArray(),
-      [&mesh](const auto* values, vtkIdType count)
-      { copyIntegers(values, count, mesh.connectivity); });
+    visitIntegers(grid->GetCells()->GetOffsetsArray(), [&](const auto* values, vtkIdType count)
+      { copyIntegers(values, count, mesh.offsets, monitor); });
+    visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
+      { copyIntegers(values, count, mesh.connectivity, monitor); });
   }
   const std::vector<morph::Index> withoutFaces = readFaces(grid, mesh);
   if (!withoutFaces.empty())

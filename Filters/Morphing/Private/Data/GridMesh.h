@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Support/Monitor.h"
 
 #include <cstdint>
 
@@ -22,8 +23,12 @@ enum class UnknownCells
 /// A copy of the grid's points (float, double or any other type) and cells. Throws morph::Error
 /// where morph::validate would: node ids that do not exist, coordinates that are not finite, wrong
 /// cell sizes, polyhedra that are not closed. The faces of a polyhedron run alike. Cost: one pass
-/// over the grid; 24 bytes a point and 8 bytes a connectivity entry.
+/// over the grid; 24 bytes a point and 8 bytes a connectivity entry. Threads come from `monitor`;
+/// without it there is one.
+///@{
+morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Monitor& monitor);
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
+///@}
 
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
 morph::Points FromPoints(vtkPoints* points);

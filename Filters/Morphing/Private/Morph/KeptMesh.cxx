@@ -26,10 +26,10 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     this->Taken.See(grid);
     return false;
   }
-  morph::Mesh mesh = GridMesh::FromGrid(grid);
+  morph::Mesh mesh = GridMesh::FromGrid(grid, GridMesh::UnknownCells::Refuse, monitor);
   Input::RequireVolumeCells(mesh);
-  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
-  std::vector<std::int8_t> signs = morph::cellSigns(mesh, bodies);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh, monitor);
+  std::vector<std::int8_t> signs = morph::cellSigns(mesh, bodies, monitor);
   const morph::Index mirrored = Quality::MirroredBodies(bodies, signs);
   if (!sameCells)
   {
