@@ -20,6 +20,22 @@ std::vector<std::int8_t> orientationOf(const morph::Mesh& mesh)
 {
   return morph::cellSigns(mesh, morph::connectedComponents(mesh));
 }
+
+/// Calls test(mesh, free, quality, monitor) with meshes whose free nodes the test may move.
+template <typename Test>
+void forEachJittered(const Test& test)
+{
+  for (const auto& [name, original] : motions::jittered())
+  {
+    SCOPED_TRACE(name);
+    morph::Mesh mesh = original;
+    meshes::ThreadedMonitor monitor;
+    const auto orientation = orientationOf(mesh);
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    const MovableQuality quality(mesh, orientation, partition.free);
+    test(mesh, partition.free, quality, monitor);
+  }
+}
 }
 
 TEST(MovableQuality, MovableAndFixedSamplesMakeTheScaledJacobian)
@@ -43,60 +59,53 @@ TEST(MovableQuality, MovableAndFixedSamplesMakeTheScaledJacobian)
 
 TEST(MovableQuality, FreeNodesChangeNothingThatIsFixedAndNoMovableSampleExceedsItsBound)
 {
-  for (const auto& [name, original] : motions::jittered())
-  {
-    SCOPED_TRACE(name);
-    morph::Mesh mesh = original;
-    meshes::ThreadedMonitor monitor;
-    const auto orientation = orientationOf(mesh);
-    const morph::NodePartition partition = motions::outerPartition(mesh);
-    const MovableQuality quality(mesh, orientation, partition.free);
-    const MovableQuality::Bounds bounds = quality.bounds(mesh.points);
-    EXPECT_GT(bounds.movable, 0);
-    for (int round = 0; round < 20; ++round)
+  forEachJittered(
+    [](morph::Mesh& mesh, const std::vector<Index>& free, const MovableQuality& quality,
+      morph::Monitor& monitor)
     {
-      for (Index node : partition.free)
+      const Points original = mesh.points;
+      const MovableQuality::Bounds bounds = quality.bounds(mesh.points);
+      EXPECT_GT(bounds.movable, 0);
+      for (int round = 0; round < 20; ++round)
       {
-        mesh.points.row(node) = original.points.row(node) + 0.3 * Eigen::RowVector3d::Random();
+        for (Index node : free)
+        {
+          mesh.points.row(node) = original.row(node) + 0.3 * Eigen::RowVector3d::Random();
+        }
+        EXPECT_EQ(quality.bounds(mesh.points).fixed, bounds.fixed);
+        EXPECT_EQ(quality.bounds(mesh.points).movable, bounds.movable);
+        EXPECT_LE(quality.measure(mesh.points, monitor).minimum, bounds.movable);
       }
-      EXPECT_EQ(quality.bounds(mesh.points).fixed, bounds.fixed);
-      EXPECT_EQ(quality.bounds(mesh.points).movable, bounds.movable);
-      EXPECT_LE(quality.measure(mesh.points, monitor).minimum, bounds.movable);
-    }
-  }
+    });
 }
 
 TEST(MovableQuality, MeasuringTheCellsOfAMovedNodeAgainIsMeasuringAll)
 {
-  for (const auto& [name, original] : motions::jittered())
-  {
-    SCOPED_TRACE(name);
-    morph::Mesh mesh = original;
-    meshes::ThreadedMonitor monitor;
-    const auto orientation = orientationOf(mesh);
-    const morph::NodePartition partition = motions::outerPartition(mesh);
-    const MovableQuality quality(mesh, orientation, partition.free);
-    const morph::Adjacency around = morph::nodeToCells(mesh);
-    MovableQuality::Result kept = quality.measure(mesh.points, monitor);
-    for (const Index node : partition.free)
+  forEachJittered(
+    [](morph::Mesh& mesh, const std::vector<Index>& free, const MovableQuality& quality,
+      morph::Monitor& monitor)
     {
-      // Far enough to invert cells.
-      mesh.points.row(node) += 0.6 * Eigen::RowVector3d::Random();
-      const std::vector<Index> cells(around.begin(node), around.end(node));
-      quality.measureAgain(cells, mesh.points, kept, monitor);
-    }
-    const MovableQuality::Result all = quality.measure(mesh.points, monitor);
-    EXPECT_EQ(kept.minimum, all.minimum);
-    EXPECT_EQ(kept.inverted, all.inverted);
-    EXPECT_GT(all.inverted, 0);
-    for (Index c = 0; c < mesh.numberOfCells(); ++c)
-    {
-      const double value = all.scaledJacobian[c];
-      EXPECT_TRUE(
-        std::isnan(value) ? std::isnan(kept.scaledJacobian[c]) : kept.scaledJacobian[c] == value)
-        << c;
-    }
-  }
+      const morph::Adjacency around = morph::nodeToCells(mesh);
+      MovableQuality::Result kept = quality.measure(mesh.points, monitor);
+      for (const Index node : free)
+      {
+        // Far enough to invert cells.
+        mesh.points.row(node) += 0.6 * Eigen::RowVector3d::Random();
+        const std::vector<Index> cells(around.begin(node), around.end(node));
+        quality.measureAgain(cells, mesh.points, kept, monitor);
+      }
+      const MovableQuality::Result all = quality.measure(mesh.points, monitor);
+      EXPECT_EQ(kept.minimum, all.minimum);
+      EXPECT_EQ(kept.inverted, all.inverted);
+      EXPECT_GT(all.inverted, 0);
+      for (Index c = 0; c < mesh.numberOfCells(); ++c)
+      {
+        const double value = all.scaledJacobian[c];
+        EXPECT_TRUE(
+          std::isnan(value) ? std::isnan(kept.scaledJacobian[c]) : kept.scaledJacobian[c] == value)
+          << c;
+      }
+    });
 }
 
 TEST(MovableQuality, ASkewFaceIsTheBoundOfAHexahedron)
