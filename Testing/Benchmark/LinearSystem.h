@@ -35,6 +35,7 @@ morph::Points solution(const Method& method, const Problem& problem, const morph
   return displacement(problem, method.rows(), moved);
 }
 
-/// Largest over the three columns of |b - A x| / |b|, recomputed from the matrix.
+/// Largest over the three columns of |b - A x| / |b|, recomputed from the matrix. |b| is that of a
+/// column, but at least 1e-4 of the whole.
 double relativeResidual(const LinearSystem& system, const morph::Points& x);
 }
