@@ -53,25 +53,35 @@ Eigen::MatrixXd dense(const CsrRows<Scalar>& A, int columns)
 }
 
 // Many columns are numbered by a hash map, few by a table.
-TEST(CsrRows, ProductsDoNotDependOnHowColumnsAreNumbered)
+TEST(CsrRows, TripleProductsDoNotDependOnHowColumnsAreNumbered)
 {
   constexpr int Rows = 9000, Inner = 40, Columns = 30, Many = 1 << 20;
   std::mt19937 random(meshes::seed());
-  const CsrRows<double> A = randomRows<double>(Rows, Inner, random);
-  const CsrRows<float> B = randomRows<float>(Inner, Columns, random);
+  const CsrRows<float> R = randomRows<float>(Rows, Inner, random);
+  const CsrRows<double> A = randomRows<double>(Inner, Inner, random);
+  const CsrRows<float> P = randomRows<float>(Inner, Columns, random);
   meshes::ThreadedMonitor monitor(2);
-  const CsrRows<float> C = randomRows<float>(Rows, Inner, random);
-  const CsrRows<double> D = randomRows<double>(Inner, Columns, random);
-  const auto expectProduct =
-    [](const CsrRows<double>& few, const CsrRows<double>& many, const Eigen::MatrixXd& expected)
-  {
-    ASSERT_EQ(few.ownStart, many.ownStart);
-    EXPECT_TRUE((few.ownColumn == many.ownColumn).all());
-    EXPECT_TRUE((few.ownValue == many.ownValue).all());
-    EXPECT_LT((dense(few, Columns) - expected).cwiseAbs().maxCoeff(), 1e-13);
-  };
-  expectProduct(product(A, B, Columns, monitor), product(A, B, Many, monitor),
-    dense(A, Inner) * dense(B, Columns));
-  expectProduct(product(C, D, Columns, monitor), product(C, D, Many, monitor),
-    dense(C, Inner) * dense(D, Columns));
+  const CsrRows<double> few = tripleProduct(R, A, P, Columns, monitor);
+  const CsrRows<double> many = tripleProduct(R, A, P, Many, monitor);
+  ASSERT_EQ(few.ownStart, many.ownStart);
+  EXPECT_TRUE((few.ownColumn == many.ownColumn).all());
+  EXPECT_TRUE((few.ownValue == many.ownValue).all());
+  const Eigen::MatrixXd expected = dense(R, Inner) * dense(A, Inner) * dense(P, Columns);
+  EXPECT_LT((dense(few, Columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(CsrRows, TripleProductsDoNotDependOnThreads)
+{
+  constexpr int Rows = 9000, Inner = 40, Columns = 30;
+  std::mt19937 random(meshes::seed());
+  const CsrRows<float> R = randomRows<float>(Rows, Inner, random);
+  const CsrRows<double> A = randomRows<double>(Inner, Inner, random);
+  const CsrRows<float> P = randomRows<float>(Inner, Columns, random);
+  Monitor serial;
+  meshes::ThreadedMonitor threads(3);
+  const CsrRows<double> one = tripleProduct(R, A, P, Columns, serial);
+  const CsrRows<double> three = tripleProduct(R, A, P, Columns, threads);
+  ASSERT_EQ(one.ownStart, three.ownStart);
+  EXPECT_TRUE((one.ownColumn == three.ownColumn).all());
+  EXPECT_TRUE((one.ownValue == three.ownValue).all());
 }

@@ -98,6 +98,33 @@ TEST(RowProducts, HaveTheSameBitsOnEveryProcessor)
     { EXPECT_EQ(product, rows.expected<MultiVectorRow>(static_cast<int>(i))) << "row " << i; });
 }
 
+// The finest level of the multigrid is no copy: it must be what a copy would be.
+TEST(RowProducts, OfAScaledMatrixAreThoseOfItsCopyInSinglePrecision)
+{
+  std::mt19937 random(meshes::seed());
+  RandomRows rows(random);
+  std::uniform_real_distribution<double> number(-1, 1);
+  constexpr double Scale = 1 / 3e5;
+  CsrRows<double> wide;
+  wide.rows = rows.A.rows;
+  wide.start = rows.A.start;
+  wide.column = rows.A.column;
+  wide.ownValue.resize(static_cast<Index>(rows.A.entries()));
+  for (Index k = 0; k < wide.ownValue.size(); ++k)
+  {
+    wide.ownValue[k] = number(random) / Scale;
+    rows.A.ownValue[k] = static_cast<float>(wide.ownValue[k] * Scale);
+  }
+  wide.value = wide.ownValue.data();
+  const ScaledRows scaled(wide, Scale);
+  FloatMultiVector result(rows.A.rows);
+  rowProducts(scaled, rows.x, 0, rows.A.rows, result.data());
+  for (int i = 0; i < rows.A.rows; ++i)
+  {
+    EXPECT_EQ(result[i], rows.expected<Eigen::Vector4f>(i)) << "row " << i;
+  }
+}
+
 TEST(RowProducts, AgreeWithEigen)
 {
   std::mt19937 random(meshes::seed());

@@ -23,11 +23,10 @@ namespace
 constexpr Index Grain = 4096;
 constexpr std::size_t MostIds = 100; // in a warning
 
-/// Stiffness matrices of the elements: upper triangles, one after another. Those of the volume
-/// cells outside of stars come first, and then those of the stars.
-struct ElementMatrices
+/// Stiffness matrices: upper triangles, one after another.
+struct Matrices
 {
-  std::vector<Index> start; ///< #cells + #stars + 1
+  std::vector<Index> start; ///< of each element
   Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
 
   double* of(Index element) { return this->K.data() + this->start[element]; }
@@ -141,59 +140,158 @@ bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, Cen
   return isUsable;
 }
 
-ElementMatrices elementMatrices(const Mesh& mesh, const Adjacency& around,
-  const std::vector<double>& factors, CentreStars& stars, FemWarpSystem& system, Monitor& monitor)
+/// Sets the weights of the centres, and names those without stiffness.
+Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cell,
+  CentreStars& stars, std::vector<Index>& singularCentres, Monitor& monitor)
 {
-  const Index cells = mesh.numberOfCells();
-  const std::vector<int>& star = stars.ofCell();
-  ElementMatrices result;
-  result.start.reserve(cells + stars.size() + 1);
-  result.start.push_back(0);
-  for (Index c = 0; c < cells; ++c)
-  {
-    const bool isInStar = !star.empty() && star[c] >= 0;
-    result.start.push_back(
-      result.start[c] +
-      (isInStar ? 0 : triangleSize(numberOfCorners(cellShape(mesh.types[c])->shape))));
-  }
+  Matrices result;
+  Index entries = 0;
   for (Index s = 0; s < stars.size(); ++s)
   {
-    result.start.push_back(result.start.back() + triangleSize(static_cast<int>(
-                                                   stars.nodes().end(s) - stars.nodes().begin(s))));
+    result.start.push_back(entries);
+    entries += triangleSize(static_cast<int>(stars.nodes().end(s) - stars.nodes().begin(s)));
   }
-  resizeUndefined(result.K, result.start.back());
-
-  CellMatrix cell(mesh, factors, system.cellSign);
-  monitor.parallelFor(cells, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        if (result.start[c + 1] > result.start[c])
-        {
-          cell.compute(c, result.of(c));
-        }
-      }
-    });
+  resizeUndefined(result.K, entries);
   std::vector<std::uint8_t> isUsable(stars.size(), 1);
   monitor.parallelFor(stars.size(), Grain,
     [&](Index first, Index last)
     {
       for (Index s = first; s < last; ++s)
       {
-        isUsable[s] = starMatrix(mesh, around, cell, stars, s, result.of(cells + s));
+        isUsable[s] = starMatrix(mesh, around, cell, stars, s, result.of(s));
       }
     });
   for (Index s = 0; s < stars.size(); ++s)
   {
     if (!isUsable[s])
     {
-      system.singularCentres.push_back(stars.centre(s));
+      singularCentres.push_back(stars.centre(s));
     }
   }
-  system.hasBadCells = cell.isAnyBad();
   return result;
 }
+
+/// The matrices of the cells around the rows of one band at a time, as those of all cells of a
+/// hexahedral mesh would take 0.3 kB a node. Cells of two bands are computed twice, with the same
+/// result.
+class CellMatrices
+{
+public:
+  /// `column`: the row of each free node, at most `rows` of them; others have larger numbers or -1.
+  CellMatrices(const Mesh& mesh, const std::vector<int>& starOf, const std::vector<int>& column,
+    Index rows, CellMatrix& cell, Monitor& monitor)
+    : mesh_(mesh)
+    , cell_(cell)
+    , bandRows_(std::max(LeastRows, roundUp(rows / MostBands)))
+    , rows_(rows)
+    , bands_(mesh.numberOfCells())
+  {
+    this->matrices_.start.resize(mesh.numberOfCells());
+    monitor.parallelFor(mesh.numberOfCells(), Grain,
+      [&](Index first, Index last)
+      {
+        for (Index c = first; c < last; ++c)
+        {
+          const bool isInStar = !starOf.empty() && starOf[c] >= 0;
+          this->bands_[c] = isInStar ? Bands() : this->bandsOf(c, column);
+        }
+      });
+  }
+
+  /// Number of bands; at least one, which has the cells without a row.
+  int size() const { return this->rows_ == 0 ? 1 : this->bandOf(this->rows_ - 1) + 1; }
+  Index firstRow(int band) const { return band * this->bandRows_; }
+  Index lastRow(int band) const { return std::min(this->rows_, this->firstRow(band + 1)); }
+
+  /// Computes the matrices of a band; the others are lost.
+  void compute(int band, Monitor& monitor)
+  {
+    const Index cells = this->mesh_.numberOfCells(), blocks = (cells + Grain - 1) / Grain;
+    std::vector<Index> blockStart(blocks + 1, 0);
+    const auto forCells = [&](const auto& use)
+    {
+      monitor.parallelFor(blocks, 1,
+        [&](Index first, Index last)
+        {
+          for (Index block = first; block < last; ++block)
+          {
+            Index at = blockStart[block];
+            for (Index c = block * Grain; c < std::min(cells, (block + 1) * Grain); ++c)
+            {
+              if (this->bands_[c].first <= band && band <= this->bands_[c].last)
+              {
+                use(c, at);
+                at += this->entries(c);
+              }
+            }
+            blockStart[block] = at;
+          }
+        });
+    };
+    forCells([](Index, Index) {});
+    Index before = 0;
+    for (Index& start : blockStart)
+    {
+      const Index size = start;
+      start = before;
+      before += size;
+    }
+    if (before > this->matrices_.K.size())
+    {
+      this->matrices_.K.resize(0); // lets go of the memory first
+      resizeUndefined(this->matrices_.K, before);
+    }
+    forCells(
+      [&](Index c, Index at)
+      {
+        this->matrices_.start[c] = at;
+        this->cell_.compute(c, this->matrices_.of(c));
+      });
+  }
+  const double* of(Index cell) const { return this->matrices_.of(cell); }
+
+private:
+  static constexpr int MostBands = 8;
+  static constexpr Index LeastRows = ChunkRows * ChunksOfArena;
+
+  /// The first and last band of a cell's rows; none by default.
+  struct Bands
+  {
+    std::int8_t first = 1, last = 0;
+  };
+
+  static Index roundUp(Index rows) { return (rows / LeastRows + 1) * LeastRows; }
+  int bandOf(Index row) const { return static_cast<int>(row / this->bandRows_); }
+  Index entries(Index cell) const
+  {
+    return triangleSize(numberOfCorners(cellShape(this->mesh_.types[cell])->shape));
+  }
+
+  Bands bandsOf(Index cell, const std::vector<int>& column) const
+  {
+    const CellShape& shape = *cellShape(this->mesh_.types[cell]);
+    Bands bands;
+    for (int k = 0; k < numberOfCorners(shape.shape); ++k)
+    {
+      const int row = column[this->mesh_.cell(cell)[shape.cornerNode[k]]];
+      if (row >= 0 && row < this->rows_)
+      {
+        const auto band = static_cast<std::int8_t>(this->bandOf(row));
+        const bool isFirst = bands.first > bands.last;
+        bands.first = isFirst ? band : std::min(bands.first, band);
+        bands.last = isFirst ? band : std::max(bands.last, band);
+      }
+    }
+    const bool isEmpty = bands.first > bands.last;
+    return isEmpty && this->entries(cell) > 0 ? Bands{ 0, 0 } : bands;
+  }
+
+  const Mesh& mesh_;
+  CellMatrix& cell_;
+  Index bandRows_, rows_;
+  std::vector<Bands> bands_;
+  Matrices matrices_;
+};
 
 /// A table of triangleIndex(n, a, b), for the assembly's inner loop.
 struct TriangleTable
@@ -262,10 +360,6 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
   const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
   FemWarpSystem& system, Monitor& monitor)
 {
-  const ElementMatrices matrices = elementMatrices(mesh, around, factors, stars, system, monitor);
-  monitor.check();
-  monitor.progress(0.3);
-
   // Columns of [A_I A_B]: the free nodes by row, then the prescribed nodes.
   const Index rows = static_cast<Index>(free.size());
   const Index columns = static_cast<Index>(prescribed.size());
@@ -278,6 +372,11 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
   {
     column[prescribed[i]] = static_cast<int>(rows + i);
   }
+
+  CellMatrix cellMatrix(mesh, factors, system.cellSign);
+  const Matrices ofStars =
+    starMatrices(mesh, around, cellMatrix, stars, system.singularCentres, monitor);
+  CellMatrices ofCells(mesh, stars.ofCell(), column, rows, cellMatrix, monitor);
 
   // Visits the cells and stars around a row's free node, once for every corner that is this node.
   // A visit gets the nodes and the matrix, and the index of the corner's entries.
@@ -297,7 +396,7 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
       const CellShape& shape = *cellShape(mesh.types[*cell]);
       const int* cornerNode = shape.cornerNode;
       const Index* nodes = mesh.cell(*cell);
-      const double* K = matrices.of(*cell);
+      const double* K = ofCells.of(*cell);
       const int n = shape.numberOfCorners;
       for (int own = 0; own < n; ++own)
       {
@@ -316,64 +415,74 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
       const Index* nodes = stars.nodes().begin(*star);
       const auto n = static_cast<int>(stars.nodes().end(*star) - nodes);
       const auto own = std::lower_bound(nodes, nodes + n, node) - nodes;
-      onCorner(nodes, same, n, matrices.of(mesh.numberOfCells() + *star), triangle.at[n][own]);
+      onCorner(nodes, same, n, ofStars.of(*star), triangle.at[n][own]);
     }
   };
 
-  return splitRows(rows, monitor,
-    [&]
+  const auto makeRows = [&]
+  {
+    return [&, local = LocalColumnMap(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
+             values = std::vector<double>()](Index row, SplitRows& chunk) mutable
     {
-      return [&, local = LocalColumnMap(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
-               values = std::vector<double>()](Index row, SplitRows& chunk) mutable
-      {
-        values.clear();
-        local.clear();
-        visit(row,
-          [&](const Index* nodes, const int* cornerNode, int n, const double* K,
-            const std::uint8_t* entry)
+      values.clear();
+      local.clear();
+      visit(row,
+        [&](const Index* nodes, const int* cornerNode, int n, const double* K,
+          const std::uint8_t* entry)
+        {
+          int index[CentreStars::MostNodes];
+          for (int a = 0; a < n; ++a)
           {
-            int index[CentreStars::MostNodes];
-            for (int a = 0; a < n; ++a)
-            {
-              index[a] = local.localIndex(column[nodes[cornerNode[a]]]);
-            }
-            // adding any number to -0 gives this number, also for zeros
-            values.resize(local.size(), -0.);
-            double* sums = values.data();
-            for (int a = 0; a < n; ++a)
-            {
-              sums[index[a]] += K[entry[a]];
-            }
-          });
-        columnsHere.resize(values.size());
-        int inside = 0;
-        for (std::size_t k = 0; k < values.size(); ++k)
-        {
-          columnsHere[k] = local.column(static_cast<int>(k));
-          inside += columnsHere[k] < rows;
-        }
-        const int outside = static_cast<int>(values.size()) - inside;
-        const std::vector<int>& rank = ranks.of(columnsHere);
-        const auto open = [](SplitRows::Part& part, int size)
-        {
-          const std::size_t before = part.column.size();
-          part.size.push_back(size);
-          part.column.resize(before + size);
-          part.value.resize(before + size);
-          return before;
-        };
-        const std::size_t firstInside = open(chunk.interior, inside);
-        const std::size_t firstOutside = open(chunk.coupling, outside);
-        for (std::size_t k = 0; k < values.size(); ++k)
-        {
-          const bool isInside = rank[k] < inside; // the free nodes' columns come first
-          SplitRows::Part& part = isInside ? chunk.interior : chunk.coupling;
-          const std::size_t at = isInside ? firstInside + rank[k] : firstOutside + rank[k] - inside;
-          part.column[at] = static_cast<int>(isInside ? columnsHere[k] : columnsHere[k] - rows);
-          part.value[at] = values[k];
-        }
+            index[a] = local.localIndex(column[nodes[cornerNode[a]]]);
+          }
+          // adding any number to -0 gives this number, also for zeros
+          values.resize(local.size(), -0.);
+          double* sums = values.data();
+          for (int a = 0; a < n; ++a)
+          {
+            sums[index[a]] += K[entry[a]];
+          }
+        });
+      columnsHere.resize(values.size());
+      int inside = 0;
+      for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        columnsHere[k] = local.column(static_cast<int>(k));
+        inside += columnsHere[k] < rows;
+      }
+      const int outside = static_cast<int>(values.size()) - inside;
+      const std::vector<int>& rank = ranks.of(columnsHere);
+      const auto open = [](SplitRows::Part& part, int size)
+      {
+        const std::size_t before = part.column.size();
+        part.size.push_back(size);
+        part.column.resize(before + size);
+        part.value.resize(before + size);
+        return before;
       };
-    });
+      const std::size_t firstInside = open(chunk.interior, inside);
+      const std::size_t firstOutside = open(chunk.coupling, outside);
+      for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        const bool isInside = rank[k] < inside; // the free nodes' columns come first
+        SplitRows::Part& part = isInside ? chunk.interior : chunk.coupling;
+        const std::size_t at = isInside ? firstInside + rank[k] : firstOutside + rank[k] - inside;
+        part.column[at] = static_cast<int>(isInside ? columnsHere[k] : columnsHere[k] - rows);
+        part.value[at] = values[k];
+      }
+    };
+  };
+
+  SplitChunks chunks;
+  for (int band = 0; band < ofCells.size(); ++band)
+  {
+    monitor.check();
+    monitor.progress(0.5 * band / ofCells.size());
+    ofCells.compute(band, monitor);
+    splitRows(ofCells.firstRow(band), ofCells.lastRow(band), chunks, monitor, makeRows);
+  }
+  system.hasBadCells = cellMatrix.isAnyBad();
+  return chunks;
 }
 
 }

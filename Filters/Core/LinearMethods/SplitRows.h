@@ -32,15 +32,17 @@ struct SplitChunks
   Part interior, coupling;
 };
 
-/// Calls makeRow(i, chunk) for the rows in [0, rows), ascending within each chunk; it appends row
-/// i. makeRow = makeRows() is made once per thread's range.
+/// Appends the chunks of the rows in [firstRow, lastRow), which follow those in `chunks`. Calls
+/// makeRow(i, chunk) for each, ascending within each chunk; it appends row i. makeRow = makeRows()
+/// is made once per thread's range. `firstRow`: a multiple of ChunkRows.
 template <typename MakeRows>
-SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
+void splitRows(
+  Index firstRow, Index lastRow, SplitChunks& chunks, Monitor& monitor, const MakeRows& makeRows)
 {
-  SplitChunks chunks;
-  chunks.interior.resize(chunksOf(rows));
-  chunks.coupling.resize(chunksOf(rows));
-  monitor.parallelFor(chunksOf(rows), 1,
+  const Index before = firstRow / ChunkRows, count = chunksOf(lastRow - firstRow);
+  chunks.interior.resize(before + count);
+  chunks.coupling.resize(before + count);
+  monitor.parallelFor(count, 1,
     [&](Index first, Index last)
     {
       auto makeRow = makeRows();
@@ -55,15 +57,23 @@ SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
           coupling = std::make_shared<PageArena>();
         }
         scratch.clear();
-        const Index end = std::min(rows, (c + 1) * ChunkRows);
-        for (Index i = c * ChunkRows; i < end; ++i)
+        const Index start = firstRow + c * ChunkRows, end = std::min(lastRow, start + ChunkRows);
+        for (Index i = start; i < end; ++i)
         {
           makeRow(i, scratch);
         }
-        chunks.interior[c] = { scratch.interior, interior };
-        chunks.coupling[c] = { scratch.coupling, coupling };
+        chunks.interior[before + c] = { scratch.interior, interior };
+        chunks.coupling[before + c] = { scratch.coupling, coupling };
       }
     });
+}
+
+/// The chunks of the rows in [0, rows).
+template <typename MakeRows>
+SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
+{
+  SplitChunks chunks;
+  splitRows(0, rows, chunks, monitor, makeRows);
   return chunks;
 }
 

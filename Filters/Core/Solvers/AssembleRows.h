@@ -19,8 +19,7 @@ namespace morph
 {
 /// Makes the rows of one chunk. `local`: the columns in a row.
 template <typename Scalar, typename ColumnMap, typename MakeRow>
-void makeChunk(
-  int first, int last, const MakeRow& makeRow, ColumnMap& local, RowsInWork<Scalar>& rows)
+void makeChunk(int first, int last, MakeRow& makeRow, ColumnMap& local, RowsInWork<Scalar>& rows)
 {
   rows.clear();
   for (int i = first; i < last; ++i)
@@ -45,10 +44,11 @@ void makeChunk(
 
 /// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
 /// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
-/// have the order of their first call. `columns`: of the matrix. Cost: no memory beside the chunks'
-/// rows, 1 MiB a range of threads, and the rest of the last page of each arena.
-template <typename Scalar, typename MakeRow>
-CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRow& makeRow)
+/// have the order of their first call. makeRow = makeRows() is made once per thread's range.
+/// `columns`: of the matrix. Cost: no memory beside the chunks' rows, 1 MiB a range of threads, and
+/// the rest of the last page of each arena.
+template <typename Scalar, typename MakeRows>
+CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRows& makeRows)
 {
   constexpr int FewColumns = 1 << 18; // a table of them stays in a core's cache
   const Index chunks = chunksOf(rows);
@@ -58,6 +58,7 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
     {
       std::shared_ptr<PageArena> arena;
       RowsInWork<Scalar> scratch; // keeps its capacity between chunks
+      auto makeRow = makeRows();
       const auto makeChunks = [&](auto local)
       {
         for (Index c = firstChunk; c < lastChunk; ++c)

@@ -2,6 +2,7 @@
 #include "Solvers/CsrRows.h"
 
 #include "Solvers/AssembleRows.h"
+#include "Solvers/LocalColumnMap.h"
 #include "Support/HugePages.h"
 
 #include <numeric>
@@ -10,23 +11,42 @@ namespace morph
 {
 namespace
 {
-template <typename ScalarA, typename ScalarB>
-CsrRows<double> multiply(
-  const CsrRows<ScalarA>& A, const CsrRows<ScalarB>& B, int columns, Monitor& monitor)
+/// Calls add(column, value times entry) for the entries of a row of B.
+template <typename Scalar, typename Add>
+void addRow(const CsrRows<Scalar>& B, int row, double value, const Add& add)
 {
-  return assembleRows<double>(A.rows, columns, monitor,
-    [&](int i, const auto& add)
-    {
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-      {
-        const int j = A.column[k];
-        for (int m = B.start[j]; m < B.start[j + 1]; ++m)
-        {
-          add(B.column[m], static_cast<double>(A.value[k]) * B.value[m]);
-        }
-      }
-    });
+  for (int k = B.start[row]; k < B.start[row + 1]; ++k)
+  {
+    add(B.column[k], value * B.value[k]);
+  }
 }
+
+/// A row in work, whose entries have any order.
+class SparseRow
+{
+public:
+  void clear()
+  {
+    this->columns_.clear();
+    this->values_.clear();
+  }
+  void add(int column, double value)
+  {
+    const std::size_t at = this->columns_.localIndex(column);
+    if (at == this->values_.size())
+    {
+      this->values_.push_back(0);
+    }
+    this->values_[at] += value;
+  }
+  int size() const { return this->columns_.size(); }
+  int column(int at) const { return this->columns_.column(at); }
+  double value(int at) const { return this->values_[at]; }
+
+private:
+  LocalColumnMap columns_;
+  std::vector<double> values_;
+};
 }
 
 CsrRows<float> transpose(const CsrRows<float>& A, int columns)
@@ -56,15 +76,25 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns)
   return result;
 }
 
-CsrRows<double> product(
-  const CsrRows<double>& A, const CsrRows<float>& B, int columns, Monitor& monitor)
+CsrRows<double> tripleProduct(const CsrRows<float>& R, const CsrRows<double>& A,
+  const CsrRows<float>& P, int columns, Monitor& monitor)
 {
-  return multiply(A, B, columns, monitor);
-}
-
-CsrRows<double> product(
-  const CsrRows<float>& A, const CsrRows<double>& B, int columns, Monitor& monitor)
-{
-  return multiply(A, B, columns, monitor);
+  return assembleRows<double>(R.rows, columns, monitor,
+    [&]
+    {
+      return [&, RA = SparseRow()](int i, const auto& add) mutable
+      {
+        RA.clear();
+        const auto addToRA = [&RA](int column, double value) { RA.add(column, value); };
+        for (int k = R.start[i]; k < R.start[i + 1]; ++k)
+        {
+          addRow(A, R.column[k], R.value[k], addToRA);
+        }
+        for (int k = 0; k < RA.size(); ++k)
+        {
+          addRow(P, RA.column(k), RA.value(k), add);
+        }
+      };
+    });
 }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DampedJacobi.h"
 
-#include "Solvers/RowProducts.h"
 #include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
@@ -17,13 +16,12 @@ namespace morph
 namespace
 {
 constexpr float SmoothedRange = 4; // smooths eigenvalues in [largest / range, largest]
-constexpr Index Grain = 4096;
 constexpr int LanczosSteps = 10;
 constexpr float LanczosMargin = 1.1f; // covers the error of the Lanczos result
 }
 
 float largestEigenvalue(
-  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
+  const ScaledRows& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
 {
   // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A. Ten steps come within some
   // percent of the largest eigenvalue; the power method is then still far below.
@@ -47,7 +45,7 @@ float largestEigenvalue(
   {
     const float scale = static_cast<float>(1 / norm);
     const float back = made > 0 ? static_cast<float>(norm) : 0.f;
-    monitor.parallelFor(A.rows, Grain,
+    monitor.parallelFor(A.rows, 4096,
       [&](Index first, Index last)
       {
         for (Index i = first; i < last; ++i)
@@ -62,7 +60,7 @@ float largestEigenvalue(
         float sum = 0;
         for (int k = A.start[i]; k < A.start[i + 1]; ++k)
         {
-          sum += A.value[k] * scaled[A.column[k]];
+          sum += A.entry(k) * scaled[A.column[k]];
         }
         next[i] = root[i] * sum - back * before[i];
         return static_cast<double>(next[i]) * now[i];
@@ -89,7 +87,7 @@ float largestEigenvalue(
     float sum = 0;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
-      sum += std::abs(A.value[k]);
+      sum += std::abs(A.entry(k));
     }
     rowSum = std::max(rowSum, sum * inverseDiagonal[i]);
   }
@@ -116,18 +114,5 @@ void DampedJacobi::start(const FloatMultiVector& rhs, FloatMultiVector& x, Monit
         x[i] = this->weight_[i] * rhs[i];
       }
     });
-}
-
-void DampedJacobi::step(const CsrRows<float>& A, const FloatMultiVector& rhs, FloatMultiVector& x,
-  FloatMultiVector& spare, Monitor& monitor) const
-{
-  monitor.parallelFor(A.rows, Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(A, x, first, last,
-        [&](Index i, const Eigen::Vector4f& product)
-        { spare[i] = x[i] + this->weight_[i] * (rhs[i] - product); });
-    });
-  x.swap(spare);
 }
 }

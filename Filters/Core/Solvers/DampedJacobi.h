@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrRows.h"
 #include "Solvers/MultiVector.h"
+#include "Solvers/RowProducts.h"
 #include "Support/Monitor.h"
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace morph
 /// is no bound; the smoother damps all eigenvalues up to 1.25 times its argument. For a matrix that
 /// is not symmetric the recurrence is the same, and only the row sums are a bound.
 float largestEigenvalue(
-  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
+  const ScaledRows& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
 
 /// The multigrid's smoother for A x = rhs: x <- x + w D^-1 (rhs - A x), with the w that damps the
 /// eigenvalues in [largest / 4, largest] best. A cycle with one step before the coarse correction
@@ -32,13 +33,26 @@ public:
 
   /// Steps from x = 0. Cost: no pass over the matrix.
   void start(const FloatMultiVector& rhs, FloatMultiVector& x, Monitor& monitor) const;
-  /// Steps from x. `spare`: a work vector of #rows. Cost: a pass over the matrix.
-  void step(const CsrRows<float>& A, const FloatMultiVector& rhs, FloatMultiVector& x,
-    FloatMultiVector& spare, Monitor& monitor) const;
+  /// Steps from x. `A`: CsrRows<float> or ScaledRows; `spare`: a work vector of #rows. Cost: a pass
+  /// over the matrix.
+  template <typename Matrix>
+  void step(const Matrix& A, const FloatMultiVector& rhs, FloatMultiVector& x,
+    FloatMultiVector& spare, Monitor& monitor) const
+  {
+    monitor.parallelFor(A.rows, Grain,
+      [&](Index first, Index last)
+      {
+        forRowProducts(A, x, first, last,
+          [&](Index i, const Eigen::Vector4f& product)
+          { spare[i] = x[i] + this->weight_[i] * (rhs[i] - product); });
+      });
+    x.swap(spare);
+  }
 
   std::size_t memory() const { return this->weight_.size() * sizeof(float); }
 
 private:
+  static constexpr Index Grain = 4096;
   std::vector<float> weight_; ///< w D^-1
 };
 }

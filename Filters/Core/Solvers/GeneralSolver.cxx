@@ -458,7 +458,7 @@ struct GeneralSolver::Implementation
       fresh->A = this->forward.A.transpose();
       fresh->components = this->forward.components;
       fresh->findNorm(monitor);
-      fresh->preconditioner.prepareTransposed(this->forward.preconditioner);
+      fresh->preconditioner.prepareTransposed(this->forward.preconditioner, fresh->A);
       this->transposed = std::move(fresh);
     }
     return *this->transposed;

@@ -17,22 +17,31 @@ namespace
 constexpr int CoarsestSize = 200; // maximum number of rows for a dense factorisation
 constexpr int MostLevels = 20;
 constexpr Index Grain = 4096;
+
+/// Refers to the matrix's arrays.
+CsrRows<double> rowsOf(const CsrMatrix& matrix)
+{
+  CsrRows<double> rows;
+  rows.rows = static_cast<int>(matrix.rows());
+  rows.start = matrix.outerIndexPtr();
+  rows.column = matrix.innerIndexPtr();
+  rows.value = matrix.valuePtr();
+  return rows;
+}
 }
 
-float Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
+float Multigrid::addLevel(const ScaledRows& A, Monitor& monitor)
 {
-  std::vector<std::uint8_t> positive(exact.rows);
-  auto inverseDiagonal = largeVector<float>(exact.rows);
-  monitor.parallelFor(exact.rows, Grain,
+  std::vector<std::uint8_t> positive(A.rows);
+  auto inverseDiagonal = largeVector<float>(A.rows);
+  monitor.parallelFor(A.rows, Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        const int* row = exact.column + exact.start[i];
-        const int* found = std::find(row, exact.column + exact.start[i + 1], static_cast<int>(i));
-        const bool has = found != exact.column + exact.start[i + 1];
-        const float diagonal =
-          has ? static_cast<float>(exact.value[found - exact.column] / unit) : 0.f;
+        const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
+        const int* found = std::find(row, end, static_cast<int>(i));
+        const float diagonal = found != end ? A.entry(static_cast<int>(found - A.column)) : 0.f;
         positive[i] = diagonal > 0 && std::isfinite(1 / diagonal);
         inverseDiagonal[i] = 1 / diagonal;
       }
@@ -41,29 +50,31 @@ float Multigrid::addLevel(ExactMatrix& exact, double unit, Monitor& monitor)
   {
     return 0;
   }
-
+  const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
   Level level;
-  Matrix& A = level.A;
+  level.rows = A.rows;
+  level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
+  this->levels_.push_back(std::move(level));
+  return largest;
+}
+
+void Multigrid::storeMatrix(ExactMatrix& exact, double scale, Monitor& monitor)
+{
+  Matrix& A = this->levels_.back().A;
+  const ScaledRows scaled(exact, scale);
   A.rows = exact.rows;
   A.ownStart.swap(exact.ownStart);
   A.ownColumn.swap(exact.ownColumn);
-  resizeUndefined(A.ownValue, static_cast<Index>(exact.entries()));
-  const double scale = 1 / unit;
+  resizeUndefined(A.ownValue, static_cast<Index>(scaled.entries()));
   monitor.parallelFor(A.ownValue.size(), 16 * Grain,
     [&](Index first, Index last)
     {
       for (Index k = first; k < last; ++k)
       {
-        A.ownValue[k] = static_cast<float>(exact.value[k] * scale);
+        A.ownValue[k] = scaled.entry(static_cast<int>(k));
       }
     });
-  A.start = exact.start;
-  A.column = exact.column;
-  A.value = A.ownValue.data();
-  const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
-  level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
-  this->levels_.push_back(std::move(level));
-  return largest;
+  A.adopt();
 }
 
 void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
@@ -73,12 +84,10 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   this->levels_.reserve(MostLevels); // levels contain pointers into themselves
   this->symmetricCoarsest_.reset();
   this->generalCoarsest_.reset();
-  ExactMatrix exact;
-  exact.rows = static_cast<int>(matrix.rows());
-  exact.start = matrix.outerIndexPtr();
-  exact.column = matrix.innerIndexPtr();
-  exact.value = matrix.valuePtr();
-  float largest = this->addLevel(exact, unit, monitor);
+  const double scale = 1 / unit;
+  ExactMatrix exact = rowsOf(matrix);
+  this->finest_ = ScaledRows(exact, scale);
+  float largest = this->addLevel(this->finest_, monitor);
   if (largest == 0)
   {
     throw Error(Error::Kind::Singular,
@@ -95,7 +104,7 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   {
     monitor.check();
     Level& level = this->levels_.back();
-    const Matrix& A = level.A;
+    const ScaledRows A(exact, scale);
     std::vector<int> group;
     std::vector<std::uint8_t> near = nearNeighbors(A, places, monitor);
     const int groups = aggregate(A, places, near, group);
@@ -109,17 +118,15 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     near = {};
     progress(0.4);
 
-    ExactMatrix right = product(exact, level.P, groups, monitor);
-    progress(0.7);
-    ExactMatrix coarse = product(level.R, right, groups, monitor);
-    right = {};
+    ExactMatrix coarse = tripleProduct(level.R, exact, level.P, groups, monitor);
     progress(1);
     left *= 0.125;
-    largest = this->addLevel(coarse, unit, monitor);
+    largest = this->addLevel(ScaledRows(coarse, scale), monitor);
     if (largest == 0)
     {
       break; // rounding near flat cells spoiled the level
     }
+    this->storeMatrix(coarse, scale, monitor);
     std::swap(exact, coarse);
 
     Points centres = Points::Zero(groups, 3);
@@ -141,7 +148,7 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   this->factorizeCoarsest(exact, symmetry, unit);
 }
 
-void Multigrid::prepareTransposed(const Multigrid& other)
+void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matrix)
 {
   this->levels_.clear();
   this->levels_.reserve(MostLevels);
@@ -158,12 +165,14 @@ void Multigrid::prepareTransposed(const Multigrid& other)
     to.column = from.column;
     to.value = from.value;
   };
+  this->finest_ = ScaledRows(rowsOf(matrix), other.finest_.scale);
   // The cycle smooths alike before and after the coarse correction, so transposing the matrices
   // transposes it.
   for (const Level& from : other.levels_)
   {
     this->levels_.emplace_back();
     Level& level = this->levels_.back();
+    level.rows = from.rows;
     level.A = transpose(from.A, from.A.rows);
     level.A.adopt();
     refer(from.P, level.P);
@@ -207,7 +216,7 @@ bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
 {
   using FourColumns = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
   using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-  const int n = this->levels_.back().A.rows;
+  const int n = this->levels_.back().rows;
   const Solution right = Eigen::Map<const FourColumns>(rhs[0].data(), n, 4).cast<double>();
   Eigen::Map<FourColumns> left(x[0].data(), n, 4);
   if (this->symmetricCoarsest_)
@@ -229,7 +238,7 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
   {
     this->levels_.emplace_back();
     Level& work = this->levels_.back();
-    const std::size_t rows = level.A.rows;
+    const std::size_t rows = level.rows;
     // The caller has the finest level's right-hand side and solution.
     if (this->levels_.size() > 1)
     {
@@ -245,6 +254,17 @@ void Multigrid::apply(const Vector& rhs, Vector& x, Workspace& workspace, Monito
   this->cycle(0, rhs, x, workspace, monitor);
 }
 
+template <typename Use>
+void Multigrid::withMatrix(std::size_t k, const Use& use) const
+{
+  if (k == 0)
+  {
+    use(this->finest_);
+    return;
+  }
+  use(this->levels_[k].A);
+}
+
 void Multigrid::cycle(
   std::size_t k, const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const
 {
@@ -255,35 +275,40 @@ void Multigrid::cycle(
     if (!this->solveCoarsest(rhs, x))
     {
       level.smoother.start(rhs, x, monitor);
-      level.smoother.step(level.A, rhs, x, work.spare, monitor);
+      this->withMatrix(
+        k, [&](const auto& A) { level.smoother.step(A, rhs, x, work.spare, monitor); });
     }
     return;
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
   level.smoother.start(rhs, x, monitor);
-  monitor.parallelFor(level.A.rows, Grain,
-    [&](Index first, Index last)
+  this->withMatrix(k,
+    [&](const auto& A)
     {
-      forRowProducts(level.A, x, first, last,
-        [&](Index i, const Eigen::Vector4f& product) { work.spare[i] = rhs[i] - product; });
+      monitor.parallelFor(A.rows, Grain,
+        [&](Index first, Index last)
+        {
+          forRowProducts(A, x, first, last,
+            [&](Index i, const Eigen::Vector4f& product) { work.spare[i] = rhs[i] - product; });
+        });
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
     [&](Index first, Index last)
     { rowProducts(level.R, work.spare, first, last, below.rhs.data() + first); });
   this->cycle(k + 1, below.rhs, below.x, workspace, monitor);
-  monitor.parallelFor(level.A.rows, Grain,
+  monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)
     {
       forRowProducts(level.P, below.x, first, last,
         [&](Index i, const Eigen::Vector4f& product) { x[i] += product; });
     });
-  level.smoother.step(level.A, rhs, x, work.spare, monitor);
+  this->withMatrix(k, [&](const auto& A) { level.smoother.step(A, rhs, x, work.spare, monitor); });
 }
 
 std::size_t Multigrid::coarsestBytes() const
 {
-  const std::size_t n = this->levels_.empty() ? 0 : this->levels_.back().A.rows;
+  const std::size_t n = this->levels_.empty() ? 0 : this->levels_.back().rows;
   return this->symmetricCoarsest_ || this->generalCoarsest_ ? n * n * sizeof(double) : 0;
 }
 
@@ -298,7 +323,7 @@ std::size_t Multigrid::memory() const
                (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
     bytes += level.smoother.memory();
-    const std::size_t vector = level.A.rows * sizeof(Eigen::Vector4f);
+    const std::size_t vector = level.rows * sizeof(Eigen::Vector4f);
     bytes += (&level == &this->levels_.front() ? 1 : 3) * vector;
   }
   return bytes + this->coarsestBytes();
@@ -308,12 +333,14 @@ double Multigrid::bytesMoved() const
 {
   double bytes = 0;
   const double entry = sizeof(float) + sizeof(int), node = sizeof(Eigen::Vector4f);
+  const double finestEntry = sizeof(double) + sizeof(int);
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {
     const Level& level = this->levels_[k];
-    bytes += 2 * entry * level.A.entries(); // the residual, and smoothing after the correction
+    // The residual, and smoothing after the correction.
+    bytes += 2 * (k == 0 ? finestEntry * this->finest_.entries() : entry * level.A.entries());
     bytes += entry * (level.P.entries() + level.R.entries());
-    bytes += 11 * node * level.A.rows;
+    bytes += 11 * node * level.rows;
   }
   return bytes + this->coarsestBytes();
 }

@@ -36,14 +36,15 @@ public:
     General    ///< close to an M-matrix
   };
 
-  /// Makes the levels. `matrix` must outlive this object and stay in place: the finest level refers
-  /// to its structure. `unit`: its largest diagonal entry, by which it is divided, so that results
+  /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
+  /// `unit`: its largest diagonal entry, by which it is divided, so that results
   /// do not depend on the unit of length and single precision does not overflow. `coordinates`:
   /// #rows x 3. Throws Error of kind Singular if single precision cannot hold a diagonal entry.
   void prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
     const ConstPoints& coordinates, Monitor& monitor);
-  /// Makes the transpose of `other`, which must outlive this object and stay in place.
-  void prepareTransposed(const Multigrid& other);
+  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this
+  /// object and stay in place.
+  void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
 
   /// The vectors of all levels, one set per concurrent solve.
   class Workspace
@@ -76,21 +77,27 @@ private:
 
   struct Level
   {
-    Matrix A;
+    int rows = 0;
+    Matrix A;    ///< empty in the finest level, which is finest_
     Matrix P, R; ///< prolongation to this level from the next, and its transpose
     DampedJacobi smoother;
   };
 
-  /// Appends the level of `exact`, divided by `unit`, and takes over its structure. Returns the
-  /// largest eigenvalue of D^-1 A. Where the diagonal is not positive and finite, appends nothing
-  /// and returns 0.
-  float addLevel(ExactMatrix& exact, double unit, Monitor& monitor);
+  /// Appends a level without its matrix. Returns the largest eigenvalue of D^-1 A. Where the
+  /// diagonal is not positive and finite, appends nothing and returns 0.
+  float addLevel(const ScaledRows& A, Monitor& monitor);
+  /// Gives the last level its matrix, in single precision, and takes over the structure of `exact`.
+  void storeMatrix(ExactMatrix& exact, double scale, Monitor& monitor);
   void factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit);
   bool solveCoarsest(const Vector& rhs, Vector& x) const;
+  /// Calls use(A) with the matrix of level k.
+  template <typename Use>
+  void withMatrix(std::size_t k, const Use& use) const;
   std::size_t coarsestBytes() const;
 
   void cycle(std::size_t k, const Vector& rhs, Vector& x, Workspace& workspace, Monitor&) const;
 
+  ScaledRows finest_;
   std::vector<Level> levels_;
   // Factors of the coarsest level, by symmetry; without either, its smoother is used.
   std::optional<Eigen::LLT<Eigen::MatrixXd>> symmetricCoarsest_;

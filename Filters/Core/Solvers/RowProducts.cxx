@@ -62,11 +62,34 @@ struct DoubleProduct
   }
 };
 
+/// Reads values in single precision, `scale` times those that are stored.
+///@{
+MORPH_SIMD_INLINE void loadValues(const float* value, float, SimdFloat4& values)
+{
+  std::memcpy(&values, value, sizeof(values));
+}
+MORPH_SIMD_INLINE void loadValues(const double* value, double scale, SimdFloat4& values)
+{
+  SimdDouble4 wide;
+  std::memcpy(&wide, value, sizeof(wide));
+  values = __builtin_convertvector(wide * scale, SimdFloat4);
+}
+MORPH_SIMD_INLINE float loadValue(const float* value, float)
+{
+  return *value;
+}
+MORPH_SIMD_INLINE float loadValue(const double* value, double scale)
+{
+  return static_cast<float>(*value * scale);
+}
+///@}
+
 /// In single precision. Two sums share a register, which saves 8 % of an evaluation with AVX2.
 struct FloatProduct
 {
+  template <typename Scalar>
   static MORPH_SIMD_INLINE void run(Index i, const int* start, const int* column,
-    const float* value, const float* x, Index first, Eigen::Vector4f* products)
+    const Scalar* value, Scalar scale, const float* x, Index first, Eigen::Vector4f* products)
   {
     SimdFloat8 sums01 = {}, sums23 = {};
     SimdFloat4 row[4], values;
@@ -74,7 +97,7 @@ struct FloatProduct
     const int end = start[i + 1];
     for (; k + 3 < end; k += 4)
     {
-      std::memcpy(&values, value + k, sizeof(values));
+      loadValues(value + k, scale, values);
       for (int j = 0; j < 4; ++j)
       {
         loadRow(x, column[k + j], row[j]);
@@ -90,7 +113,7 @@ struct FloatProduct
     for (; k < end; ++k)
     {
       loadRow(x, column[k], row[0]);
-      all += value[k] * row[0];
+      all += loadValue(value + k, scale) * row[0];
     }
     std::memcpy(products[i - first].data(), &all, sizeof(all));
   }
@@ -120,7 +143,18 @@ void rowProducts(const CsrRows<float>& A, const FloatMultiVector& x, Index first
 {
   const float* numbers = numbersOf(x);
   const Index origin = first;
-  dispatchedFor<FloatProduct>(first, last, A.start, A.column, A.value, numbers, origin, products);
+  constexpr float Scale = 1;
+  dispatchedFor<FloatProduct>(
+    first, last, A.start, A.column, A.value, Scale, numbers, origin, products);
+}
+
+void rowProducts(const ScaledRows& A, const FloatMultiVector& x, Index first, Index last,
+  Eigen::Vector4f* products)
+{
+  const float* numbers = numbersOf(x);
+  const Index origin = first;
+  dispatchedFor<FloatProduct>(
+    first, last, A.start, A.column, A.value, A.scale, numbers, origin, products);
 }
 
 void rowProducts(

@@ -17,6 +17,8 @@ namespace morph
 ///@{
 void rowProducts(const CsrRows<float>& A, const FloatMultiVector& x, Index first, Index last,
   Eigen::Vector4f* products);
+void rowProducts(const ScaledRows& A, const FloatMultiVector& x, Index first, Index last,
+  Eigen::Vector4f* products);
 void rowProducts(
   const CsrMatrix& A, const MultiVector& x, Index first, Index last, MultiVectorRow* products);
 void rowProducts(
