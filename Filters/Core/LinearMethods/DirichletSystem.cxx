@@ -174,20 +174,6 @@ std::size_t AffineGuess::memory() const
   return bytes;
 }
 
-void rightHandSide(
-  const CsrMatrix& coupling, const MultiVector& prescribed, MultiVector& rhs, Monitor& monitor)
-{
-  resizeLarge(rhs, static_cast<std::size_t>(coupling.rows()));
-  monitor.parallelFor(coupling.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        rhs[i] = -rowProduct(coupling, i, prescribed);
-      }
-    });
-}
-
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
@@ -215,7 +201,7 @@ double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor)
 }
 
 bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,
-  Monitor& monitor, const std::function<void(const MultiVector&, MultiVector&)>& solver) const
+  Monitor& monitor, const std::function<void(const RightHandSide&, MultiVector&)>& solver) const
 {
   constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
   const double affine = AffineShare * tolerance;
@@ -226,16 +212,14 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
   {
     return false;
   }
-  MultiVector rhs, fitted;
   if (this->isUniform)
   {
-    rightHandSide(this->coupling, prescribed, rhs, monitor);
+    solver(RightHandSide(this->coupling, prescribed), x);
+    return true;
   }
-  else
-  {
-    this->guess.takeOff(
-      this->points, this->partition, this->coupling, prescribed, fits, rhs, x, fitted, monitor);
-  }
+  MultiVector rhs, fitted;
+  this->guess.takeOff(
+    this->points, this->partition, this->coupling, prescribed, fits, rhs, x, fitted, monitor);
   solver(rhs, x);
   for (std::size_t i = 0; i < fitted.size(); ++i)
   {

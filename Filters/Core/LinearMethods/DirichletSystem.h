@@ -6,6 +6,7 @@
 #include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 #include "Support/Monitor.h"
 
@@ -83,9 +84,6 @@ private:
   std::vector<AffineLeastSquares> leastSquares_;
 };
 
-/// Sets `rhs` to -A_B U_B, #rows.
-void rightHandSide(
-  const CsrMatrix& coupling, const MultiVector& prescribed, MultiVector& rhs, Monitor& monitor);
 /// Sets `x` to the first guess, #rows.
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
@@ -122,7 +120,7 @@ struct DirichletEquations
   /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is
   /// not called then, as a pass over the matrix takes longer than all else.
   bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
-    const std::function<void(const MultiVector&, MultiVector&)>& solver) const;
+    const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;
 };
 
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its

@@ -94,7 +94,7 @@ EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Mon
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
-    [&](const MultiVector& rhs, MultiVector& solution)
+    [&](const RightHandSide& rhs, MultiVector& solution)
     {
       report = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
       reportRounding(report, this->tolerance_, monitor);

@@ -100,7 +100,7 @@ EvaluateReport LogBarrierWarp::solve(
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
-    [&](const MultiVector& rhs, MultiVector& solution)
+    [&](const RightHandSide& rhs, MultiVector& solution)
     { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
   return this->report(solved, monitor);
 }

@@ -104,7 +104,7 @@ DampedJacobi::DampedJacobi(std::vector<float> inverseDiagonal, float largest)
   }
 }
 
-void DampedJacobi::start(const FloatMultiVector& rhs, FloatMultiVector& x, Monitor& monitor) const
+void DampedJacobi::start(const Eigen::Vector4f* rhs, Eigen::Vector4f* x, Monitor& monitor) const
 {
   monitor.parallelFor(static_cast<Index>(this->weight_.size()), Grain,
     [&](Index first, Index last)

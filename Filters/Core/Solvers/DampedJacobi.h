@@ -31,22 +31,21 @@ public:
   /// `largest`: see largestEigenvalue().
   DampedJacobi(std::vector<float> inverseDiagonal, float largest);
 
-  /// Steps from x = 0. Cost: no pass over the matrix.
-  void start(const FloatMultiVector& rhs, FloatMultiVector& x, Monitor& monitor) const;
-  /// Steps from x. `A`: CsrRows<float> or ScaledRows; `spare`: a work vector of #rows. Cost: a pass
+  /// Steps from x = 0. `rhs`, `x`: #rows. Cost: no pass over the matrix.
+  void start(const Eigen::Vector4f* rhs, Eigen::Vector4f* x, Monitor& monitor) const;
+  /// Steps from `from` to `to`. `A`: CsrRows<float> or ScaledRows; the vectors: #rows. Cost: a pass
   /// over the matrix.
   template <typename Matrix>
-  void step(const Matrix& A, const FloatMultiVector& rhs, FloatMultiVector& x,
-    FloatMultiVector& spare, Monitor& monitor) const
+  void step(const Matrix& A, const Eigen::Vector4f* rhs, const Eigen::Vector4f* from,
+    Eigen::Vector4f* to, Monitor& monitor) const
   {
     monitor.parallelFor(A.rows, Grain,
       [&](Index first, Index last)
       {
-        forRowProducts(A, x, first, last,
+        forRowProducts(A, from, first, last,
           [&](Index i, const Eigen::Vector4f& product)
-          { spare[i] = x[i] + this->weight_[i] * (rhs[i] - product); });
+          { to[i] = from[i] + this->weight_[i] * (rhs[i] - product); });
       });
-    x.swap(spare);
   }
 
   std::size_t memory() const { return this->weight_.size() * sizeof(float); }

@@ -33,24 +33,21 @@ using Two = Eigen::Matrix<double, 4, 2>; ///< two sums in one pass
 struct Workspace
 {
   Workspace(const Multigrid& hierarchy, std::size_t n)
-    : solution(largeVector<Row>(n))
-    , residual(largeVector<Row>(n))
+    : residual(largeVector<Row>(n))
     , shadow(largeVector<Row>(n))
     , direction(largeVector<Row>(n))
     , image(largeVector<Row>(n))
     , second(largeVector<Row>(n))
-    , scaled(largeVector<Eigen::Vector4f>(n))
     , step(largeVector<Eigen::Vector4f>(n))
-    , secondStep(largeVector<Eigen::Vector4f>(n))
     , multigrid(hierarchy)
   {
   }
 
-  Rows solution, residual, shadow, direction;
-  /// A times the preconditioned direction, and times the preconditioned residual
+  Rows residual, shadow, direction;
+  /// A times the preconditioned direction, and times the preconditioned residual; `second` is
+  /// scratch memory for the preconditioner before
   Rows image, second;
-  Multigrid::Vector scaled, step,
-    secondStep; ///< to the preconditioner and from it, in units of `scale`
+  FloatMultiVector step; ///< from the preconditioner, in units of `scale`
   Multigrid::Workspace multigrid;
 };
 
@@ -115,18 +112,18 @@ struct GeneralSolver::System
   {
     return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
            4 * this->components.ofRow.size() + this->preconditioner.memory() +
-           this->A.rows() * (6 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f));
+           this->A.rows() * (5 * sizeof(Row) + sizeof(Eigen::Vector4f));
   }
 
   /// Sets the residual to b - A x; returns the squared norms.
-  Row trueResidual(const MultiVector& b, Workspace& work, Monitor& monitor) const;
-  void precondition(const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step,
-    Monitor& monitor) const;
-  /// Runs BiCGSTAB from the current solution until it reaches the goal, stagnates or breaks down.
+  Row trueResidual(const RightHandSide& b, const Rows& x, Workspace& work, Monitor& monitor) const;
+  /// Sets the step to B (scale v).
+  void precondition(const Rows& v, const Row& scale, Workspace& work, Monitor& monitor) const;
+  /// Runs BiCGSTAB from x until it reaches the goal, stagnates or breaks down.
   /// `norm2` becomes that of the recurrence's residual: the caller has to compute the true one.
-  void bicgstab(Row& norm2, const Row& goal2, Workspace& work, int maxIterations, Report& report,
-    Monitor& monitor, const std::function<void(double)>& progress) const;
-  Report solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+  void bicgstab(Rows& x, Row& norm2, const Row& goal2, Workspace& work, int maxIterations,
+    Report& report, Monitor& monitor, const std::function<void(double)>& progress) const;
+  Report solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
     Monitor& monitor) const;
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
@@ -139,13 +136,13 @@ struct GeneralSolver::System
 };
 
 Row GeneralSolver::System::trueResidual(
-  const MultiVector& b, Workspace& work, Monitor& monitor) const
+  const RightHandSide& b, const Rows& x, Workspace& work, Monitor& monitor) const
 {
   return reproducibleSumOfBlocks(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index first, Index last)
     {
       Row norm2 = Row::Zero();
-      forRowProducts(this->A, work.solution, first, last,
+      forRowProducts(this->A, x.data(), first, last,
         [&](Index i, const Row& product)
         {
           work.residual[i] = b[i] - product;
@@ -155,22 +152,23 @@ Row GeneralSolver::System::trueResidual(
     });
 }
 
-/// Computes step = B (scale v).
 void GeneralSolver::System::precondition(
-  const Rows& v, const Row& scale, Workspace& work, Multigrid::Vector& step, Monitor& monitor) const
+  const Rows& v, const Row& scale, Workspace& work, Monitor& monitor) const
 {
+  const FloatHalves scratch(work.second);
   monitor.parallelFor(this->A.rows(), Grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        work.scaled[i] = v[i].cwiseProduct(scale).cast<float>();
+        scratch.first[i] = v[i].cwiseProduct(scale).cast<float>();
       }
     });
-  this->preconditioner.apply(work.scaled, step, work.multigrid, monitor);
+  this->preconditioner.apply(
+    scratch.first, scratch.second, work.step.data(), work.multigrid, monitor);
 }
 
-void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& work,
+void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Workspace& work,
   int maxIterations, Report& report, Monitor& monitor,
   const std::function<void(double)>& progress) const
 {
@@ -226,12 +224,12 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
 
     rescale();
     const Row firstUnscale = unscale;
-    this->precondition(direction, scale, work, work.step, monitor);
+    this->precondition(direction, scale, work, monitor);
     const Row along = reproducibleSumOfBlocks(n, monitor, zero,
       [&](Index first, Index last)
       {
         Row sum = zero;
-        forRowProducts(this->A, work.step, first, last,
+        forRowProducts(this->A, work.step.data(), first, last,
           [&](Index i, const Row& product)
           {
             image[i] = product.cwiseProduct(firstUnscale);
@@ -249,8 +247,7 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
       [&](Index i)
       {
         residual[i] -= alpha.cwiseProduct(image[i]);
-        work.solution[i] +=
-          alpha.cwiseProduct(firstUnscale).cwiseProduct(work.step[i].cast<double>());
+        x[i] += alpha.cwiseProduct(firstUnscale).cwiseProduct(work.step[i].cast<double>());
         return Row(residual[i].cwiseAbs2());
       });
     const Eigen::Array4i still = running * above(norm2, goal2);
@@ -260,12 +257,12 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
     }
 
     rescale();
-    this->precondition(residual, scale, work, work.secondStep, monitor);
+    this->precondition(residual, scale, work, monitor);
     const Two products = reproducibleSumOfBlocks(n, monitor, Two(Two::Zero()),
       [&](Index first, Index last)
       {
         Two pair = Two::Zero();
-        forRowProducts(this->A, work.secondStep, first, last,
+        forRowProducts(this->A, work.step.data(), first, last,
           [&](Index i, const Row& product)
           {
             second[i] = product.cwiseProduct(unscale);
@@ -283,8 +280,7 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
     const Two sums = reproducibleSum(n, monitor, Two(Two::Zero()),
       [&](Index i)
       {
-        work.solution[i] +=
-          omega.cwiseProduct(unscale).cwiseProduct(work.secondStep[i].cast<double>());
+        x[i] += omega.cwiseProduct(unscale).cwiseProduct(work.step[i].cast<double>());
         residual[i] -= omega.cwiseProduct(second[i]);
         Two pair;
         pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i]);
@@ -326,20 +322,15 @@ void GeneralSolver::System::bicgstab(Row& norm2, const Row& goal2, Workspace& wo
   }
 }
 
-GeneralSolver::Report GeneralSolver::System::solve(
-  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
+GeneralSolver::Report GeneralSolver::System::solve(const RightHandSide& b, MultiVector& x,
+  double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
   std::unique_ptr<Workspace> work = this->takeWorkspace();
   const Row bNorm2 =
     reproducibleSum(n, monitor, Row(Row::Zero()), [&](Index i) { return Row(b[i].cwiseAbs2()); });
-  const auto start = [&]
-  {
-    work->solution = x;
-    return keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, *work, monitor),
-      work->solution, work->residual, monitor);
-  };
-  Row norm2 = start();
+  Row norm2 = keepBetterGuess(this->components, b, bNorm2, this->trueResidual(b, x, *work, monitor),
+    x, work->residual, monitor);
   if (!bNorm2.allFinite() || !norm2.allFinite())
   {
     throw Error("The prescribed displacements are too large to compute with (beyond 1e150).");
@@ -357,8 +348,8 @@ GeneralSolver::Report GeneralSolver::System::solve(
   // Bounds the rounding error of b - A x for such an x.
   const auto reachable2 = [&]
   {
-    const Row xNorm2 = reproducibleSum(
-      n, monitor, Row(Row::Zero()), [&](Index i) { return Row(work->solution[i].cwiseAbs2()); });
+    const Row xNorm2 =
+      reproducibleSum(n, monitor, Row(Row::Zero()), [&](Index i) { return Row(x[i].cwiseAbs2()); });
     return Row(Row(Rounding * (this->norm * xNorm2.cwiseSqrt() + bNorm2.cwiseSqrt())).cwiseAbs2());
   };
 
@@ -376,8 +367,8 @@ GeneralSolver::Report GeneralSolver::System::solve(
   while (!stuck && above(norm2, goal2).any() && report.iterations < maxIterations)
   {
     const double before = largestRatio(norm2, goal2);
-    this->bicgstab(norm2, goal2, *work, maxIterations, report, monitor, progress);
-    norm2 = this->trueResidual(b, *work, monitor);
+    this->bicgstab(x, norm2, goal2, *work, maxIterations, report, monitor, progress);
+    norm2 = this->trueResidual(b, x, *work, monitor);
     stuck = !norm2.allFinite() || largestRatio(norm2, goal2) > 0.5 * before;
     ++runs;
   }
@@ -385,7 +376,8 @@ GeneralSolver::Report GeneralSolver::System::solve(
   {
     if (!norm2.allFinite() || largestRatio(norm2, goal2) >= atStart)
     {
-      norm2 = start();
+      std::fill(x.begin(), x.end(), Row(Row::Zero()));
+      norm2 = this->trueResidual(b, x, *work, monitor);
     }
     const auto fail = [&](const std::string& reached)
     {
@@ -410,10 +402,10 @@ GeneralSolver::Report GeneralSolver::System::solve(
         fail(text.str());
       }
       before = now;
-      const int made = gmres.run(b, norm2, goal2, work->solution, monitor);
+      const int made = gmres.run(b, norm2, goal2, x, monitor);
       report.iterations += made;
       report.fallBackIterations += made;
-      norm2 = this->trueResidual(b, *work, monitor);
+      norm2 = this->trueResidual(b, x, *work, monitor);
       if (!norm2.allFinite())
       {
         fail("its numbers overflowed after " + std::to_string(report.iterations) + " iterations.");
@@ -434,7 +426,6 @@ GeneralSolver::Report GeneralSolver::System::solve(
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }
   }
-  x.swap(work->solution);
   this->giveBack(std::move(work));
   const double pass =
     12. * this->A.nonZeros() + (9. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
@@ -501,8 +492,8 @@ GeneralSolver::Report GeneralSolver::solve(
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }
 
-GeneralSolver::Report GeneralSolver::solve(
-  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
+GeneralSolver::Report GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double tolerance,
+  int maxIterations, Monitor& monitor) const
 {
   return this->implementation_->forward.solve(b, x, tolerance, maxIterations, monitor);
 }

@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Monitor.h"
@@ -45,8 +46,8 @@ public:
   ///@{
   Report solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
-  /// The same for up to four columns, without copies.
-  Report solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+  /// The same for up to four columns, without copies; what `x` is after an error has no meaning.
+  Report solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
     Monitor& monitor) const;
   ///@}
 

@@ -53,7 +53,7 @@ Gmres::Gmres(const CsrMatrix& matrix)
 
 Gmres::~Gmres() = default;
 
-int Gmres::run(const MultiVector& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
+int Gmres::run(const RightHandSide& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
   MultiVector& x, Monitor& monitor)
 {
   monitor.check();
@@ -67,7 +67,7 @@ int Gmres::run(const MultiVector& b, const MultiVectorRow& norm2, const MultiVec
     {
       continue;
     }
-    Eigen::VectorXd column(static_cast<Index>(b.size())), guess(column.size());
+    Eigen::VectorXd column(b.rows()), guess(column.size());
     for (Index i = 0; i < guess.size(); ++i)
     {
       column[i] = b[i][c];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
 
 #include <memory>
@@ -23,7 +24,7 @@ public:
   /// Makes up to 30 iterations for each column above its goal. `norm2` and `goal2`: squared norms
   /// per column, of the residual b - A x and of what it should be; `x`: the guess in, the solution
   /// out. Returns the most iterations made for a column, at least 1.
-  int run(const MultiVector& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
+  int run(const RightHandSide& b, const MultiVectorRow& norm2, const MultiVectorRow& goal2,
     MultiVector& x, Monitor& monitor);
 
 private:

@@ -19,6 +19,19 @@ using MultiVector = std::vector<MultiVectorRow>;
 /// A MultiVector in single precision: one SSE register a row.
 using FloatMultiVector = std::vector<Eigen::Vector4f>;
 
+/// Two multivectors in single precision in the memory of one in double precision, whose content is
+/// lost. What is written as one kind must not be read as the other.
+struct FloatHalves
+{
+  explicit FloatHalves(MultiVector& rows)
+    : first(reinterpret_cast<Eigen::Vector4f*>(rows.data()))
+    , second(first + rows.size())
+  {
+  }
+
+  Eigen::Vector4f *first, *second; ///< as many rows each
+};
+
 template <typename Values>
 MultiVectorRow toRow(const Values& row)
 {

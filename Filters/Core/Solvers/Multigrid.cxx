@@ -212,7 +212,7 @@ void Multigrid::factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, d
   }
 }
 
-bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
+bool Multigrid::solveCoarsest(const Row* rhs, Row* x) const
 {
   using FourColumns = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
   using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
@@ -234,24 +234,20 @@ bool Multigrid::solveCoarsest(const Vector& rhs, Vector& x) const
 
 Multigrid::Workspace::Workspace(const Multigrid& multigrid)
 {
-  for (const auto& level : multigrid.levels_)
+  this->levels_.resize(multigrid.levels_.size());
+  for (std::size_t k = 1; k < this->levels_.size(); ++k) // the caller has the finest level's
   {
-    this->levels_.emplace_back();
-    Level& work = this->levels_.back();
-    const std::size_t rows = level.rows;
-    // The caller has the finest level's right-hand side and solution.
-    if (this->levels_.size() > 1)
-    {
-      resizeLarge(work.rhs, rows);
-      resizeLarge(work.x, rows);
-    }
-    resizeLarge(work.spare, rows);
+    const std::size_t rows = multigrid.levels_[k].rows;
+    resizeLarge(this->levels_[k].rhs, rows);
+    resizeLarge(this->levels_[k].work, rows);
+    resizeLarge(this->levels_[k].x, rows);
   }
 }
 
-void Multigrid::apply(const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const
+void Multigrid::apply(
+  const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
-  this->cycle(0, rhs, x, workspace, monitor);
+  this->cycle(0, rhs, work, x, workspace, monitor);
 }
 
 template <typename Use>
@@ -266,44 +262,45 @@ void Multigrid::withMatrix(std::size_t k, const Use& use) const
 }
 
 void Multigrid::cycle(
-  std::size_t k, const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const
+  std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
-  Workspace::Level& work = workspace.levels_[k];
+  const auto stepToX = [&]
+  { this->withMatrix(k, [&](const auto& A) { level.smoother.step(A, rhs, work, x, monitor); }); };
   if (k + 1 == this->levels_.size())
   {
     if (!this->solveCoarsest(rhs, x))
     {
-      level.smoother.start(rhs, x, monitor);
-      this->withMatrix(
-        k, [&](const auto& A) { level.smoother.step(A, rhs, x, work.spare, monitor); });
+      level.smoother.start(rhs, work, monitor);
+      stepToX();
     }
     return;
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
-  level.smoother.start(rhs, x, monitor);
+  level.smoother.start(rhs, work, monitor);
+  Row* residual = x;
   this->withMatrix(k,
     [&](const auto& A)
     {
       monitor.parallelFor(A.rows, Grain,
         [&](Index first, Index last)
         {
-          forRowProducts(A, x, first, last,
-            [&](Index i, const Eigen::Vector4f& product) { work.spare[i] = rhs[i] - product; });
+          forRowProducts(A, work, first, last,
+            [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
         });
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
     [&](Index first, Index last)
-    { rowProducts(level.R, work.spare, first, last, below.rhs.data() + first); });
-  this->cycle(k + 1, below.rhs, below.x, workspace, monitor);
+    { rowProducts(level.R, residual, first, last, below.rhs.data() + first); });
+  this->cycle(k + 1, below.rhs.data(), below.work.data(), below.x.data(), workspace, monitor);
   monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)
     {
-      forRowProducts(level.P, below.x, first, last,
-        [&](Index i, const Eigen::Vector4f& product) { x[i] += product; });
+      forRowProducts(level.P, below.x.data(), first, last,
+        [&](Index i, const Row& product) { work[i] += product; });
     });
-  this->withMatrix(k, [&](const auto& A) { level.smoother.step(A, rhs, x, work.spare, monitor); });
+  stepToX();
 }
 
 std::size_t Multigrid::coarsestBytes() const
@@ -323,8 +320,7 @@ std::size_t Multigrid::memory() const
                (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
     bytes += level.smoother.memory();
-    const std::size_t vector = level.rows * sizeof(Eigen::Vector4f);
-    bytes += (&level == &this->levels_.front() ? 1 : 3) * vector;
+    bytes += (&level == &this->levels_.front() ? 0 : 3) * level.rows * sizeof(Row);
   }
   return bytes + this->coarsestBytes();
 }
@@ -332,7 +328,7 @@ std::size_t Multigrid::memory() const
 double Multigrid::bytesMoved() const
 {
   double bytes = 0;
-  const double entry = sizeof(float) + sizeof(int), node = sizeof(Eigen::Vector4f);
+  const double entry = sizeof(float) + sizeof(int), node = sizeof(Row);
   const double finestEntry = sizeof(double) + sizeof(int);
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {

@@ -28,7 +28,7 @@ namespace morph
 class Multigrid
 {
 public:
-  using Vector = FloatMultiVector;
+  using Row = Eigen::Vector4f;
 
   enum class Symmetry
   {
@@ -46,7 +46,7 @@ public:
   /// object and stay in place.
   void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
 
-  /// The vectors of all levels, one set per concurrent solve.
+  /// The vectors of all levels but the finest, one set per concurrent solve.
   class Workspace
   {
   public:
@@ -56,13 +56,14 @@ public:
     friend class Multigrid;
     struct Level
     {
-      Vector rhs, x, spare;
+      FloatMultiVector rhs, work, x;
     };
     std::vector<Level> levels_;
   };
 
-  /// Computes x = B rhs with a fixed B, symmetric positive definite for Symmetry::Symmetric.
-  void apply(const Vector& rhs, Vector& x, Workspace& workspace, Monitor& monitor) const;
+  /// Computes x = B rhs with a fixed B, symmetric positive definite for Symmetry::Symmetric. `rhs`,
+  /// `work`, `x`: #rows each; the content of `work` is lost.
+  void apply(const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
   /// Returns the bytes of the levels and of one Workspace.
@@ -89,13 +90,14 @@ private:
   /// Gives the last level its matrix, in single precision, and takes over the structure of `exact`.
   void storeMatrix(ExactMatrix& exact, double scale, Monitor& monitor);
   void factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit);
-  bool solveCoarsest(const Vector& rhs, Vector& x) const;
+  bool solveCoarsest(const Row* rhs, Row* x) const;
   /// Calls use(A) with the matrix of level k.
   template <typename Use>
   void withMatrix(std::size_t k, const Use& use) const;
   std::size_t coarsestBytes() const;
 
-  void cycle(std::size_t k, const Vector& rhs, Vector& x, Workspace& workspace, Monitor&) const;
+  void cycle(
+    std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor&) const;
 
   ScaledRows finest_;
   std::vector<Level> levels_;

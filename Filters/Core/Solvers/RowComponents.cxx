@@ -36,11 +36,11 @@ RowComponents rowComponents(const CsrMatrix& matrix)
   return result;
 }
 
-MultiVectorRow keepBetterGuess(const RowComponents& components, const MultiVector& b,
+MultiVectorRow keepBetterGuess(const RowComponents& components, const RightHandSide& b,
   const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
   MultiVector& residual, Monitor& monitor)
 {
-  const auto rows = static_cast<Index>(b.size());
+  const Index rows = b.rows();
   const bool single = components.ofRow.empty();
   std::vector<MultiVectorRow> ofB(single ? 1 : components.count, bNorm2),
     ofResidual(ofB.size(), norm2);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
 
 #include <vector>
@@ -26,7 +27,7 @@ RowComponents rowComponents(const CsrMatrix& matrix);
 /// solution, without an iteration. `solution`, `residual`: of the guess. `bNorm2`, `norm2`: squared
 /// norms of b and of the residual per column. Returns the new squared norm of the residual. Cost: a
 /// comparison, and a pass over the vectors if there are several components.
-MultiVectorRow keepBetterGuess(const RowComponents& components, const MultiVector& b,
+MultiVectorRow keepBetterGuess(const RowComponents& components, const RightHandSide& b,
   const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
   MultiVector& residual, Monitor& monitor);
 }

@@ -120,15 +120,15 @@ struct FloatProduct
 };
 
 /// The numbers of a multivector, which may be empty.
-template <typename Vectors>
-const typename Vectors::value_type::Scalar* numbersOf(const Vectors& x)
+template <typename Row>
+const typename Row::Scalar* numbersOf(const Row* x)
 {
-  return x.empty() ? nullptr : x.front().data();
+  return x ? x->data() : nullptr;
 }
 
-template <typename Vectors>
+template <typename Row>
 void doubleProducts(
-  const CsrMatrix& A, const Vectors& x, Index first, Index last, MultiVectorRow* products)
+  const CsrMatrix& A, const Row* x, Index first, Index last, MultiVectorRow* products)
 {
   const int *start = A.outerIndexPtr(), *column = A.innerIndexPtr();
   const double* value = A.valuePtr();
@@ -138,7 +138,7 @@ void doubleProducts(
 }
 }
 
-void rowProducts(const CsrRows<float>& A, const FloatMultiVector& x, Index first, Index last,
+void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
   Eigen::Vector4f* products)
 {
   const float* numbers = numbersOf(x);
@@ -148,8 +148,8 @@ void rowProducts(const CsrRows<float>& A, const FloatMultiVector& x, Index first
     first, last, A.start, A.column, A.value, Scale, numbers, origin, products);
 }
 
-void rowProducts(const ScaledRows& A, const FloatMultiVector& x, Index first, Index last,
-  Eigen::Vector4f* products)
+void rowProducts(
+  const ScaledRows& A, const Eigen::Vector4f* x, Index first, Index last, Eigen::Vector4f* products)
 {
   const float* numbers = numbersOf(x);
   const Index origin = first;
@@ -158,13 +158,13 @@ void rowProducts(const ScaledRows& A, const FloatMultiVector& x, Index first, In
 }
 
 void rowProducts(
-  const CsrMatrix& A, const MultiVector& x, Index first, Index last, MultiVectorRow* products)
+  const CsrMatrix& A, const MultiVectorRow* x, Index first, Index last, MultiVectorRow* products)
 {
   doubleProducts(A, x, first, last, products);
 }
 
 void rowProducts(
-  const CsrMatrix& A, const FloatMultiVector& x, Index first, Index last, MultiVectorRow* products)
+  const CsrMatrix& A, const Eigen::Vector4f* x, Index first, Index last, MultiVectorRow* products)
 {
   doubleProducts(A, x, first, last, products);
 }

@@ -30,14 +30,23 @@ struct Workspace
     , direction(largeVector<Row>(n))
     , image(largeVector<Row>(n))
     , residual32(largeVector<Eigen::Vector4f>(n))
-    , step32(largeVector<Eigen::Vector4f>(n))
     , multigrid(multigrid)
   {
   }
 
   Rows residual, direction, image;
-  Multigrid::Vector residual32, step32;
+  FloatMultiVector residual32;
   Multigrid::Workspace multigrid;
+
+  /// Returns `multigrid` applied to residual32. It lies in `image`, whose content is lost: an
+  /// iteration reads the one before it writes the other.
+  const Eigen::Vector4f* precondition(const Multigrid& preconditioner, Monitor& monitor)
+  {
+    const FloatHalves halves(this->image);
+    preconditioner.apply(
+      this->residual32.data(), halves.first, halves.second, this->multigrid, monitor);
+    return halves.second;
+  }
 };
 
 /// `reached`: the state of the iteration.
@@ -104,8 +113,8 @@ struct SpdSolver::Implementation
 
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
   Row trueResidual(
-    const MultiVector& b, const Rows& solution, Workspace& work, Monitor& monitor) const;
-  SolveReport iterate(const MultiVector& b, Rows& solution, Workspace& work, double tolerance,
+    const RightHandSide& b, const Rows& solution, Workspace& work, Monitor& monitor) const;
+  SolveReport iterate(const RightHandSide& b, Rows& solution, Workspace& work, double tolerance,
     int maxIterations, Monitor& monitor) const;
   SolveReport iterateConstrained(const Points& b, const RowConstraints& constraints, Rows& solution,
     double tolerance, int maxIterations, Monitor& monitor) const;
@@ -143,13 +152,13 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
 }
 
 Row SpdSolver::Implementation::trueResidual(
-  const MultiVector& b, const Rows& solution, Workspace& work, Monitor& monitor) const
+  const RightHandSide& b, const Rows& solution, Workspace& work, Monitor& monitor) const
 {
   return reproducibleSumOfBlocks(this->A.rows(), monitor, Row(Row::Zero()),
     [&](Index first, Index last)
     {
       Row norm2 = Row::Zero();
-      forRowProducts(this->A, solution, first, last,
+      forRowProducts(this->A, solution.data(), first, last,
         [&](Index i, const Row& product)
         {
           work.residual[i] = b[i] - product;
@@ -160,7 +169,7 @@ Row SpdSolver::Implementation::trueResidual(
     });
 }
 
-SolveReport SpdSolver::Implementation::iterate(const MultiVector& b, Rows& solution,
+SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& solution,
   Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
@@ -230,11 +239,11 @@ SolveReport SpdSolver::Implementation::iterate(const MultiVector& b, Rows& solut
       }
       monitor.check();
 
-      this->preconditioner.apply(work.residual32, work.step32, work.multigrid, monitor);
+      const Eigen::Vector4f* step = work.precondition(this->preconditioner, monitor);
       const Row rzBefore = rz;
       rz = reproducibleSum(n, monitor, zero,
         [&](Index i) {
-          return Row(residual[i].cwiseProduct(work.step32[i].cast<double>()));
+          return Row(residual[i].cwiseProduct(step[i].cast<double>()));
         }).cwiseProduct(unscale);
       const Row beta = first ? zero : ratio(rz, rzBefore, running);
       monitor.parallelFor(n, Grain,
@@ -243,13 +252,13 @@ SolveReport SpdSolver::Implementation::iterate(const MultiVector& b, Rows& solut
           for (Index i = from; i < to; ++i)
           {
             direction[i] =
-              work.step32[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
+              step[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
           }
         });
       const Row curvature = reproducibleSumOfBlocks(n, monitor, zero,
         [&](Index from, Index to)
         {
-          rowProducts(this->A, direction, from, to, image.data() + from);
+          rowProducts(this->A, direction.data(), from, to, image.data() + from);
           Row sum = zero;
           for (Index i = from; i < to; ++i)
           {
@@ -298,7 +307,7 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
 {
   const Index n = this->A.rows();
   Rows residual(n), direction(n), image(n), step(n);
-  Multigrid::Vector residual32(n), step32(n);
+  FloatMultiVector residual32(n), step32(n), scratch(n);
   Multigrid::Workspace multigrid(this->preconditioner);
   const auto sum = [&](const auto& body) { return reproducibleSum(n, monitor, 0., body); };
   const auto findResidual = [&]
@@ -346,7 +355,8 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
       {
         residual32[i] = (residual[i] / unscale).cast<float>();
       }
-      this->preconditioner.apply(residual32, step32, multigrid, monitor);
+      this->preconditioner.apply(
+        residual32.data(), scratch.data(), step32.data(), multigrid, monitor);
       for (Index i = 0; i < n; ++i)
       {
         step[i] = unscale * step32[i].cast<double>();
@@ -412,8 +422,7 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
         work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>();
       }
     });
-  this->implementation_->preconditioner.apply(
-    work->residual32, work->step32, work->multigrid, monitor);
+  const Eigen::Vector4f* step = work->precondition(this->implementation_->preconditioner, monitor);
   const double factor = unscale / this->implementation_->unit;
   to.resize(n, 3);
   monitor.parallelFor(n, Grain,
@@ -421,7 +430,7 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
     {
       for (Index i = first; i < last; ++i)
       {
-        to.row(i) = factor * work->step32[i].head<3>().cast<double>();
+        to.row(i) = factor * step[i].head<3>().cast<double>();
       }
     });
   this->implementation_->giveBack(std::move(work));
@@ -445,8 +454,8 @@ Points SpdSolver::product(const Points& x, Monitor& monitor) const
   return result;
 }
 
-SolveReport SpdSolver::solve(
-  const MultiVector& b, MultiVector& x, double tolerance, int maxIterations, Monitor& monitor) const
+SolveReport SpdSolver::solve(const RightHandSide& b, MultiVector& x, double tolerance,
+  int maxIterations, Monitor& monitor) const
 {
   std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
   const SolveReport report =
@@ -476,6 +485,6 @@ std::size_t SpdSolver::memory() const
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
          4 * my.components.ofRow.size() + my.preconditioner.memory() +
-         my.A.rows() * (3 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f));
+         my.A.rows() * (3 * sizeof(Row) + sizeof(Eigen::Vector4f));
 }
 }

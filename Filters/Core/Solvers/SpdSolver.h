@@ -3,6 +3,7 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Monitor.h"
@@ -48,7 +49,7 @@ public:
   SolveReport solve(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
   /// The same for up to four columns, without copies; what `x` is after an error has no meaning.
-  SolveReport solve(const MultiVector& b, MultiVector& x, double tolerance, int maxIterations,
+  SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
     Monitor& monitor) const;
   ///@}
 
