@@ -290,17 +290,30 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->Session.ReportMirroredBodies(monitor);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   const filters::Session::Options options = this->Options(grid, displaced);
-  const std::shared_ptr<const filters::StepResult> result =
-    this->IsSeries() ? this->MorphSeries(displaced, options, monitor)
-                     : this->Session.Morph(displaced, fraction, options, monitor);
+  std::shared_ptr<filters::StepResult> single; // a series keeps its steps
+  std::shared_ptr<const filters::StepResult> result;
+  if (this->IsSeries())
+  {
+    result = this->MorphSeries(displaced, options, monitor);
+  }
+  else
+  {
+    result = single = this->Session.Morph(displaced, fraction, options, monitor);
+  }
   // Of a step that was kept, too; inverted cells on the way there are no news.
   if (!result->Valid.Warning.empty())
   {
     monitor.warn(result->Valid.Warning);
   }
   morph::ProgressRange writing(monitor, 0.9, 1);
-  filters::MorphOutput::Write(this->Session, *result, this->Filter->OutputPointsPrecision,
-    { options.MeasureAll, this->Filter->Certify }, grid, this->Results, output, badCells, surface,
+  filters::MorphOutput::WriteMesh(
+    this->Session, result->Moved, this->Filter->OutputPointsPrecision, grid, output, writing);
+  if (single)
+  {
+    single->Moved.resize(0, 3); // 24 bytes a node, which the measures need
+  }
+  filters::MorphOutput::WriteMeasures(this->Session, *result,
+    { options.MeasureAll, this->Filter->Certify }, this->Results, output, badCells, surface,
     writing);
   return result->Valid.Error;
 }

@@ -61,6 +61,24 @@ std::vector<std::pair<std::string, Mesh>> inGeneralPosition()
 }
 }
 
+// A caller with a large mesh shares it with the method.
+TEST_P(LinearMorphers, SharedMeshesAreNotCopiedAndGiveTheSameBits)
+{
+  Mesh box = meshes::hexes(4, 4, 4);
+  meshes::jitterInterior(box, 0.2, meshes::seed());
+  const auto mesh = std::make_shared<const Mesh>(std::move(box));
+  const auto partition = std::make_shared<const NodePartition>(outerPartition(*mesh));
+  const Points target = targets(*mesh, *partition, twistOf(4));
+  const auto method = GetParam().make();
+  Monitor monitor;
+  method->prepare(mesh, partition, monitor);
+  EXPECT_EQ(method->restPoints().data(), mesh->points.data());
+  EXPECT_EQ(&method->partition(), partition.get());
+  Points result;
+  method->evaluate(target, result, monitor);
+  EXPECT_TRUE(identical(result, morphed(*mesh, *partition, target)));
+}
+
 TEST_P(LinearMorphers, AffineMotionsComeOutExactly)
 {
   for (const auto& [name, mesh] : jittered())

@@ -92,21 +92,36 @@ Morpher::~Morpher() = default;
 
 void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
 {
+  auto points = std::make_shared<Points>();
+  resizeUndefined(*points, rest.points.rows(), 3);
+  *points = rest.points;
+  this->prepareFor(rest, std::move(points), std::make_shared<NodePartition>(partition), monitor);
+}
+
+void Morpher::prepare(std::shared_ptr<const Mesh> rest,
+  std::shared_ptr<const NodePartition> partition, Monitor& monitor)
+{
+  const std::shared_ptr<const Points> points(rest, &rest->points);
+  this->prepareFor(*rest, points, std::move(partition), monitor);
+}
+
+void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
+  std::shared_ptr<const NodePartition> partition, Monitor& monitor)
+{
   validate(rest);
   requireIndexable(rest);
-  if (partition.prescribed.empty())
+  if (partition->prescribed.empty())
   {
     throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
                                        "goes. Prescribe the boundary's nodes.");
   }
   this->prepared_ = false; // until all members below are consistent
-  resizeUndefined(this->rest_, rest.points.rows(), 3);
-  this->rest_ = rest.points;
-  this->partition_ = partition;
-  this->outside_ = outside(partition, rest.points.rows());
-  this->higherOrderNodes_.prepare(rest, partition);
+  this->rest_ = std::move(points);
+  this->partition_ = std::move(partition);
+  this->outside_ = outside(this->partition(), rest.points.rows());
+  this->higherOrderNodes_.prepare(rest, this->partition());
   monitor.check();
-  if (!partition.free.empty())
+  if (!this->partition().free.empty())
   {
     ProgressRange whole(monitor, 0, 1);
     this->doPrepare(rest, whole);
@@ -131,12 +146,12 @@ void Morpher::requirePrepared() const
 
 Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) const
 {
-  const std::vector<Index>& ids = this->partition_.prescribed;
+  const std::vector<Index>& ids = this->partition().prescribed;
   Points displacement(static_cast<Index>(ids.size()), 3);
   const Index bad = reproducibleSum(displacement.rows(), monitor, Index(0),
     [&](Index i)
     {
-      displacement.row(i) = prescribed.row(i) - this->rest_.row(ids[i]);
+      displacement.row(i) = prescribed.row(i) - this->restPoints().row(ids[i]);
       return Index(!displacement.row(i).allFinite());
     });
   if (bad > 0)
@@ -152,7 +167,7 @@ void Morpher::place(Index node, const Displacement& displacement, Points& result
 {
   for (int j = 0; j < 3; ++j)
   {
-    const double rest = this->rest_(node, j), d = displacement[j];
+    const double rest = this->restPoints()(node, j), d = displacement[j];
     result(node, j) =
       d != 0 ? rest + d : rest; // bit for bit where nothing moves: -0.0 + 0.0 would be 0.0
   }
@@ -162,12 +177,12 @@ EvaluateReport Morpher::evaluate(
   const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
 {
   this->requirePrepared();
-  const std::vector<Index>& ids = this->partition_.prescribed;
+  const std::vector<Index>& ids = this->partition().prescribed;
   requireRows(
     "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
 
   const Points displacement = this->displacementOf(prescribed, monitor);
-  Points freeDisplacement(static_cast<Index>(this->partition_.free.size()), 3);
+  Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
   EvaluateReport report;
   ProgressRange whole(monitor, 0, 1);
   if (freeDisplacement.rows() > 0)
@@ -178,7 +193,7 @@ EvaluateReport Morpher::evaluate(
         [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
   {
     throw Error("The positions found are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(freeDisplacement, this->partition_.free)) +
+                listIds(notFinite(freeDisplacement, this->partition().free)) +
                 ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
 
@@ -187,8 +202,8 @@ EvaluateReport Morpher::evaluate(
   const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
                         prescribed.data() < moved.data() + moved.size();
   Points fresh;
-  Points& result = moved.rows() == this->rest_.rows() && !overlaps ? moved : fresh;
-  resizeUndefined(result, this->rest_.rows(), 3);
+  Points& result = moved.rows() == this->restPoints().rows() && !overlaps ? moved : fresh;
+  resizeUndefined(result, this->restPoints().rows(), 3);
   if (this->higherOrderNodes_.empty())
   {
     monitor.parallelFor(freeDisplacement.rows(), Grain,
@@ -196,18 +211,18 @@ EvaluateReport Morpher::evaluate(
       {
         for (Index i = first; i < last; ++i)
         {
-          this->place(this->partition_.free[i], freeDisplacement.row(i), result);
+          this->place(this->partition().free[i], freeDisplacement.row(i), result);
         }
       });
     for (Index n : this->outside_)
     {
-      result.row(n) = this->rest_.row(n);
+      result.row(n) = this->restPoints().row(n);
     }
   }
   else
   {
-    Points all = Points::Zero(this->rest_.rows(), 3);
-    all(this->partition_.free, allColumns) = freeDisplacement;
+    Points all = Points::Zero(this->restPoints().rows(), 3);
+    all(this->partition().free, allColumns) = freeDisplacement;
     all(ids, allColumns) = displacement;
     this->higherOrderNodes_.apply(all);
     for (Index n = 0; n < all.rows(); ++n)

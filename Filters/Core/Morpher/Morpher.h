@@ -6,6 +6,7 @@
 #include "Mesh/NodePartition.h"
 #include "Support/Monitor.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ public:
   /// bits. Without a free node the method prepares nothing. evaluate() then only moves the
   /// prescribed and higher-order nodes.
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
+  /// The same without copies: keeps the mesh and the partition, which must not change any more.
+  void prepare(std::shared_ptr<const Mesh> rest, std::shared_ptr<const NodePartition> partition,
+    Monitor& monitor);
 
   /// Moves the mesh. `prescribed`: #prescribed x 3 new positions, in the order of
   /// NodePartition::prescribed. `moved`: becomes #nodes x 3. Prescribed nodes are exactly as given;
@@ -64,8 +68,8 @@ public:
   /// follow the motion ignore it.
   virtual void setReference(Points reference);
 
-  const NodePartition& partition() const { return this->partition_; }
-  const Points& restPoints() const { return this->rest_; }
+  const NodePartition& partition() const { return *this->partition_; }
+  const Points& restPoints() const { return *this->rest_; }
 
 protected:
   virtual void doPrepare(const Mesh& rest, Monitor& monitor) = 0;
@@ -80,14 +84,16 @@ protected:
   void requirePrepared() const;
 
 private:
+  void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
+    std::shared_ptr<const NodePartition> partition, Monitor& monitor);
   /// Returns #prescribed x 3; throws Error where it is not finite.
   Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;
   template <typename Displacement>
   void place(Index node, const Displacement& displacement, Points& result) const;
 
   bool prepared_ = false;
-  Points rest_;
-  NodePartition partition_;
+  std::shared_ptr<const Points> rest_ = std::make_shared<Points>();
+  std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
   std::vector<Index> outside_;
 };
 

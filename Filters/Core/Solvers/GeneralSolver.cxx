@@ -5,6 +5,7 @@
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
 #include "Solvers/RowProducts.h"
+#include "Solvers/SpareWorkspace.h"
 #include "Support/Error.h"
 #include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
@@ -71,21 +72,21 @@ struct GeneralSolver::System
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
 
-  // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
-  // has no effect.
-  mutable std::mutex mutex;
-  mutable std::unique_ptr<Workspace> spare;
+  SpareWorkspace<Workspace> spare;
 
   std::unique_ptr<Workspace> takeWorkspace() const
   {
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    return this->spare ? std::move(this->spare)
-                       : std::make_unique<Workspace>(this->preconditioner, this->A.rows());
+    return this->spare.take(
+      [this] { return std::make_unique<Workspace>(this->preconditioner, this->A.rows()); });
+  }
+  std::size_t workspaceBytes() const
+  {
+    return this->A.rows() * (5 * sizeof(Row) + sizeof(Eigen::Vector4f)) +
+           this->preconditioner.workspaceBytes();
   }
   void giveBack(std::unique_ptr<Workspace> workspace) const
   {
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    this->spare = std::move(workspace);
+    this->spare.giveBack(std::move(workspace), this->workspaceBytes());
   }
 
   void findNorm(Monitor& monitor)
@@ -112,7 +113,7 @@ struct GeneralSolver::System
   {
     return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
            4 * this->components.ofRow.size() + this->preconditioner.memory() +
-           this->A.rows() * (5 * sizeof(Row) + sizeof(Eigen::Vector4f));
+           this->workspaceBytes();
   }
 
   /// Sets the residual to b - A x; returns the squared norms.

@@ -320,9 +320,18 @@ std::size_t Multigrid::memory() const
                (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
     }
     bytes += level.smoother.memory();
-    bytes += (&level == &this->levels_.front() ? 0 : 3) * level.rows * sizeof(Row);
   }
   return bytes + this->coarsestBytes();
+}
+
+std::size_t Multigrid::workspaceBytes() const
+{
+  std::size_t rows = 0;
+  for (std::size_t k = 1; k < this->levels_.size(); ++k)
+  {
+    rows += this->levels_[k].rows;
+  }
+  return 3 * rows * sizeof(Row);
 }
 
 double Multigrid::bytesMoved() const

@@ -66,8 +66,10 @@ public:
   void apply(const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
-  /// Returns the bytes of the levels and of one Workspace.
+  /// Returns the bytes of the levels, without the finest matrix.
   std::size_t memory() const;
+  /// Returns the bytes of a Workspace.
+  std::size_t workspaceBytes() const;
   /// Returns the bytes that one apply() moves if nothing stays in cache.
   double bytesMoved() const;
 

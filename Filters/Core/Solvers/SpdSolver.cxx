@@ -4,13 +4,14 @@
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
 #include "Solvers/RowProducts.h"
+#include "Solvers/SpareWorkspace.h"
 #include "Support/Error.h"
 #include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -94,21 +95,21 @@ struct SpdSolver::Implementation
   Multigrid preconditioner;
   double unit = 1; ///< the preconditioner is that of A over this
 
-  // New pages cost up to a tenth of a solve: keeps one set of vectors for the next. Their content
-  // has no effect.
-  std::mutex mutex;
-  std::unique_ptr<Workspace> spare;
+  SpareWorkspace<Workspace> spare;
 
   std::unique_ptr<Workspace> takeWorkspace()
   {
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    return this->spare ? std::move(this->spare)
-                       : std::make_unique<Workspace>(this->preconditioner, this->A.rows());
+    return this->spare.take(
+      [this] { return std::make_unique<Workspace>(this->preconditioner, this->A.rows()); });
+  }
+  std::size_t workspaceBytes() const
+  {
+    return this->A.rows() * (3 * sizeof(Row) + sizeof(Eigen::Vector4f)) +
+           this->preconditioner.workspaceBytes();
   }
   void giveBack(std::unique_ptr<Workspace> workspace)
   {
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    this->spare = std::move(workspace);
+    this->spare.giveBack(std::move(workspace), this->workspaceBytes());
   }
 
   /// Sets the residual to b - A x and the direction to zero; returns the squared norms.
@@ -484,7 +485,6 @@ std::size_t SpdSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
   return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
-         4 * my.components.ofRow.size() + my.preconditioner.memory() +
-         my.A.rows() * (3 * sizeof(Row) + sizeof(Eigen::Vector4f));
+         4 * my.components.ofRow.size() + my.preconditioner.memory() + my.workspaceBytes();
 }
 }

@@ -68,7 +68,7 @@ public:
 
   const CsrMatrix& matrix() const;
   const RowComponents& components() const;
-  /// Returns the bytes that prepare() keeps: matrix, hierarchy, work vectors.
+  /// Returns the bytes of matrix, hierarchy and the work vectors of one solve.
   std::size_t memory() const;
 
 private:

@@ -10,6 +10,7 @@
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace morph::filters
@@ -20,7 +21,8 @@ void copyTuples(
   vtkDataSetAttributes* from, vtkIdList* ids, vtkDataSetAttributes* to, const char* idName)
 {
   to->CopyAllOn();
-  to->CopyAllocate(from, ids->GetNumberOfIds());
+  // 0 would mean the size of `from`.
+  to->CopyAllocate(from, std::max<vtkIdType>(1, ids->GetNumberOfIds()));
   vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName(idName);
   for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)

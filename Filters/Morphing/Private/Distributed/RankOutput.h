@@ -7,7 +7,7 @@
 
 namespace morph::filters::RankOutput
 {
-/// MorphOutput::Write() on several MPI processes. `step`: with Moved of the local nodes, and
+/// MorphOutput on several MPI processes. `step`: with Moved of the local nodes, and
 /// numbers of the whole mesh. Collective.
 void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
   Results& results, morph::Monitor& monitor);

@@ -16,12 +16,12 @@ namespace morph::filters
 {
 bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
 {
-  if (this->Taken.Is(grid) && this->Copy.numberOfCells() > 0)
+  if (this->Taken.Is(grid) && this->Copy->numberOfCells() > 0)
   {
     return false;
   }
-  const bool sameCells = GridMesh::SameCells(grid, this->Copy);
-  if (sameCells && GridMesh::SamePoints(grid, this->Copy) && this->Copy.numberOfCells() > 0)
+  const bool sameCells = GridMesh::SameCells(grid, *this->Copy);
+  if (sameCells && GridMesh::SamePoints(grid, *this->Copy) && this->Copy->numberOfCells() > 0)
   {
     this->Taken.See(grid);
     return false;
@@ -42,7 +42,7 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   this->Mirrored = mirrored;
   this->Signs = std::move(signs);
   this->Diameter = GridMesh::Size(mesh);
-  this->Copy = std::move(mesh);
+  this->Copy = std::make_shared<morph::Mesh>(std::move(mesh));
   this->Taken.See(grid);
   this->SetFeatureLines(false); // those of other points
   return true;
@@ -55,7 +55,7 @@ void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* su
   {
     return;
   }
-  if (GridMesh::SameCells(grid, this->Copy))
+  if (GridMesh::SameCells(grid, *this->Copy))
   {
     this->Polygons.Write(grid->GetPoints(), surface);
     return;

@@ -7,6 +7,7 @@
 #include "Private/Data/Unchanged.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 class vtkPolyData;
@@ -29,9 +30,11 @@ public:
   bool Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 
   /// Whether Surface() has lines along sharp edges; see MovedSurface. After Take().
-  void SetFeatureLines(bool on) { this->Polygons.SetFeatureLines(on, this->Copy, this->Outer); }
+  void SetFeatureLines(bool on) { this->Polygons.SetFeatureLines(on, *this->Copy, this->Outer); }
 
-  const morph::Mesh& Mesh() const { return this->Copy; }
+  const morph::Mesh& Mesh() const { return *this->Copy; }
+  /// The same, for a method that keeps it.
+  const std::shared_ptr<const morph::Mesh>& SharedMesh() const { return this->Copy; }
   const morph::BoundaryFaces& OuterFaces() const { return this->Outer; }
   /// See GridMesh::Size.
   double Size() const { return this->Diameter; }
@@ -46,7 +49,7 @@ public:
 
 private:
   Unchanged Taken; ///< the grid that is the same as Copy
-  morph::Mesh Copy;
+  std::shared_ptr<const morph::Mesh> Copy = std::make_shared<morph::Mesh>();
   morph::BoundaryFaces Outer;
   MovedSurface Polygons;
   double Diameter = 0;

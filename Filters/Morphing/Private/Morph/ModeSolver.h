@@ -76,7 +76,7 @@ public:
     morph::Index SurfaceInverted = 0;
   };
   /// Writes the grid with its nodes at `moved`, #nodes of Mesh() x 3, and measures all cells, or
-  /// those behind the outer faces alone. `precision`: see MorphOutput::Write().
+  /// those behind the outer faces alone. `precision`: see MorphOutput::WriteMesh().
   virtual Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision,
     bool all, const Outputs& outputs, morph::Monitor& monitor) const = 0;
   /// The surface of `grid` in its undeformed state, as far as it is known.

@@ -29,9 +29,9 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   const KeptMesh& kept = session.GetKept();
   const bool known =
     !step.Valid.Measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
-  const morph::Quality quality =
-    known ? step.Valid.Measured
-          : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
+  const morph::Quality measured =
+    known ? morph::Quality() : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
+  const morph::Quality& quality = known ? step.Valid.Measured : measured;
   SetStatus(step, quality.inverted + quality.degenerate, results, &monitor);
   Quality::Write(quality, output);
   results.Set(quality);
@@ -62,12 +62,17 @@ void measureSurface(const Session& session, Results& results, vtkUnstructuredGri
 }
 }
 
-void Write(const Session& session, const StepResult& step, int precision, Measures measures,
-  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+void WriteMesh(const Session& session, const morph::Points& moved, int precision,
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
-  Output::Write(grid, session.GetKept().Mesh().points, step.Moved, precision, output, monitor);
+  Output::Write(grid, session.GetKept().Mesh().points, moved, precision, output, monitor);
   Quality::Remove(output);
+}
+
+void WriteMeasures(const Session& session, const StepResult& step, Measures measures,
+  Results& results, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
+  vtkPolyData* surface, morph::Monitor& monitor)
+{
   if (measures.All)
   {
     measureAll(session, step, measures.Certify, results, output, badCells, surface, monitor);

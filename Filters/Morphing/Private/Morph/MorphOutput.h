@@ -27,12 +27,15 @@ struct Measures
   bool Certify = false; ///< vtkMorphAlgorithm::SetCertify(); with All alone
 };
 
-/// Writes a step's mesh, its inverted cells and its surface. `precision`: of the points, as
-/// vtkAlgorithm::DEFAULT_PRECISION. Throws morph::Error where that precision does not hold the
-/// points.
-void Write(const Session& session, const StepResult& step, int precision, Measures measures,
-  vtkUnstructuredGrid* grid, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+/// Writes the mesh at `moved`. `precision`: of the points, as vtkAlgorithm::DEFAULT_PRECISION.
+/// Throws morph::Error where that precision does not hold the points.
+void WriteMesh(const Session& session, const morph::Points& moved, int precision,
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
+/// Writes what is measured on `output`, which has a step's mesh: its quality, its inverted cells
+/// and its surface. It does not read the step's points.
+void WriteMeasures(const Session& session, const StepResult& step, Measures measures,
+  Results& results, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
+  vtkPolyData* surface, morph::Monitor& monitor);
 
 /// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
 /// that was valid, both are those of an inverted mesh. `monitor`: is warned of it, or null.

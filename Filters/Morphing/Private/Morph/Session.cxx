@@ -107,7 +107,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     this->Method.reset();
     this->Modes.clear();
     this->Samples.reset();
-    this->Partition = {};
+    this->Partition = std::make_shared<morph::NodePartition>();
     this->Steps.Clear();
   }
 }
@@ -143,7 +143,7 @@ BoundaryMatch::Result Session::Match(
   return match;
 }
 
-std::shared_ptr<const StepResult> Session::Morph(
+std::shared_ptr<StepResult> Session::Morph(
   vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor)
 {
   const BoundaryMatch::Result match = this->Match(boundary, fraction, options, monitor);
@@ -236,7 +236,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   validity.RequireFeasible();
 
   auto preparing = part(0.05, 0.45);
-  this->Prepare(from, partition, options, preparing);
+  this->Prepare(from, options, preparing);
 
   auto evaluating = part(0.45, 0.75);
   setEvaluateOptions(options, from, *this->Method);
@@ -279,7 +279,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     if (!this->Samples)
     {
       this->Samples = std::make_unique<morph::MovableQuality>(
-        this->Kept.Mesh(), this->Kept.Orientation(), this->Partition.free);
+        this->Kept.Mesh(), this->Kept.Orientation(), partition.free);
     }
     const double minimum = this->Samples->fixedMinimum(result.Moved);
     result.BoundaryMinimum =
@@ -328,22 +328,22 @@ morph::EvaluateReport Session::Evaluate(const BoundaryMatch::Result& match,
 
 const morph::NodePartition& Session::PartitionOf(const std::vector<morph::Index>& prescribed)
 {
-  if (this->Partition.prescribed.empty() || this->Partition.prescribed != prescribed)
+  if (this->Partition->prescribed.empty() || this->Partition->prescribed != prescribed)
   {
     this->Samples.reset();
-    this->Partition = morph::partitionNodes(this->Kept.Mesh(), prescribed);
+    this->Partition =
+      std::make_shared<morph::NodePartition>(morph::partitionNodes(this->Kept.Mesh(), prescribed));
   }
-  return this->Partition;
+  return *this->Partition;
 }
 
-void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
-  const Options& options, morph::Monitor& monitor)
+void Session::Prepare(const morph::Mesh& from, const Options& options, morph::Monitor& monitor)
 {
   this->Results.SetNumber("PrepareSeconds", 0);
   // SetGrid() drops the method with the mesh that it is prepared for.
   const bool isOfKept = &from == &this->Kept.Mesh();
   if (this->Method && this->MethodOptions == options.PrepareOptions &&
-      this->Method->partition().prescribed == partition.prescribed &&
+      this->Method->partition().prescribed == this->Partition->prescribed &&
       ((isOfKept && this->MethodIsOfKept) || this->Method->restPoints() == from.points))
   {
     return;
@@ -356,7 +356,14 @@ void Session::Prepare(const morph::Mesh& from, const morph::NodePartition& parti
   {
     morpher->setReference(this->Kept.Mesh().points);
   }
-  morpher->prepare(from, partition, monitor);
+  if (isOfKept)
+  {
+    morpher->prepare(this->Kept.SharedMesh(), this->Partition, monitor);
+  }
+  else
+  {
+    morpher->prepare(from, *this->Partition, monitor);
+  }
   this->Method = std::move(morpher);
   this->MethodIsOfKept = isOfKept;
   this->MethodOptions = options.PrepareOptions;
@@ -372,7 +379,8 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
   this->SetGrid(rest, monitor);
   const BoundaryMatch::Result match = this->Match(displaced, 1, options, monitor);
   morph::ProgressRange preparing(monitor, 0.05, 0.5);
-  this->Prepare(this->Kept.Mesh(), this->PartitionOf(match.Ids), options, preparing);
+  this->PartitionOf(match.Ids);
+  this->Prepare(this->Kept.Mesh(), options, preparing);
   auto* linear = dynamic_cast<morph::LinearMorpher*>(this->Method.get());
   if (!linear)
   {

@@ -78,7 +78,7 @@ public:
   void ReportMirroredBodies(morph::Monitor& monitor);
 
   /// Moves the mesh by that fraction of the boundary's motion.
-  std::shared_ptr<const StepResult> Morph(
+  std::shared_ptr<StepResult> Morph(
     vtkPointSet* boundary, double fraction, const Options& options, morph::Monitor& monitor);
   /// Takes the steps up to the one that is asked for, from the last one that is kept.
   std::shared_ptr<const StepResult> MorphSeries(
@@ -109,13 +109,14 @@ private:
     morph::Monitor& monitor);
   /// The partition with these prescribed nodes, kept while they stay.
   const morph::NodePartition& PartitionOf(const std::vector<morph::Index>& prescribed);
-  /// Prepares the method for the mesh, with its own points or others, unless it is prepared.
-  void Prepare(const morph::Mesh& from, const morph::NodePartition& partition,
-    const Options& options, morph::Monitor& monitor);
+  /// Prepares the method for the mesh, with its own points or others, and for Partition, unless it
+  /// is prepared.
+  void Prepare(const morph::Mesh& from, const Options& options, morph::Monitor& monitor);
 
   filters::Results& Results;
   KeptMesh Kept;
-  morph::NodePartition Partition;                 ///< of Kept, or empty
+  /// Of Kept, or empty.
+  std::shared_ptr<const morph::NodePartition> Partition = std::make_shared<morph::NodePartition>();
   std::unique_ptr<morph::MovableQuality> Samples; ///< of Kept and Partition, or null
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   bool MethodIsOfKept = false;            ///< not of a step's points
