@@ -49,13 +49,14 @@ TEST(DampedJacobi, StartsAsAStepFromZero)
   Monitor monitor;
   std::mt19937 random(meshes::seed());
   std::uniform_real_distribution<float> number(-1, 1);
-  FloatMultiVector rhs, started(Rows), stepped(Rows, Eigen::Vector4f::Zero()), spare(Rows);
+  const FloatMultiVector zero(Rows, Eigen::Vector4f::Zero());
+  FloatMultiVector rhs, started(Rows), stepped(Rows);
   for (int i = 0; i < Rows; ++i)
   {
     rhs.emplace_back(number(random), number(random), number(random), number(random));
   }
-  smoother().start(rhs, started, monitor);
-  smoother().step(line(), rhs, stepped, spare, monitor);
+  smoother().start(rhs.data(), started.data(), monitor);
+  smoother().step(line(), rhs.data(), zero.data(), stepped.data(), monitor);
   EXPECT_EQ(started, stepped);
 }
 
@@ -67,14 +68,14 @@ TEST(DampedJacobi, DampsTheUpperEigenvalues)
   for (int k = 1; k <= Rows; ++k)
   {
     const double eigenvalue = 1 - std::cos(k * M_PI / (Rows + 1));
-    FloatMultiVector error(Rows), spare(Rows);
+    FloatMultiVector error(Rows), next(Rows);
     for (int i = 0; i < Rows; ++i)
     {
       error[i].setConstant(static_cast<float>(std::sin((i + 1) * k * M_PI / (Rows + 1))));
     }
     const float before = error[0][0];
-    smoother().step(line(), rhs, error, spare, monitor);
-    const double factor = error[0][0] / before;
+    smoother().step(line(), rhs.data(), error.data(), next.data(), monitor);
+    const double factor = next[0][0] / before;
     EXPECT_NEAR(factor, 1 - eigenvalue / 1.25, 1e-5);
     EXPECT_LE(std::abs(factor), eigenvalue >= 0.5 ? 0.60001 : 1) << "eigenvalue " << eigenvalue;
   }

@@ -83,17 +83,17 @@ TEST(RowProducts, HaveTheSameBitsOnEveryProcessor)
   std::mt19937 random(meshes::seed());
   const RandomRows rows(random);
   int visited = 7;
-  forRowProducts(rows.A, rows.x, 7, rows.A.rows,
+  forRowProducts(rows.A, rows.x.data(), 7, rows.A.rows,
     [&](Index i, const Eigen::Vector4f& product)
     {
       EXPECT_EQ(i, visited++);
       EXPECT_EQ(product, rows.expected<Eigen::Vector4f>(static_cast<int>(i))) << "row " << i;
     });
   EXPECT_EQ(visited, rows.A.rows);
-  forRowProducts(rows.doubles, rows.xDouble, 0, rows.A.rows,
+  forRowProducts(rows.doubles, rows.xDouble.data(), 0, rows.A.rows,
     [&](Index i, const MultiVectorRow& product)
     { EXPECT_EQ(product, rows.expected<MultiVectorRow>(static_cast<int>(i))) << "row " << i; });
-  forRowProducts(rows.doubles, rows.x, 0, rows.A.rows,
+  forRowProducts(rows.doubles, rows.x.data(), 0, rows.A.rows,
     [&](Index i, const MultiVectorRow& product)
     { EXPECT_EQ(product, rows.expected<MultiVectorRow>(static_cast<int>(i))) << "row " << i; });
 }
@@ -118,7 +118,7 @@ TEST(RowProducts, OfAScaledMatrixAreThoseOfItsCopyInSinglePrecision)
   wide.value = wide.ownValue.data();
   const ScaledRows scaled(wide, Scale);
   FloatMultiVector result(rows.A.rows);
-  rowProducts(scaled, rows.x, 0, rows.A.rows, result.data());
+  rowProducts(scaled, rows.x.data(), 0, rows.A.rows, result.data());
   for (int i = 0; i < rows.A.rows; ++i)
   {
     EXPECT_EQ(result[i], rows.expected<Eigen::Vector4f>(i)) << "row " << i;
@@ -136,9 +136,9 @@ TEST(RowProducts, AgreeWithEigen)
   }
   const Eigen::MatrixXd product = rows.doubles * x;
   MultiVector result(rows.A.rows);
-  rowProducts(rows.doubles, rows.xDouble, 0, rows.A.rows, result.data());
+  rowProducts(rows.doubles, rows.xDouble.data(), 0, rows.A.rows, result.data());
   FloatMultiVector inFloat(rows.A.rows);
-  rowProducts(rows.A, rows.x, 0, rows.A.rows, inFloat.data());
+  rowProducts(rows.A, rows.x.data(), 0, rows.A.rows, inFloat.data());
   for (int i = 0; i < rows.A.rows; ++i)
   {
     EXPECT_LE((result[i].transpose() - product.row(i)).cwiseAbs().maxCoeff(), 1e-13);

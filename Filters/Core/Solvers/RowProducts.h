@@ -11,8 +11,8 @@
 
 namespace morph
 {
-/// Sets products[i - first] to (A x)_i for the rows in [first, last). `x`: one row for each column of
-/// A. It uses AVX2 where the processor has it; the bits are the same without. Cost: measured on
+/// Sets products[i - first] to (A x)_i for the rows in [first, last). `x`: a row for each column
+/// of A. It uses AVX2 where the processor has it; the bits are the same without. Cost: measured on
 /// hexahedra, 0.6 ns an entry and thread with AVX2 and 0.75 without.
 ///@{
 void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
