@@ -48,8 +48,12 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     this->stars_ = CentreStars(); // a matrix without rows is none
   }
   this->rows_ = unknownOrdering(rest, this->stars_.others(partition.free));
+  if (this->rows_ == partition.free)
+  {
+    this->rows_ = {};
+  }
   FemWarpSystem system = femWarpSystem(
-    rest, std::move(around), this->rows_, partition.prescribed, factors, this->stars_, monitor);
+    rest, std::move(around), this->rows(), partition.prescribed, factors, this->stars_, monitor);
   this->stars_.assembled(rest.numberOfNodes(), partition);
   if (system.hasBadCells)
   {
@@ -67,7 +71,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows_, allColumns);
+  const Points coordinates = rest.points(this->rows(), allColumns);
   this->coupling_.swap(system.coupling);
   this->affineResidual_.reset();
   try
@@ -80,7 +84,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     std::vector<Index> nodes;
     for (Index row : error.rows())
     {
-      nodes.push_back(this->rows_[row]);
+      nodes.push_back(this->rows()[row]);
     }
     throwSingular(nodes);
   }
@@ -90,7 +94,7 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
   SolveReport report;
-  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
+  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
@@ -110,7 +114,7 @@ EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor
 {
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
-  unpermute(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows(), this->partition(), free, monitor);
   this->stars_.recover(prescribed, free, monitor);
   return report;
 }
@@ -120,7 +124,7 @@ EvaluateReport FemWarp::displaceFields(
 {
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed), x, monitor);
-  unpermute(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows(), this->partition(), free, monitor);
   this->stars_.recover(prescribed, free, monitor);
   return report;
 }
@@ -131,7 +135,7 @@ EvaluateReport FemWarp::displaceTranspose(
   // M = -A_I^-1 A_B and A_I is symmetric, so M^T g = -A_B^T A_I^-1 g.
   Points gradient = free;
   this->stars_.recoverTranspose(gradient, prescribed);
-  const Points rhs = permute(gradient, this->rows_, this->partition());
+  const Points rhs = permute(gradient, this->rows(), this->partition());
   Points solution = Points::Zero(rhs.rows(), 3);
   const SolveReport report =
     this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
@@ -139,7 +143,7 @@ EvaluateReport FemWarp::displaceTranspose(
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
-    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows_, this->coupling_,
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
       rhs, solution, prescribed);
   }
   return { report.iterations, report.relativeResidual, report.bytesMoved, {} };

@@ -43,7 +43,10 @@ public:
   /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
   /// for memory. Of a mesh with polyhedra some centres are eliminated and are no rows, if the
   /// stiffness is uniform.
-  const std::vector<Index>& rows() const { return this->rows_; }
+  const std::vector<Index>& rows() const
+  {
+    return this->rows_.empty() ? this->partition().free : this->rows_;
+  }
   /// Returns the solver with its matrix A_I (#rows x #rows), for benchmarks and checks.
   const SpdSolver& solver() const { return this->solver_; }
   /// Returns A_B, #rows x #prescribed; rows as above, columns in the order of
@@ -65,7 +68,7 @@ private:
   EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
-  std::vector<Index> rows_;
+  std::vector<Index> rows_; ///< empty where they are the free nodes
   CentreStars stars_;
   SpdSolver solver_;
   CsrMatrix coupling_;

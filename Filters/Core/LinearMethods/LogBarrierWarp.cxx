@@ -49,12 +49,16 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   const NodePartition& partition = this->partition();
   requirePrescribedBodies(rest, connectedComponents(rest, monitor), partition);
   this->rows_ = unknownOrdering(rest, partition.free);
+  if (this->rows_ == partition.free)
+  {
+    this->rows_ = {};
+  }
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
   const std::vector<double> factors =
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
   LogBarrierSystem system =
-    logBarrierSystem(rest, this->rows_, partition.prescribed, relax, factors, monitor);
+    logBarrierSystem(rest, this->rows(), partition.prescribed, relax, factors, monitor);
   requireWeights(system, relax);
   this->meanWeightIterations_ = system.meanIterations;
   this->mostWeightIterations_ = system.mostIterations;
@@ -72,7 +76,7 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows_, allColumns);
+  const Points coordinates = rest.points(this->rows(), allColumns);
   this->coupling_.swap(system.coupling);
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
@@ -96,7 +100,7 @@ EvaluateReport LogBarrierWarp::solve(
   const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
   GeneralSolver::Report solved;
-  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows_,
+  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
@@ -110,7 +114,7 @@ EvaluateReport LogBarrierWarp::displace(
 {
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
-  unpermute(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows(), this->partition(), free, monitor);
   return report;
 }
 
@@ -119,7 +123,7 @@ EvaluateReport LogBarrierWarp::displaceFields(
 {
   MultiVector x;
   const EvaluateReport report = this->solve(toRows(prescribed), x, monitor);
-  unpermute(x, this->rows_, this->partition(), free, monitor);
+  unpermute(x, this->rows(), this->partition(), free, monitor);
   return report;
 }
 
@@ -127,14 +131,14 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // M = (I - W_I)^-1 W_B, so M^T g = W_B^T (I - W_I)^-T g.
-  const Points rhs = permute(free, this->rows_, this->partition());
+  const Points rhs = permute(free, this->rows(), this->partition());
   Points solution = Points::Zero(free.rows(), 3);
   const GeneralSolver::Report solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
-    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows_, this->coupling_,
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
       rhs, solution, prescribed);
   }
   return this->report(solved, monitor);

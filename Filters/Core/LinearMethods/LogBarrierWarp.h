@@ -53,7 +53,10 @@ public:
 
   /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
   /// for memory.
-  const std::vector<Index>& rows() const { return this->rows_; }
+  const std::vector<Index>& rows() const
+  {
+    return this->rows_.empty() ? this->partition().free : this->rows_;
+  }
   /// Returns the solver with its matrix I - W_I (#free x #free, in the order of rows()), for
   /// benchmarks and checks.
   const GeneralSolver& solver() const { return this->solver_; }
@@ -83,7 +86,7 @@ private:
 
   double tolerance_ = 1e-10;
   OutsideHull outsideHull_ = OutsideHull::Error;
-  std::vector<Index> rows_;
+  std::vector<Index> rows_; ///< empty where they are the free nodes
   GeneralSolver solver_;
   CsrMatrix coupling_;
   AffineGuess guess_;

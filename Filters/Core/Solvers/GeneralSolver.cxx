@@ -35,8 +35,8 @@ struct Workspace
 {
   Workspace(const Multigrid& hierarchy, std::size_t n)
     : residual(largeVector<Row>(n))
-    , shadow(largeVector<Row>(n))
     , direction(largeVector<Row>(n))
+    , shadow(largeVector<Eigen::Vector4f>(n))
     , image(largeVector<Row>(n))
     , second(largeVector<Row>(n))
     , step(largeVector<Eigen::Vector4f>(n))
@@ -44,7 +44,9 @@ struct Workspace
   {
   }
 
-  Rows residual, shadow, direction;
+  Rows residual, direction;
+  /// The first residual, in units of `scale`. Any vector near it serves: single precision is enough.
+  FloatMultiVector shadow;
   /// A times the preconditioned direction, and times the preconditioned residual; `second` is
   /// scratch memory for the preconditioner before
   Rows image, second;
@@ -81,7 +83,7 @@ struct GeneralSolver::System
   }
   std::size_t workspaceBytes() const
   {
-    return this->A.rows() * (5 * sizeof(Row) + sizeof(Eigen::Vector4f)) +
+    return this->A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f)) +
            this->preconditioner.workspaceBytes();
   }
   void giveBack(std::unique_ptr<Workspace> workspace) const
@@ -189,16 +191,19 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
     }
   };
 
-  monitor.parallelFor(n, Grain,
-    [&](Index first, Index last)
+  rescale();
+  const Two begin = reproducibleSum(n, monitor, Two(Two::Zero()),
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        work.shadow[i] = direction[i] = residual[i];
-      }
+      direction[i] = residual[i];
+      work.shadow[i] = residual[i].cwiseProduct(scale).cast<float>();
+      const Row shadow = work.shadow[i].cast<double>();
+      Two pair;
+      pair << residual[i].cwiseProduct(shadow), shadow.cwiseAbs2();
+      return pair;
     });
-  const Row shadowNorm2 = norm2;
-  Row rho = norm2;
+  Row rho = begin.col(0);
+  const Row shadowNorm2 = begin.col(1);
   double windowStart = largestRatio(norm2, goal2);
   const int firstIteration = report.iterations;
   int windowEnd = firstIteration + StagnationWindow + Warm;
@@ -234,7 +239,7 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
           [&](Index i, const Row& product)
           {
             image[i] = product.cwiseProduct(firstUnscale);
-            sum += image[i].cwiseProduct(work.shadow[i]);
+            sum += image[i].cwiseProduct(work.shadow[i].cast<double>());
           });
         return sum;
       });
@@ -284,7 +289,7 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
         x[i] += omega.cwiseProduct(unscale).cwiseProduct(work.step[i].cast<double>());
         residual[i] -= omega.cwiseProduct(second[i]);
         Two pair;
-        pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i]);
+        pair << residual[i].cwiseAbs2(), residual[i].cwiseProduct(work.shadow[i].cast<double>());
         return pair;
       });
     norm2 = sums.col(0);
