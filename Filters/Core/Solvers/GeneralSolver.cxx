@@ -45,7 +45,7 @@ struct Workspace
   }
 
   Rows residual, direction;
-  /// The first residual, in units of `scale`. Any vector near it serves: single precision is enough.
+  /// The first residual, in units of `scale`. Any vector near it serves as well.
   FloatMultiVector shadow;
   /// A times the preconditioned direction, and times the preconditioned residual; `second` is
   /// scratch memory for the preconditioner before
