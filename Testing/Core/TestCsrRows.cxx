@@ -50,38 +50,44 @@ Eigen::MatrixXd dense(const CsrRows<Scalar>& A, int columns)
   }
   return result;
 }
+
+/// R A P with two chunks of rows.
+struct Factors
+{
+  static constexpr int Rows = 9000, Inner = 40, Columns = 30;
+  std::mt19937 random{ meshes::seed() };
+  CsrRows<float> R = randomRows<float>(Rows, Inner, random);
+  CsrRows<double> A = randomRows<double>(Inner, Inner, random);
+  CsrRows<float> P = randomRows<float>(Inner, Columns, random);
+
+  CsrRows<double> product(int columns, Monitor&& monitor) const
+  {
+    return tripleProduct(this->R, this->A, this->P, columns, monitor);
+  }
+};
+
+void expectSame(const CsrRows<double>& a, const CsrRows<double>& b)
+{
+  ASSERT_EQ(a.ownStart, b.ownStart);
+  EXPECT_TRUE((a.ownColumn == b.ownColumn).all());
+  EXPECT_TRUE((a.ownValue == b.ownValue).all());
+}
 }
 
 // Many columns are numbered by a hash map, few by a table.
 TEST(CsrRows, TripleProductsDoNotDependOnHowColumnsAreNumbered)
 {
-  constexpr int Rows = 9000, Inner = 40, Columns = 30, Many = 1 << 20;
-  std::mt19937 random(meshes::seed());
-  const CsrRows<float> R = randomRows<float>(Rows, Inner, random);
-  const CsrRows<double> A = randomRows<double>(Inner, Inner, random);
-  const CsrRows<float> P = randomRows<float>(Inner, Columns, random);
-  meshes::ThreadedMonitor monitor(2);
-  const CsrRows<double> few = tripleProduct(R, A, P, Columns, monitor);
-  const CsrRows<double> many = tripleProduct(R, A, P, Many, monitor);
-  ASSERT_EQ(few.ownStart, many.ownStart);
-  EXPECT_TRUE((few.ownColumn == many.ownColumn).all());
-  EXPECT_TRUE((few.ownValue == many.ownValue).all());
-  const Eigen::MatrixXd expected = dense(R, Inner) * dense(A, Inner) * dense(P, Columns);
-  EXPECT_LT((dense(few, Columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
+  const Factors of;
+  const CsrRows<double> few = of.product(Factors::Columns, meshes::ThreadedMonitor(2));
+  expectSame(few, of.product(1 << 20, meshes::ThreadedMonitor(2)));
+  const Eigen::MatrixXd expected =
+    dense(of.R, Factors::Inner) * dense(of.A, Factors::Inner) * dense(of.P, Factors::Columns);
+  EXPECT_LT((dense(few, Factors::Columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(CsrRows, TripleProductsDoNotDependOnThreads)
 {
-  constexpr int Rows = 9000, Inner = 40, Columns = 30;
-  std::mt19937 random(meshes::seed());
-  const CsrRows<float> R = randomRows<float>(Rows, Inner, random);
-  const CsrRows<double> A = randomRows<double>(Inner, Inner, random);
-  const CsrRows<float> P = randomRows<float>(Inner, Columns, random);
-  Monitor serial;
-  meshes::ThreadedMonitor threads(3);
-  const CsrRows<double> one = tripleProduct(R, A, P, Columns, serial);
-  const CsrRows<double> three = tripleProduct(R, A, P, Columns, threads);
-  ASSERT_EQ(one.ownStart, three.ownStart);
-  EXPECT_TRUE((one.ownColumn == three.ownColumn).all());
-  EXPECT_TRUE((one.ownValue == three.ownValue).all());
+  const Factors of;
+  expectSame(of.product(Factors::Columns, Monitor()),
+    of.product(Factors::Columns, meshes::ThreadedMonitor(3)));
 }

@@ -18,9 +18,10 @@
 namespace morph
 {
 /// A smoothed-aggregation multigrid preconditioner for three right-hand sides at once. It is one
-/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. A preconditioner needs
-/// single precision only, which halves memory traffic. Source: Vanek, Mandel, Brezina, Computing 56
-/// (1996) 179-196.
+/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. Vectors and coarse
+/// levels have single precision, which halves memory traffic. The finest matrix is rounded while it
+/// is read, which saves the memory of a copy. Source: Vanek, Mandel, Brezina, Computing 56 (1996)
+/// 179-196.
 ///
 /// A matrix that is not symmetric is coarsened by P^T A P. On log-barrier weights this took 4
 /// BiCGSTAB iterations, and a hierarchy of the symmetrised matrix 4 to 9. On a mesh graded 1.6
