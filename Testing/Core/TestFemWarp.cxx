@@ -197,11 +197,7 @@ TEST(FemWarp, ANodeOfManyCellsAgreesWithADenseSolve)
   {
     double corners[4][3], K[triangleSize(4)];
     const Index* nodes = mesh.cell(c);
-    for (int a = 0; a < 4; ++a)
-    {
-      const auto p = mesh.points.row(nodes[a]);
-      std::copy(p.data(), p.data() + 3, corners[a]);
-    }
+    copyCorners(mesh, c, *cellShape(Tetra), mesh.points, corners[0]);
     ASSERT_EQ(elementStiffness(Shape::Tet, corners, K), 1);
     for (int a = 0; a < 4; ++a)
     {

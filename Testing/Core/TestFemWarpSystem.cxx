@@ -6,25 +6,20 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 
 using namespace morph;
 
 namespace
 {
-constexpr Index BandRows = 65536; // of the smallest band in FemWarpSystem.cxx
+constexpr Index BandRows = 65536; // of the smallest band, see ElementMatrices.h
 
 /// Adds a cell's stiffness to the rows of the nodes in `wanted`.
 void addCell(const Mesh& mesh, Index cell, std::map<Index, std::map<Index, double>>& wanted)
 {
   double corners[8][3], K[triangleSize(8)];
   const Index* nodes = mesh.cell(cell);
-  for (int a = 0; a < 8; ++a)
-  {
-    const auto p = mesh.points.row(nodes[a]);
-    std::copy(p.data(), p.data() + 3, corners[a]);
-  }
+  copyCorners(mesh, cell, *cellShape(Hexahedron), mesh.points, corners[0]);
   ASSERT_EQ(elementStiffness(Shape::Hex, corners, K), 1);
   for (int a = 0; a < 8; ++a)
   {

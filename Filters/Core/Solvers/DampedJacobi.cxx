@@ -45,7 +45,7 @@ float largestEigenvalue(
   {
     const float scale = static_cast<float>(1 / norm);
     const float back = made > 0 ? static_cast<float>(norm) : 0.f;
-    monitor.parallelFor(A.rows, 4096,
+    monitor.parallelFor(A.rows, DampedJacobi::Grain,
       [&](Index first, Index last)
       {
         for (Index i = first; i < last; ++i)

@@ -27,6 +27,8 @@ float largestEigenvalue(
 class DampedJacobi
 {
 public:
+  static constexpr Index Grain = 4096; ///< least rows of a thread
+
   DampedJacobi() = default;
   /// `largest`: see largestEigenvalue().
   DampedJacobi(std::vector<float> inverseDiagonal, float largest);
@@ -51,7 +53,6 @@ public:
   std::size_t memory() const { return this->weight_.size() * sizeof(float); }
 
 private:
-  static constexpr Index Grain = 4096;
   std::vector<float> weight_; ///< w D^-1
 };
 }
