@@ -145,21 +145,48 @@ CellMatrices::CellMatrices(const Mesh& mesh, const std::vector<int>& starOf,
         this->bands_[c] = isInStar ? Bands() : this->bandsOf(c, column);
       }
     });
+  this->findBlocks();
+}
+
+void CellMatrices::findBlocks()
+{
+  this->blocks_.resize(this->size());
+  const Index cells = this->mesh_.numberOfCells();
+  for (Index first = 0; first < cells; first += Grain)
+  {
+    std::vector<std::uint8_t> has(this->size(), 0);
+    for (Index c = first; c < std::min(cells, first + Grain); ++c)
+    {
+      for (int band = this->bands_[c].first; band <= this->bands_[c].last; ++band)
+      {
+        has[band] = 1;
+      }
+    }
+    for (int band = 0; band < this->size(); ++band)
+    {
+      if (has[band])
+      {
+        this->blocks_[band].push_back(first / Grain);
+      }
+    }
+  }
 }
 
 void CellMatrices::compute(int band, Monitor& monitor)
 {
-  const Index cells = this->mesh_.numberOfCells(), blocks = (cells + Grain - 1) / Grain;
-  std::vector<Index> blockStart(blocks + 1, 0);
+  const Index cells = this->mesh_.numberOfCells();
+  const std::vector<Index>& blocks = this->blocks_[band];
+  std::vector<Index> blockStart(blocks.size() + 1, 0);
   const auto forCells = [&](const auto& use)
   {
-    monitor.parallelFor(blocks, 1,
+    monitor.parallelFor(static_cast<Index>(blocks.size()), 1,
       [&](Index first, Index last)
       {
         for (Index block = first; block < last; ++block)
         {
           Index at = blockStart[block];
-          for (Index c = block * Grain; c < std::min(cells, (block + 1) * Grain); ++c)
+          const Index firstCell = blocks[block] * Grain;
+          for (Index c = firstCell; c < std::min(cells, firstCell + Grain); ++c)
           {
             if (this->bands_[c].first <= band && band <= this->bands_[c].last)
             {

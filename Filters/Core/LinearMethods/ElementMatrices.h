@@ -79,12 +79,15 @@ private:
 
   int bandOf(Index row) const { return static_cast<int>(row / this->bandRows_); }
   Index entries(Index cell) const;
+  /// Finds the blocks of cells in which each band has cells.
+  void findBlocks();
   Bands bandsOf(Index cell, const std::vector<int>& column) const;
 
   const Mesh& mesh_;
   CellMatrix& cell_;
   Index bandRows_, rows_;
   std::vector<Bands> bands_;
+  std::vector<std::vector<Index>> blocks_; ///< of each band, so that threads share its cells evenly
   Matrices matrices_;
 };
 }

@@ -81,15 +81,24 @@ float largestEigenvalue(
   tridiagonal.computeFromTridiagonal(
     diagonal.head(made), off.head(std::max(made - 1, 0)), Eigen::EigenvaluesOnly);
   const float bound = static_cast<float>(tridiagonal.eigenvalues().maxCoeff());
-  float rowSum = 0; // no eigenvalue exceeds the largest row sum
-  for (int i = 0; i < A.rows; ++i)
-  {
-    float sum = 0;
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+  // no eigenvalue exceeds the largest row sum
+  monitor.parallelFor(A.rows, DampedJacobi::Grain,
+    [&](Index first, Index last)
     {
-      sum += std::abs(A.entry(k));
-    }
-    rowSum = std::max(rowSum, sum * inverseDiagonal[i]);
+      for (Index i = first; i < last; ++i)
+      {
+        float sum = 0;
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          sum += std::abs(A.entry(k));
+        }
+        scaled[i] = sum * inverseDiagonal[i];
+      }
+    });
+  float rowSum = 0;
+  for (const float sum : scaled)
+  {
+    rowSum = std::max(rowSum, sum);
   }
   return bound > 0 && std::isfinite(bound) ? std::min(LanczosMargin * bound, rowSum) : rowSum;
 }
