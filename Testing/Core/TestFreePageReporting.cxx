@@ -30,8 +30,7 @@ protected:
   bool reports() const { return reportsFreePages(this->folder_.string()); }
 
 private:
-  const fs::path folder_ =
-    fs::temp_directory_path() / ("morph-virtio-" + std::to_string(getpid()));
+  const fs::path folder_ = fs::temp_directory_path() / ("morph-virtio-" + std::to_string(getpid()));
 };
 }
 
