@@ -300,11 +300,12 @@ TEST(RowComponents, AreTheBlocksOfTheMatrix)
   A.insert(0, 3) = -1;
   A.insert(4, 2) = -1;
   A.makeCompressed();
-  const RowComponents components = rowComponents(A);
+  Monitor monitor;
+  const RowComponents components = rowComponents(A, monitor);
   EXPECT_EQ(components.count, 3);
   EXPECT_EQ(components.ofRow, (std::vector<int>{ 0, 1, 2, 0, 2 }));
-  EXPECT_EQ(rowComponents(TwoBlocks().A).count, 2);
-  EXPECT_EQ(rowComponents(CsrMatrix(0, 0)).count, 0);
+  EXPECT_EQ(rowComponents(TwoBlocks().A, monitor).count, 2);
+  EXPECT_EQ(rowComponents(CsrMatrix(0, 0), monitor).count, 0);
 }
 
 template <typename Solver>

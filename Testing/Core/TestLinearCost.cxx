@@ -48,7 +48,8 @@ TEST(LinearCost, NormalsReachARowOfFlatFaces)
   {
     Strip strip(n, 0);
     strip.points.row(2 * n + 1) << static_cast<double>(n), 0, 1; // the last face has an area
-    const SurfaceEdges edges = surfaceEdges(strip.points, strip.faces);
+    Monitor monitor;
+    const SurfaceEdges edges = surfaceEdges(strip.points, strip.faces, monitor);
     for (Index f = 0; f < n - 1; ++f)
     {
       const Index e = edges.find(2 * f + 2, 2 * f + 3);
@@ -76,8 +77,9 @@ TEST(LinearCost, SurfaceIdsSpreadAlongARow)
     options.given.parameter.assign(nodes, std::numeric_limits<double>::quiet_NaN());
     options.given.dimension[0] = 2;
     options.given.id[0] = 7;
-    const GivenSurfaces given =
-      givenSurfaces(strip.points, strip.faces, surfaceEdges(strip.points, strip.faces), options);
+    Monitor monitor;
+    const GivenSurfaces given = givenSurfaces(
+      strip.points, strip.faces, surfaceEdges(strip.points, strip.faces, monitor), options);
     EXPECT_EQ(given.id, std::vector<Index>(static_cast<std::size_t>(n), 7));
     EXPECT_LE(given.visits, 10 * n);
   }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,42 @@ TEST(UnionFind, AgreesWithFloodingInAnyOrder)
       {
         ASSERT_EQ(sets.root(i), lowest[i]) << "trial " << trial << ", number " << i;
       }
+    }
+  }
+}
+
+// The lowest numbers come last in some threads and first in others.
+TEST(UnionFind, ThreadsMayJoinAtOnce)
+{
+  constexpr int Numbers = 20000, Sets = 7;
+  for (const int threads : { 2, 5 })
+  {
+    UnionFind<int> sets(Numbers);
+    std::vector<std::thread> crew;
+    for (int t = 0; t < threads; ++t)
+    {
+      crew.emplace_back(
+        [&sets, t, threads]
+        {
+          std::vector<int> mine;
+          for (int i = Sets + t; i < Numbers; i += threads)
+          {
+            mine.push_back(i);
+          }
+          std::shuffle(mine.begin(), mine.end(), std::mt19937(meshes::seed() + t));
+          for (const int i : mine)
+          {
+            sets.join(i, i - Sets);
+          }
+        });
+    }
+    for (std::thread& thread : crew)
+    {
+      thread.join();
+    }
+    for (int i = 0; i < Numbers; ++i)
+    {
+      ASSERT_EQ(sets.root(i), i % Sets) << threads << " threads";
     }
   }
 }

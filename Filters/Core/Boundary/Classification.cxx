@@ -3,6 +3,7 @@
 
 #include "Boundary/GivenSurfaces.h"
 #include "Mesh/CellShape.h"
+#include "Support/Buckets.h"
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@ namespace morph
 {
 namespace
 {
+constexpr Index Grain = 4096;
 constexpr double NoParameter = std::numeric_limits<double>::quiet_NaN();
 
 void requireLength(std::size_t length, Index needed, const char* what)
@@ -66,22 +68,39 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
   }
 }
 
-/// Returns sorted lists of the distinct second values for each first value.
-Adjacency lists(std::vector<std::pair<Index, Index>>& pairs, Index rows)
+/// Removes repeated numbers from rows that ascend.
+void removeRepeated(Adjacency& lists)
 {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  Adjacency result;
-  result.offsets.assign(rows + 1, 0);
-  for (const auto& pair : pairs)
+  Index at = 0, start = 0;
+  for (std::size_t row = 0; row + 1 < lists.offsets.size(); ++row)
   {
-    ++result.offsets[pair.first + 1];
-    result.values.push_back(pair.second);
+    const Index end = lists.offsets[row + 1];
+    const Index firstKept = at;
+    for (Index k = start; k < end; ++k)
+    {
+      if (at == firstKept || lists.values[at - 1] != lists.values[k])
+      {
+        lists.values[at++] = lists.values[k];
+      }
+    }
+    start = end;
+    lists.offsets[row + 1] = at;
   }
-  for (Index i = 0; i < rows; ++i)
-  {
-    result.offsets[i + 1] += result.offsets[i];
-  }
+  lists.values.resize(at);
+}
+
+/// Returns sorted lists of the distinct second values for each first value.
+Adjacency lists(const std::vector<std::pair<Index, Index>>& pairs, Index rows, Monitor& monitor)
+{
+  Adjacency result = sortIntoBuckets(static_cast<Index>(pairs.size()), rows, monitor,
+    [&](Index first, Index last, const auto& add)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        add(pairs[i].first, pairs[i].second);
+      }
+    });
+  removeRepeated(result);
   return result;
 }
 
@@ -104,10 +123,10 @@ public:
     this->result_.dimension.assign(nodes, -1);
     this->result_.entity.assign(nodes, -1);
     this->result_.parameter.assign(nodes, NoParameter);
-    this->result_.edges = surfaceEdges(this->points_, this->faces_);
+    this->result_.edges = surfaceEdges(this->points_, this->faces_, monitor);
     monitor.check();
     monitor.progress(0.4);
-    this->findPatches();
+    this->findPatches(monitor);
     monitor.check();
     monitor.progress(0.6);
     this->findMiddles();
@@ -115,7 +134,7 @@ public:
     this->findCurves(monitor);
     monitor.check();
     monitor.progress(0.8);
-    this->placeNodes();
+    this->placeNodes(monitor);
     this->nameVerticesAndSurfaces();
     this->compareWithGiven(monitor);
     return std::move(this->result_);
@@ -127,7 +146,7 @@ private:
     return !this->given_.dimension.empty() && this->given_.dimension[node] == dimension;
   }
 
-  void findPatches()
+  void findPatches(Monitor& monitor)
   {
     SurfaceEdges& edges = this->result_.edges;
     const GivenSurfaces known = givenSurfaces(this->points_, this->faces_, edges, this->options_);
@@ -135,15 +154,19 @@ private:
       known.isCurve, this->options_.featuresInside);
     this->result_.surfaceOfFace = this->patches_.ofFace;
 
-    std::vector<std::pair<Index, Index>> pairs;
-    for (std::size_t f = 0; f < this->patches_.ofFace.size(); ++f)
+    const auto patchesOf = [this](Index first, Index last, const auto& add)
     {
-      for (Index k = this->faces_.offsets[f]; k < this->faces_.offsets[f + 1]; ++k)
+      for (Index f = first; f < last; ++f)
       {
-        pairs.emplace_back(this->faces_.connectivity[k], this->patches_.ofFace[f]);
+        for (Index k = this->faces_.offsets[f]; k < this->faces_.offsets[f + 1]; ++k)
+        {
+          add(this->faces_.connectivity[k], this->patches_.ofFace[f]);
+        }
       }
-    }
-    this->patchesAtNode_ = lists(pairs, static_cast<Index>(this->points_.rows()));
+    };
+    this->patchesAtNode_ = sortIntoBuckets(static_cast<Index>(this->patches_.ofFace.size()),
+      static_cast<Index>(this->points_.rows()), monitor, patchesOf);
+    removeRepeated(this->patchesAtNode_);
     for (Index e = 0; e < edges.count(); ++e)
     {
       if (this->patches_.isCurve[e])
@@ -394,7 +417,7 @@ private:
     this->result_.entity[node] = entity;
   }
 
-  void placeNodes()
+  void placeNodes(Monitor& monitor)
   {
     Classification& result = this->result_;
     std::vector<std::pair<Index, Index>> nodesOn, curvesOf; // surface, node or curve
@@ -436,7 +459,8 @@ private:
       }
     }
     const Index count = static_cast<Index>(this->patches_.id.size());
-    const Adjacency nodes = lists(nodesOn, count), curves = lists(curvesOf, count);
+    const Adjacency nodes = lists(nodesOn, count, monitor),
+                    curves = lists(curvesOf, count, monitor);
     result.surfaces.resize(count);
     for (Index s = 0; s < count; ++s)
     {
@@ -552,17 +576,30 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor)
 {
   Classification result = classify(ConstPoints(mesh.points), faces, options, monitor);
-  const ConnectedComponents parts = connectedComponents(mesh);
+  const ConnectedComponents parts = connectedComponents(mesh, monitor);
+  const auto placeInside = [&](Index node, Index body)
+  {
+    if (body >= 0 && result.dimension[node] < 0)
+    {
+      result.dimension[node] = 3;
+      result.entity[node] = body;
+    }
+  };
+  monitor.parallelFor(mesh.numberOfNodes(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index node = first; node < last; ++node)
+      {
+        placeInside(node, parts.ofNode[node]);
+      }
+    });
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    for (Index k = 0; parts.ofCell[c] >= 0 && k < mesh.cellSize(c); ++k)
+    const CellShape* shape = cellShape(mesh.types[c]);
+    const bool hasOthers = !shape || shape->numberOfCorners != mesh.cellSize(c);
+    for (Index k = 0; hasOthers && k < mesh.cellSize(c); ++k) // between the corners
     {
-      const Index node = mesh.cell(c)[k];
-      if (result.dimension[node] < 0)
-      {
-        result.dimension[node] = 3;
-        result.entity[node] = parts.ofCell[c];
-      }
+      placeInside(mesh.cell(c)[k], parts.ofCell[c]);
     }
   }
   return result;

@@ -1,70 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/SurfaceEdges.h"
 
+#include "Support/Buckets.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace morph
 {
 namespace
 {
+constexpr Index Grain = 4096;
+
+/// A face's edge.
 struct Side
 {
-  Index low, high, face, place;
+  Index low, high, face;
   bool forward; ///< the face runs from `low` to `high`
-
-  bool operator<(const Side& other) const
-  {
-    return std::tie(this->low, this->high, this->face, this->place) <
-           std::tie(other.low, other.high, other.face, other.place);
-  }
 };
 
-std::vector<Side> sides(const BoundaryFaces& faces)
+/// The sides of all faces. Numbers of sides are those of the corners at which they start.
+class Sides
 {
-  std::vector<Side> result;
-  result.reserve(faces.connectivity.size());
-  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+public:
+  Sides(const BoundaryFaces& faces, Monitor& monitor)
+    : faces_(faces)
+    , face_(faces.connectivity.size())
   {
-    const Index first = faces.offsets[f], size = faces.offsets[f + 1] - first;
-    for (Index k = 0; k < size; ++k)
-    {
-      const Index a = faces.connectivity[first + k];
-      const Index b = faces.connectivity[first + (k + 1) % size];
-      result.push_back({ std::min(a, b), std::max(a, b), static_cast<Index>(f), k, a < b });
-    }
+    monitor.parallelFor(static_cast<Index>(faces.offsets.size()) - 1, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index f = first; f < last; ++f)
+        {
+          std::fill(
+            this->face_.begin() + faces.offsets[f], this->face_.begin() + faces.offsets[f + 1], f);
+        }
+      });
   }
-  std::sort(result.begin(), result.end());
-  return result;
+
+  Index size() const { return static_cast<Index>(this->face_.size()); }
+
+  Side operator[](Index side) const
+  {
+    const Index face = this->face_[side], end = this->faces_.offsets[face + 1];
+    const Index next = side + 1 < end ? side + 1 : this->faces_.offsets[face];
+    const Index a = this->faces_.connectivity[side], b = this->faces_.connectivity[next];
+    return { std::min(a, b), std::max(a, b), face, a < b };
+  }
+
+  /// Returns the numbers of all sides by lower node, higher node and number.
+  std::vector<Index> sorted(Index nodes, Monitor& monitor) const
+  {
+    Adjacency byLow = sortIntoBuckets(this->size(), nodes, monitor,
+      [this](Index first, Index last, const auto& add)
+      {
+        for (Index side = first; side < last; ++side)
+        {
+          add((*this)[side].low, side);
+        }
+      });
+    monitor.parallelFor(nodes, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index node = first; node < last; ++node)
+        {
+          std::stable_sort(byLow.values.begin() + byLow.offsets[node],
+            byLow.values.begin() + byLow.offsets[node + 1],
+            [this](Index a, Index b) { return (*this)[a].high < (*this)[b].high; });
+        }
+      });
+    return std::move(byLow.values);
+  }
+
+private:
+  const BoundaryFaces& faces_;
+  std::vector<Index> face_; ///< of each side
+};
+
+/// Returns a face's unit normal; zero for a face without area.
+Eigen::RowVector3d normalOf(const ConstPoints& points, const BoundaryFaces& faces, Index face)
+{
+  const Index* nodes = faces.connectivity.data() + faces.offsets[face];
+  const Index size = faces.offsets[face + 1] - faces.offsets[face];
+  double longest = 0;
+  for (Index k = 0; k < size; ++k)
+  {
+    longest =
+      std::max(longest, (points.row(nodes[(k + 1) % size]) - points.row(nodes[k])).squaredNorm());
+  }
+  const Eigen::RowVector3d area = vectorArea(points, nodes, size);
+  // Below this thickness, rounding determines the normal.
+  return area.norm() > 1e-10 * longest ? area.normalized() : Eigen::RowVector3d::Zero();
 }
 
-/// Returns unit normals; zero for faces without area.
-Points normals(const ConstPoints& points, const BoundaryFaces& faces)
+Points normals(const ConstPoints& points, const BoundaryFaces& faces, Monitor& monitor)
 {
-  const Index count = static_cast<Index>(faces.offsets.size()) - 1;
-  Points result = Points::Zero(count, 3);
-  for (Index f = 0; f < count; ++f)
-  {
-    const Index* nodes = faces.connectivity.data() + faces.offsets[f];
-    const Index size = faces.offsets[f + 1] - faces.offsets[f];
-    double longest = 0;
-    for (Index k = 0; k < size; ++k)
+  Points result(static_cast<Index>(faces.offsets.size()) - 1, 3);
+  monitor.parallelFor(result.rows(), Grain,
+    [&](Index first, Index last)
     {
-      longest =
-        std::max(longest, (points.row(nodes[(k + 1) % size]) - points.row(nodes[k])).squaredNorm());
-    }
-    const Eigen::RowVector3d area = vectorArea(points, nodes, size);
-    // Below this thickness, rounding determines the normal.
-    if (area.norm() > 1e-10 * longest)
-    {
-      result.row(f) = area.normalized();
-    }
-  }
+      for (Index f = first; f < last; ++f)
+      {
+        result.row(f) = normalOf(points, faces, f);
+      }
+    });
   return result;
 }
 
@@ -165,38 +208,54 @@ Index SurfaceEdges::find(Index a, Index b) const
   return place != this->nodes.end() && *place == key ? place - this->nodes.begin() : -1;
 }
 
-SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces)
+SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces, Monitor& monitor)
 {
   SurfaceEdges result;
-  const std::vector<Side> all = sides(faces);
+  const Sides sides(faces, monitor);
+  const std::vector<Index> order = sides.sorted(points.rows(), monitor);
   result.ofFace.offsets = faces.offsets;
-  result.ofFace.values.resize(all.size());
+  result.ofFace.values.resize(order.size());
+  result.faces.values.reserve(order.size());
   result.faces.offsets.push_back(0);
   std::vector<Meeting> meeting;
-  for (std::size_t i = 0; i < all.size();)
+  for (std::size_t i = 0; i < order.size();)
   {
+    const Side first = sides[order[i]];
+    Side last = first;
     std::size_t end = i;
-    for (; end < all.size() && all[end].low == all[i].low && all[end].high == all[i].high; ++end)
+    for (; end < order.size(); ++end)
     {
-      result.ofFace.values[faces.offsets[all[end].face] + all[end].place] = result.count();
-      result.faces.values.push_back(all[end].face);
+      const Side side = sides[order[end]];
+      if (side.low != first.low || side.high != first.high)
+      {
+        break;
+      }
+      result.ofFace.values[order[end]] = result.count();
+      result.faces.values.push_back(side.face);
+      last = side;
     }
     const bool manifold = end == i + 2;
-    meeting.push_back({ { manifold ? all[i].face : -1, manifold ? all[i + 1].face : -1 },
-      manifold && all[i].forward == all[i + 1].forward });
-    result.nodes.push_back({ all[i].low, all[i].high });
+    meeting.push_back({ { manifold ? first.face : -1, manifold ? last.face : -1 },
+      manifold && first.forward == last.forward });
+    result.nodes.push_back({ first.low, first.high });
     result.faces.offsets.push_back(static_cast<Index>(result.faces.values.size()));
     i = end;
   }
 
-  Points normal = normals(points, faces);
+  Points normal = normals(points, faces, monitor);
   result.visits = fillNormals(points, result, meeting, normal);
-  for (const Meeting& at : meeting)
-  {
-    result.angle.push_back(at.face[0] < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                          : degreesBetween(normal.row(at.face[0]),
-                                              normal.row(at.face[1]), at.sameDirection));
-  }
+  result.angle.resize(meeting.size());
+  monitor.parallelFor(static_cast<Index>(meeting.size()), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index e = first; e < last; ++e)
+      {
+        const Meeting& at = meeting[e];
+        result.angle[e] = at.face[0] < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                         : degreesBetween(normal.row(at.face[0]),
+                                             normal.row(at.face[1]), at.sameDirection);
+      }
+    });
   return result;
 }
 }

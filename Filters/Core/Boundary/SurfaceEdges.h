@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Support/Monitor.h"
 
 #include <array>
 #include <vector>
@@ -30,8 +31,8 @@ struct SurfaceEdges
 };
 
 /// `points`: #nodes x 3. The normal of a face is that of its vector area, so it is defined for
-/// warped quadrilaterals. Cost: a sort of the faces' edges.
-SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces);
+/// warped quadrilaterals. Cost: a sort of the faces' edges round each node.
+SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces, Monitor& monitor);
 
 /// Returns a polygon's vector area, the normal times the area: half the cross product of the
 /// diagonals, summed around it.

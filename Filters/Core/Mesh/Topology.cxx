@@ -22,6 +22,8 @@ namespace morph
 {
 namespace
 {
+constexpr Index Grain = 4096;
+
 const CellShape* volumeShape(const Mesh& mesh, Index cell)
 {
   const CellShape* shape = cellShape(mesh.types[cell]);
@@ -336,41 +338,59 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
 
 ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
 {
-  const Index nodes = mesh.numberOfNodes();
+  constexpr Index None = -1;
+  const Index nodes = mesh.numberOfNodes(), cells = mesh.numberOfCells();
   UnionFind<Index> bodies(nodes);
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        const CellShape* shape = volumeShape(mesh, c);
+        const Index corners = shape ? cornerCount(mesh, c, *shape) : 0;
+        for (Index k = 1, root = corners > 0 ? mesh.cell(c)[0] : None; k < corners; ++k)
+        {
+          root = bodies.join(root, mesh.cell(c)[k]);
+        }
+      }
+    });
 
+  // Each cell gets its root, and the roots numbers in the order of their first cell.
   ConnectedComponents result;
-  result.ofCell = largeVector<Index>(mesh.numberOfCells(), -1, monitor);
-  result.ofNode = largeVector<Index>(nodes, -1, monitor);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    if (const CellShape* shape = volumeShape(mesh, c))
+  resizeLarge(result.ofCell, cells);
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
     {
-      Index root = mesh.cell(c)[0];
-      for (Index k = 1; k < cornerCount(mesh, c, *shape); ++k)
+      for (Index c = first; c < last; ++c)
       {
-        root = bodies.join(root, mesh.cell(c)[k]);
+        result.ofCell[c] = volumeShape(mesh, c) ? bodies.root(mesh.cell(c)[0]) : None;
       }
+    });
+  auto number = largeVector<Index>(nodes, None, monitor);
+  for (const Index root : result.ofCell)
+  {
+    if (root != None && number[root] == None)
+    {
+      number[root] = result.count++;
     }
   }
-  // Numbers bodies in the order of their first cell.
-  auto number = largeVector<Index>(nodes, -1, monitor);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    if (const CellShape* shape = volumeShape(mesh, c))
+  monitor.parallelFor(cells, Grain,
+    [&](Index first, Index last)
     {
-      Index& body = number[bodies.root(mesh.cell(c)[0])];
-      if (body < 0)
+      for (Index c = first; c < last; ++c)
       {
-        body = result.count++;
+        result.ofCell[c] = result.ofCell[c] == None ? None : number[result.ofCell[c]];
       }
-      result.ofCell[c] = body;
-      for (Index k = 0; k < cornerCount(mesh, c, *shape); ++k)
+    });
+  resizeLarge(result.ofNode, nodes);
+  monitor.parallelFor(nodes, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
       {
-        result.ofNode[mesh.cell(c)[k]] = body;
+        result.ofNode[i] = number[bodies.root(i)];
       }
-    }
-  }
+    });
   return result;
 }
 

@@ -486,7 +486,7 @@ void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, M
     throw SingularRows(notPositive);
   }
   system.findNorm(monitor);
-  system.components = rowComponents(system.A);
+  system.components = rowComponents(system.A, monitor);
   system.preconditioner.prepare(
     system.A, Multigrid::Symmetry::General, diagonal.maxCoeff(), coordinates, monitor);
   this->implementation_ = std::move(fresh);

@@ -8,18 +8,23 @@
 
 namespace morph
 {
-RowComponents rowComponents(const CsrMatrix& matrix)
+RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
 {
+  constexpr Index Grain = 4096;
   const int rows = static_cast<int>(matrix.rows());
   UnionFind<int> components(rows);
-  for (int row = 0; row < rows; ++row)
-  {
-    int root = row;
-    for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
+  monitor.parallelFor(rows, Grain,
+    [&](Index first, Index last)
     {
-      root = components.join(root, matrix.innerIndexPtr()[k]);
-    }
-  }
+      for (Index row = first; row < last; ++row)
+      {
+        int root = static_cast<int>(row);
+        for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
+        {
+          root = components.join(root, matrix.innerIndexPtr()[k]);
+        }
+      }
+    });
 
   RowComponents result;
   std::vector<int>& number = result.ofRow;

@@ -20,7 +20,7 @@ struct RowComponents
 
 /// Finds the components: rows are connected if either has an entry in the other's column. Cost: one
 /// pass over the matrix.
-RowComponents rowComponents(const CsrMatrix& matrix);
+RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor);
 
 /// Replaces a first guess of A x = b by 0, and its residual by b, if the residual's norm exceeds
 /// that of b. This applies to each column of each component. Where b is exactly 0, so is then the

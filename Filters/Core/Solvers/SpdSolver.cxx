@@ -145,7 +145,7 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
   {
     throw SingularRows(notPositive);
   }
-  fresh->components = rowComponents(fresh->A);
+  fresh->components = rowComponents(fresh->A, monitor);
   fresh->unit = diagonal.maxCoeff();
   fresh->preconditioner.prepare(
     fresh->A, Multigrid::Symmetry::Symmetric, fresh->unit, coordinates, monitor);

@@ -69,7 +69,8 @@ void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,
   if (on)
   {
     lines = vtkSmartPointer<vtkCellArray>::New();
-    const morph::SurfaceEdges edges = morph::surfaceEdges(mesh.points, faces);
+    morph::Monitor serial;
+    const morph::SurfaceEdges edges = morph::surfaceEdges(mesh.points, faces, serial);
     const std::vector<std::uint8_t> isFeature = morph::surfacePatches(
       faces, edges, morph::ClassificationOptions().featureAngle, {}, {}, false)
                                                   .isCurve;
