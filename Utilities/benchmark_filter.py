@@ -14,6 +14,7 @@ A virtual machine may have to fetch memory from its host, at 0.3 to 0.7 GB a sec
 writes and frees as much as the filter needs just before it is timed; --fetch leaves this out."""
 
 import argparse
+import ctypes
 import json
 import mmap
 import os
@@ -102,6 +103,7 @@ def measure(plugin, side, method, repeat, fetch):
         morph.Tolerance = TOLERANCE
     if not fetch:
         fetch_memory(NODE_BYTES * grid.GetNumberOfPoints())
+    ctypes.CDLL(None).malloc_trim(0)  # what was freed would be used again without a new peak
     Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # VmHWM starts again
     before = status("VmRSS")
     seconds = []

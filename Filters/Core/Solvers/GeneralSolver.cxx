@@ -35,7 +35,7 @@ struct Workspace
 {
   Workspace(const Multigrid& hierarchy, std::size_t n)
     : residual(largeVector<Row>(n))
-    , direction(largeVector<Row>(n))
+    , direction(largeVector<Eigen::Vector4f>(n))
     , shadow(largeVector<Eigen::Vector4f>(n))
     , image(largeVector<Row>(n))
     , second(largeVector<Row>(n))
@@ -44,7 +44,10 @@ struct Workspace
   {
   }
 
-  Rows residual, direction;
+  Rows residual;
+  /// In units of `scale`. The iterate moves along the direction as rounded and preconditioned, so
+  /// that rounding it costs no accuracy.
+  FloatMultiVector direction;
   /// The first residual, in units of `scale`. Any vector near it serves as well.
   FloatMultiVector shadow;
   /// A times the preconditioned direction, and times the preconditioned residual; `second` is
@@ -83,7 +86,7 @@ struct GeneralSolver::System
   }
   std::size_t workspaceBytes() const
   {
-    return this->A.rows() * (4 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f)) +
+    return this->A.rows() * (3 * sizeof(Row) + 3 * sizeof(Eigen::Vector4f)) +
            this->preconditioner.workspaceBytes();
   }
   void giveBack(std::unique_ptr<Workspace> workspace) const
@@ -120,8 +123,10 @@ struct GeneralSolver::System
 
   /// Sets the residual to b - A x; returns the squared norms.
   Row trueResidual(const RightHandSide& b, const Rows& x, Workspace& work, Monitor& monitor) const;
-  /// Sets the step to B (scale v).
-  void precondition(const Rows& v, const Row& scale, Workspace& work, Monitor& monitor) const;
+  /// Sets the step to B times the direction.
+  void preconditionDirection(Workspace& work, Monitor& monitor) const;
+  /// Sets the step to B (scale residual).
+  void preconditionResidual(const Row& scale, Workspace& work, Monitor& monitor) const;
   /// Runs BiCGSTAB from x until it reaches the goal, stagnates or breaks down.
   /// `norm2` becomes that of the recurrence's residual: the caller has to compute the true one.
   void bicgstab(Rows& x, Row& norm2, const Row& goal2, Workspace& work, int maxIterations,
@@ -155,8 +160,15 @@ Row GeneralSolver::System::trueResidual(
     });
 }
 
-void GeneralSolver::System::precondition(
-  const Rows& v, const Row& scale, Workspace& work, Monitor& monitor) const
+void GeneralSolver::System::preconditionDirection(Workspace& work, Monitor& monitor) const
+{
+  const FloatHalves scratch(work.second);
+  this->preconditioner.apply(
+    work.direction.data(), scratch.first, work.step.data(), work.multigrid, monitor);
+}
+
+void GeneralSolver::System::preconditionResidual(
+  const Row& scale, Workspace& work, Monitor& monitor) const
 {
   const FloatHalves scratch(work.second);
   monitor.parallelFor(this->A.rows(), Grain,
@@ -164,7 +176,7 @@ void GeneralSolver::System::precondition(
     {
       for (Index i = first; i < last; ++i)
       {
-        scratch.first[i] = v[i].cwiseProduct(scale).cast<float>();
+        scratch.first[i] = work.residual[i].cwiseProduct(scale).cast<float>();
       }
     });
   this->preconditioner.apply(
@@ -177,8 +189,8 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
 {
   const Index n = this->A.rows();
   const Row zero = Row::Zero();
-  Rows &residual = work.residual, &direction = work.direction, &image = work.image,
-       &second = work.second;
+  Rows &residual = work.residual, &image = work.image, &second = work.second;
+  FloatMultiVector& direction = work.direction;
 
   // The preconditioner has single precision: scales each column's residual to about 1.
   Row scale = zero, unscale = zero;
@@ -195,8 +207,7 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
   const Two begin = reproducibleSum(n, monitor, Two(Two::Zero()),
     [&](Index i)
     {
-      direction[i] = residual[i];
-      work.shadow[i] = residual[i].cwiseProduct(scale).cast<float>();
+      direction[i] = work.shadow[i] = residual[i].cwiseProduct(scale).cast<float>();
       const Row shadow = work.shadow[i].cast<double>();
       Two pair;
       pair << residual[i].cwiseProduct(shadow), shadow.cwiseAbs2();
@@ -228,9 +239,8 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
     }
     monitor.check();
 
-    rescale();
     const Row firstUnscale = unscale;
-    this->precondition(direction, scale, work, monitor);
+    this->preconditionDirection(work, monitor);
     const Row along = reproducibleSumOfBlocks(n, monitor, zero,
       [&](Index first, Index last)
       {
@@ -263,7 +273,7 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
     }
 
     rescale();
-    this->precondition(residual, scale, work, monitor);
+    this->preconditionResidual(scale, work, monitor);
     const Two products = reproducibleSumOfBlocks(n, monitor, Two(Two::Zero()),
       [&](Index first, Index last)
       {
@@ -304,13 +314,18 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
     {
       return;
     }
+    rescale();
+    const Row ofDirection = beta.cwiseProduct(firstUnscale).cwiseProduct(scale);
+    const Row ofImage = beta.cwiseProduct(omega).cwiseProduct(scale);
     monitor.parallelFor(n, Grain,
       [&](Index first, Index last)
       {
         for (Index i = first; i < last; ++i)
         {
-          direction[i] =
-            residual[i] + beta.cwiseProduct(direction[i] - omega.cwiseProduct(image[i]));
+          direction[i] = (residual[i].cwiseProduct(scale) +
+                          ofDirection.cwiseProduct(direction[i].cast<double>()) -
+                          ofImage.cwiseProduct(image[i]))
+                           .cast<float>();
         }
       });
 
@@ -434,7 +449,7 @@ GeneralSolver::Report GeneralSolver::System::solve(const RightHandSide& b, Multi
   }
   this->giveBack(std::move(work));
   const double pass =
-    12. * this->A.nonZeros() + (9. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
+    12. * this->A.nonZeros() + (8. * sizeof(Row) + 4. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved =
     (report.iterations + 1 + runs) * pass + report.iterations * this->preconditioner.bytesMoved();
   return report;

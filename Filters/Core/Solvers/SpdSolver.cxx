@@ -28,15 +28,17 @@ struct Workspace
 {
   explicit Workspace(const Multigrid& multigrid, std::size_t n)
     : residual(largeVector<Row>(n))
-    , direction(largeVector<Row>(n))
     , image(largeVector<Row>(n))
     , residual32(largeVector<Eigen::Vector4f>(n))
+    , direction(largeVector<Eigen::Vector4f>(n))
     , multigrid(multigrid)
   {
   }
 
-  Rows residual, direction, image;
-  FloatMultiVector residual32;
+  Rows residual, image;
+  /// In units in which the first residual is about 1. The iterate moves along the direction as
+  /// rounded, so that rounding it costs no accuracy.
+  FloatMultiVector residual32, direction;
   Multigrid::Workspace multigrid;
 
   /// Returns `multigrid` applied to residual32. It lies in `image`, whose content is lost: an
@@ -104,7 +106,7 @@ struct SpdSolver::Implementation
   }
   std::size_t workspaceBytes() const
   {
-    return this->A.rows() * (3 * sizeof(Row) + sizeof(Eigen::Vector4f)) +
+    return this->A.rows() * (2 * sizeof(Row) + 2 * sizeof(Eigen::Vector4f)) +
            this->preconditioner.workspaceBytes();
   }
   void giveBack(std::unique_ptr<Workspace> workspace)
@@ -163,7 +165,7 @@ Row SpdSolver::Implementation::trueResidual(
         [&](Index i, const Row& product)
         {
           work.residual[i] = b[i] - product;
-          work.direction[i] = Row::Zero();
+          work.direction[i] = Eigen::Vector4f::Zero();
           norm2 += work.residual[i].cwiseAbs2();
         });
       return norm2;
@@ -174,7 +176,8 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
   Workspace& work, double tolerance, int maxIterations, Monitor& monitor) const
 {
   const Index n = this->A.rows();
-  Rows &residual = work.residual, &direction = work.direction, &image = work.image;
+  Rows &residual = work.residual, &image = work.image;
+  FloatMultiVector& direction = work.direction;
   const Row zero = Row::Zero();
 
   const Row bNorm2 =
@@ -203,13 +206,12 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
     before = now;
 
     // The preconditioner has single precision: scales each column's residual to about 1.
-    Row scale = zero, unscale = zero;
+    Row scale = zero;
     for (int c = 0; c < 4; ++c)
     {
       if (norm2[c] > goal2[c])
       {
-        unscale[c] = std::sqrt(norm2[c] / static_cast<double>(n));
-        scale[c] = 1 / unscale[c];
+        scale[c] = 1 / std::sqrt(norm2[c] / static_cast<double>(n));
       }
     }
     monitor.parallelFor(n, Grain,
@@ -243,17 +245,15 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
       const Eigen::Vector4f* step = work.precondition(this->preconditioner, monitor);
       const Row rzBefore = rz;
       rz = reproducibleSum(n, monitor, zero,
-        [&](Index i) {
-          return Row(residual[i].cwiseProduct(step[i].cast<double>()));
-        }).cwiseProduct(unscale);
+        [&](Index i) { return Row(residual[i].cwiseProduct(step[i].cast<double>())); });
       const Row beta = first ? zero : ratio(rz, rzBefore, running);
       monitor.parallelFor(n, Grain,
         [&](Index from, Index to)
         {
           for (Index i = from; i < to; ++i)
           {
-            direction[i] =
-              step[i].cast<double>().cwiseProduct(unscale) + beta.cwiseProduct(direction[i]);
+            direction[i] = (step[i].cast<double>() + beta.cwiseProduct(direction[i].cast<double>()))
+                             .cast<float>();
           }
         });
       const Row curvature = reproducibleSumOfBlocks(n, monitor, zero,
@@ -263,15 +263,16 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
           Row sum = zero;
           for (Index i = from; i < to; ++i)
           {
-            sum += image[i].cwiseProduct(direction[i]);
+            sum += image[i].cwiseProduct(direction[i].cast<double>());
           }
           return sum;
         });
+      // The direction's unit cancels: it is in both numbers.
       const Row alpha = ratio(rz, curvature, running);
       norm2 = reproducibleSum(n, monitor, zero,
         [&](Index i)
         {
-          solution[i] += alpha.cwiseProduct(direction[i]);
+          solution[i] += alpha.cwiseProduct(direction[i].cast<double>());
           residual[i] -= alpha.cwiseProduct(image[i]);
           work.residual32[i] = residual[i].cwiseProduct(scale).cast<float>();
           return Row(residual[i].cwiseAbs2());
@@ -296,7 +297,7 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
     }
   }
   const double pass =
-    12. * this->A.nonZeros() + (11. * sizeof(Row) + 3. * sizeof(Eigen::Vector4f)) * n;
+    12. * this->A.nonZeros() + (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
                       report.iterations * this->preconditioner.bytesMoved();
   return report;
