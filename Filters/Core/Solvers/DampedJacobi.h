@@ -24,6 +24,10 @@ float largestEigenvalue(
 ///
 /// Two steps on each side, by Chebyshev's polynomial, take fewer iterations and more time: 1.3
 /// times as much on cubes of hexahedra, and as much where they are graded.
+///
+/// Gauss-Seidel in blocks of 16,384 rows, forward before the coarse correction and backward after
+/// it, takes as many iterations on cubes and 30 to 40 % fewer on graded layers. An iteration then
+/// takes 1.1 times as long on hexahedra and 1.4 times on tetrahedra.
 class DampedJacobi
 {
 public:
