@@ -15,10 +15,25 @@
 #include <numeric>
 #include <string>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace morph::distributed
 {
 namespace
 {
+#ifdef __GLIBC__
+/// libsuperlu_dist, which hypre loads, tells malloc to keep all memory that is freed, also that of
+/// ParaView. This takes it back, with the thresholds up to which malloc adapts by itself.
+const bool isMallocRestored = []
+{
+  constexpr int MiB = 1 << 20;
+  return mallopt(M_MMAP_MAX, 65536) == 1 && mallopt(M_MMAP_THRESHOLD, 32 * MiB) == 1 &&
+         mallopt(M_TRIM_THRESHOLD, 64 * MiB) == 1;
+}();
+#endif
+
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start)
