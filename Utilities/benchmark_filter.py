@@ -8,15 +8,11 @@ The mesh is a cube of N x N x N hexahedra whose outer nodes turn about an axis b
 A cold run has topology, preparation, solution, quality and output; a warm one follows when the
 boundary moves again. Each plugin runs in a process of its own, in turn, so that a slow spell of the
 machine falls on all. Prints medians of seconds, the memory beside the mesh and its output's
-connectivity, and the first plugin's figures over the others'. Solver tolerance: 1e-8.
-
-A virtual machine may have to fetch memory from its host, at 0.3 to 0.7 GB a second. So each process
-writes and frees as much as the filter needs just before it is timed; --fetch leaves this out."""
+connectivity, and the first plugin's figures over the others'. Solver tolerance: 1e-8."""
 
 import argparse
 import ctypes
 import json
-import mmap
 import os
 import statistics
 import subprocess
@@ -27,7 +23,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TOLERANCE = 1e-8
 COLUMNS = ("cold", "warm", "memory")
-NODE_BYTES = 1300  # more than any of the methods needs
 
 
 def cube(side):
@@ -67,14 +62,7 @@ def status(name):
     sys.exit(f"/proc/self/status has no {name}")
 
 
-def fetch_memory(size):
-    """Makes the system own `size` bytes of free memory, for some seconds."""
-    import numpy as np
-    with mmap.mmap(-1, size) as memory:  # an array's memory might stay in this process
-        np.frombuffer(memory, np.uint8)[::mmap.PAGESIZE] = 1
-
-
-def measure(plugin, side, method, repeat, fetch):
+def measure(plugin, side, method, repeat):
     """In a process of its own: seconds cold, median seconds warm, bytes beside the grid."""
     from paraview import simple
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -101,8 +89,6 @@ def measure(plugin, side, method, repeat, fetch):
     morph = getattr(simple, f"Morph{method}")(Input=mesh, Boundary=boundary)
     if "Tolerance" in morph.ListProperties():
         morph.Tolerance = TOLERANCE
-    if not fetch:
-        fetch_memory(NODE_BYTES * grid.GetNumberOfPoints())
     ctypes.CDLL(None).malloc_trim(0)  # what was freed would be used again without a new peak
     Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # VmHWM starts again
     before = status("VmRSS")
@@ -128,13 +114,11 @@ def main():
                         help="default: the one under build/paraview")
     parser.add_argument("--methods", default="FEMWARP,LBWARP")
     parser.add_argument("--repeat", type=int, default=3, help="warm runs, and processes of each")
-    parser.add_argument("--fetch", action="store_true",
-                        help="count the time in which the machine gets memory from its host")
     parser.add_argument("--one", nargs=2, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.one:
         plugin, method = options.one
-        measure(plugin, options.sides[0], method, options.repeat, options.fetch)
+        measure(plugin, options.sides[0], method, options.repeat)
         return
     built = sorted((ROOT / "build" / "paraview" / "lib").glob("**/MeshMorphing.so"))
     plugins = dict(text.split("=", 1) for text in options.plugin) or {"now": str(built[0])}
@@ -147,7 +131,7 @@ def main():
                 for name, plugin in plugins.items():
                     done = subprocess.run(
                         ["pvpython", __file__, str(side), "--one", plugin, method,
-                         "--repeat", str(options.repeat), *["--fetch"] * options.fetch],
+                         "--repeat", str(options.repeat)],
                         check=True, text=True, stdout=subprocess.PIPE,
                         env=dict(os.environ, VTK_SMP_BACKEND_IN_USE="STDThread"))
                     runs[name].append(json.loads(done.stdout.strip().splitlines()[-1]))

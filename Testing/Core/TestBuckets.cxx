@@ -84,3 +84,16 @@ TEST(FirstTouch, ALargeVectorHasItsValues)
   EXPECT_EQ(kept.size(), Size);
   EXPECT_EQ(std::count(kept.begin(), kept.end(), 0.), static_cast<std::ptrdiff_t>(Size));
 }
+
+TEST(RemoveRepeated, KeepsOneOfEachInARow)
+{
+  morph::Adjacency lists;
+  lists.offsets = { 0, 3, 3, 6, 7, 8 };
+  lists.values = { 1, 1, 2, 2, 2, 2, 2, 5 };
+  morph::removeRepeated(lists);
+  EXPECT_EQ(lists.offsets, (std::vector<morph::Index>{ 0, 2, 2, 3, 4, 5 }));
+  EXPECT_EQ(lists.values, (std::vector<morph::Index>{ 1, 2, 2, 2, 5 }));
+  morph::Adjacency none;
+  morph::removeRepeated(none);
+  EXPECT_TRUE(none.values.empty());
+}

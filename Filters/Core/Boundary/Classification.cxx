@@ -68,27 +68,6 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
   }
 }
 
-/// Removes repeated numbers from rows that ascend.
-void removeRepeated(Adjacency& lists)
-{
-  Index at = 0, start = 0;
-  for (std::size_t row = 0; row + 1 < lists.offsets.size(); ++row)
-  {
-    const Index end = lists.offsets[row + 1];
-    const Index firstKept = at;
-    for (Index k = start; k < end; ++k)
-    {
-      if (at == firstKept || lists.values[at - 1] != lists.values[k])
-      {
-        lists.values[at++] = lists.values[k];
-      }
-    }
-    start = end;
-    lists.offsets[row + 1] = at;
-  }
-  lists.values.resize(at);
-}
-
 /// Returns sorted lists of the distinct second values for each first value.
 Adjacency lists(const std::vector<std::pair<Index, Index>>& pairs, Index rows, Monitor& monitor)
 {

@@ -7,6 +7,7 @@
 #include "Support/Types.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -52,5 +53,24 @@ Adjacency sortIntoBuckets(Index producers, Index rows, Monitor& monitor, const V
       }
     });
   return result;
+}
+
+/// Removes repeated numbers from rows that ascend, as those of sortIntoBuckets() do. Cost: one pass.
+inline void removeRepeated(Adjacency& lists)
+{
+  Index kept = 0, first = 0;
+  for (std::size_t row = 0; row + 1 < lists.offsets.size(); ++row)
+  {
+    const Index last = lists.offsets[row + 1], firstKept = kept;
+    for (; first < last; ++first)
+    {
+      if (kept == firstKept || lists.values[kept - 1] != lists.values[first])
+      {
+        lists.values[kept++] = lists.values[first];
+      }
+    }
+    lists.offsets[row + 1] = kept;
+  }
+  lists.values.resize(kept);
 }
 }
