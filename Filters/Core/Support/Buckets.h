@@ -55,7 +55,7 @@ Adjacency sortIntoBuckets(Index producers, Index rows, Monitor& monitor, const V
   return result;
 }
 
-/// Removes repeated numbers from rows that ascend, as those of sortIntoBuckets() do. Cost: one pass.
+/// Removes repeated numbers from rows that ascend, as those of sortIntoBuckets() do. Cost: a pass.
 inline void removeRepeated(Adjacency& lists)
 {
   Index kept = 0, first = 0;
