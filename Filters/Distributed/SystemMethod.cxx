@@ -205,11 +205,13 @@ SystemMethod::Rows FemWarp::assemble(
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   FemWarpSystem system;
+  CsrMatrix interior;
   BadCells bad;
   ranks.together(
     [&]
     {
       system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
+      interior = joinRows(std::move(system.interior), monitor);
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -234,7 +236,7 @@ SystemMethod::Rows FemWarp::assemble(
   {
     monitor.warn(warning);
   }
-  return { std::move(system.interior), std::move(system.coupling) };
+  return { std::move(interior), std::move(system.coupling) };
 }
 
 void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
@@ -248,11 +250,13 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
+  CsrMatrix interior;
   ranks.together(
     [&]
     {
       system =
         logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
+      interior = joinRows(std::move(system.interior), monitor);
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
@@ -284,6 +288,6 @@ SystemMethod::Rows LogBarrierWarp::assemble(
                  " took weights among a second ring of neighbors, " + std::to_string(counts[2]) +
                  " affine weights, " + std::to_string(counts[3]) + " FEMWARP's row.");
   }
-  return { std::move(system.interior), std::move(system.coupling) };
+  return { std::move(interior), std::move(system.coupling) };
 }
 }

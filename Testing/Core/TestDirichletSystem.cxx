@@ -301,11 +301,14 @@ TEST(RowComponents, AreTheBlocksOfTheMatrix)
   A.insert(4, 2) = -1;
   A.makeCompressed();
   Monitor monitor;
-  const RowComponents components = rowComponents(A, monitor);
+  const RowComponents components =
+    rowComponents(MixedPrecisionMatrix(A, monitor).rounded(), monitor);
   EXPECT_EQ(components.count, 3);
   EXPECT_EQ(components.ofRow, (std::vector<int>{ 0, 1, 2, 0, 2 }));
-  EXPECT_EQ(rowComponents(TwoBlocks().A, monitor).count, 2);
-  EXPECT_EQ(rowComponents(CsrMatrix(0, 0), monitor).count, 0);
+  const auto count = [&](const CsrMatrix& matrix)
+  { return rowComponents(MixedPrecisionMatrix(matrix, monitor).rounded(), monitor).count; };
+  EXPECT_EQ(count(TwoBlocks().A), 2);
+  EXPECT_EQ(count(CsrMatrix(0, 0)), 0);
 }
 
 template <typename Solver>
@@ -322,7 +325,7 @@ TYPED_TEST(GuessOf, TheSolverIsUsedOnlyWhereItIsBetterThanZero)
   const CsrMatrix A = problem.A;
   Monitor monitor;
   TypeParam solver;
-  solver.prepare(problem.A, problem.places, monitor);
+  solver.prepare(MixedPrecisionMatrix(problem.A, monitor), problem.places, monitor);
   Points exact = Points::Zero(2 * n, 3), fromZero = exact;
   solver.solve(problem.b, exact, 1e-14, 500, monitor);
   solver.solve(problem.b, fromZero, 1e-6, 500, monitor);
@@ -363,7 +366,7 @@ TYPED_TEST(GuessOf, TheSolverIsOfAnySize)
   TwoBlocks problem;
   Monitor monitor;
   TypeParam solver;
-  solver.prepare(problem.A, problem.places, monitor);
+  solver.prepare(MixedPrecisionMatrix(problem.A, monitor), problem.places, monitor);
   Points reference = Points::Zero(problem.b.rows(), 3);
   const int iterations = solver.solve(problem.b, reference, 1e-10, 500, monitor).iterations;
   for (int exponent : { -300, -150, 300, 480 }) // of 2: without rounding

@@ -97,8 +97,8 @@ struct Block
       }
     }
     ThreadedMonitor monitor;
-    const FemWarpSystem system = femWarpSystem(this->mesh, unknown, this->prescribed, {}, monitor);
-    const Eigen::MatrixXd A = Eigen::MatrixXd(system.interior);
+    FemWarpSystem system = femWarpSystem(this->mesh, unknown, this->prescribed, {}, monitor);
+    const Eigen::MatrixXd A = joinRows(std::move(system.interior), monitor);
     const Points given =
       rows(this->moved, this->prescribed) - rows(this->mesh.points, this->prescribed);
     const Points b = -(system.coupling * given);

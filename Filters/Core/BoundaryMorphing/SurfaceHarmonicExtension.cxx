@@ -142,7 +142,8 @@ private:
       matrix.setFromTriplets(entries.begin(), entries.end());
       SpdSolver solver;
       ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-      solver.prepare(matrix, this->motion_.rest(this->corners_, allColumns), first);
+      solver.prepare(
+        MixedPrecisionMatrix(matrix, first), this->motion_.rest(this->corners_, allColumns), first);
       solver.solve(b, x, 1e-12, 2000, second);
     }
     for (Index i = 0; i < n; ++i)

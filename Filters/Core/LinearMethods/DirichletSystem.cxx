@@ -229,10 +229,11 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
 }
 
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)
 {
   const auto count = static_cast<Index>(rows.size());
+  const CsrRows<float>& ofInterior = interior.rounded();
   std::vector<double> part(static_cast<std::size_t>((count + Grain - 1) / Grain), 0);
   monitor.parallelFor(static_cast<Index>(part.size()), 1,
     [&](Index firstPart, Index lastPart)
@@ -251,9 +252,9 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
             sum += term;
             size += term.abs();
           };
-          for (CsrMatrix::InnerIterator entry(interior, static_cast<int>(i)); entry; ++entry)
+          for (int k = ofInterior.start[i]; k < ofInterior.start[i + 1]; ++k)
           {
-            add(entry.value(), rows[entry.col()]);
+            add(interior.value(k), rows[ofInterior.column[k]]);
           }
           for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
           {

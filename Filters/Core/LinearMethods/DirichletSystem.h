@@ -5,6 +5,7 @@
 #include "Mesh/NodePartition.h"
 #include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -110,8 +111,8 @@ struct DirichletEquations
   const Points& points; ///< undeformed
   const NodePartition& partition;
   const std::vector<Index>& rows;
-  const CsrMatrix& interior; ///< A_I
-  const CsrMatrix& coupling; ///< A_B
+  const MixedPrecisionMatrix& interior; ///< A_I
+  const CsrMatrix& coupling;            ///< A_B
   const AffineGuess& guess;
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
@@ -126,7 +127,7 @@ struct DirichletEquations
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
 /// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor);
 
 /// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,

@@ -77,7 +77,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   try
   {
     ProgressRange last(monitor, 0.6, 1);
-    this->solver_.prepare(system.interior, coordinates, last);
+    this->solver_.prepare(
+      MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
   }
   catch (const SingularRows& error)
   {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace morph
 {
@@ -218,7 +219,7 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
     };
   };
 
-  SplitChunks chunks;
+  SplitChunks chunks(rows, columns);
   for (int band = 0; band < ofCells.size(); ++band)
   {
     monitor.check();
@@ -246,14 +247,13 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vecto
   Monitor& monitor)
 {
   FemWarpSystem system;
-  // Frees the elements' matrices before the rows are joined.
+  // Frees the elements' matrices here, before rows are joined.
   SplitChunks chunks = gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
   around = {};
   monitor.check();
   monitor.progress(0.5);
-  const auto free = static_cast<Index>(rows.size());
-  joinRows(system.interior, free, free, chunks.interior, monitor);
-  joinRows(system.coupling, free, static_cast<Index>(prescribed.size()), chunks.coupling, monitor);
+  system.interior = std::move(chunks.interior);
+  system.coupling = joinRows(std::move(chunks.coupling), monitor);
   return system;
 }
 

@@ -3,6 +3,7 @@
 
 #include "LinearMethods/CentreStars.h"
 #include "Mesh/Mesh.h"
+#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 
@@ -15,8 +16,8 @@ namespace morph
 /// The equations of FEMWARP, A_I U_I + A_B U_B = 0.
 struct FemWarpSystem
 {
-  CsrMatrix interior; ///< A_I, #rows x #rows
-  CsrMatrix coupling; ///< A_B, #rows x #prescribed
+  ChunkedMatrix interior; ///< A_I, #rows x #rows
+  CsrMatrix coupling;     ///< A_B, #rows x #prescribed
 
   std::vector<std::int8_t> cellSign;  ///< #cells, from elementStiffness()
   bool hasBadCells = false;           ///< some cell may be inverted or flat; see badCells()

@@ -78,7 +78,7 @@ Points graphLaplaceMesh(
   SpdSolver solver;
   ProgressRange preparing(monitor, 0, 0.5), solving(monitor, 0.5, 1);
   // All edges count alike: the nodes' places say nothing.
-  solver.prepare(matrix, Points(Points::Zero(n, 3)), preparing);
+  solver.prepare(MixedPrecisionMatrix(matrix, preparing), Points(Points::Zero(n, 3)), preparing);
   solver.solve(b, x, Tolerance, MaxIterations, solving);
   Points result = points;
   for (Index i = 0; i < n; ++i)

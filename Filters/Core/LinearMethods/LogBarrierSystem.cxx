@@ -77,7 +77,8 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
 
   const Index n = static_cast<Index>(rows.size());
   std::vector<Tally> tallies(chunksOf(n));
-  SplitChunks chunks = splitRows(n, monitor,
+  SplitChunks chunks(n, static_cast<Index>(prescribed.size()));
+  splitRows(0, n, chunks, monitor,
     [&]
     {
       return [&, weights = NodeWeights(mesh, around, columns, factors)](
@@ -112,8 +113,8 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
     iterations += tally.iterations;
   }
   system.meanIterations = n > 0 ? static_cast<double>(iterations) / static_cast<double>(n) : 0;
-  joinRows(system.interior, n, n, chunks.interior, monitor);
-  joinRows(system.coupling, n, static_cast<Index>(prescribed.size()), chunks.coupling, monitor);
+  system.interior = std::move(chunks.interior);
+  system.coupling = joinRows(std::move(chunks.coupling), monitor);
   return system;
 }
 }

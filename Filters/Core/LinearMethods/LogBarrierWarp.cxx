@@ -9,6 +9,7 @@
 #include "Support/ProgressRange.h"
 
 #include <sstream>
+#include <utility>
 
 namespace morph
 {
@@ -80,7 +81,7 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->coupling_.swap(system.coupling);
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
-  this->solver_.prepare(system.interior, coordinates, last);
+  this->solver_.prepare(MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
   this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
 }
 

@@ -6,6 +6,8 @@
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
 
+#include <utility>
+
 namespace morph
 {
 void SlidingWarp::prepare(const Mesh& rest, const std::vector<Index>& prescribed,
@@ -21,7 +23,8 @@ void SlidingWarp::prepare(const Mesh& rest, const std::vector<Index>& prescribed
   const Points coordinates = rest.points(this->rows_, allColumns);
   try
   {
-    this->solver_.prepare(system.interior, coordinates, monitor);
+    this->solver_.prepare(
+      MixedPrecisionMatrix(std::move(system.interior), monitor), coordinates, monitor);
   }
   catch (const SingularRows& error)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrMatrix.h"
+#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/RowChunks.h"
 #include "Support/Monitor.h"
 
@@ -25,11 +25,17 @@ struct SplitRows
   }
 };
 
-/// The chunks of both parts.
+/// Both parts, in chunks.
 struct SplitChunks
 {
-  using Part = std::vector<StoredRows<double>>;
-  Part interior, coupling;
+  /// Both have `rows` rows; the interior has as many columns.
+  SplitChunks(Index rows, Index couplingColumns)
+    : interior{ rows, rows, {} }
+    , coupling{ rows, couplingColumns, {} }
+  {
+  }
+
+  ChunkedMatrix interior, coupling;
 };
 
 /// Appends the chunks of the rows in [firstRow, lastRow), which follow those in `chunks`. Calls
@@ -40,8 +46,8 @@ void splitRows(
   Index firstRow, Index lastRow, SplitChunks& chunks, Monitor& monitor, const MakeRows& makeRows)
 {
   const Index before = firstRow / ChunkRows, count = chunksOf(lastRow - firstRow);
-  chunks.interior.resize(before + count);
-  chunks.coupling.resize(before + count);
+  chunks.interior.chunks.resize(before + count);
+  chunks.coupling.chunks.resize(before + count);
   monitor.parallelFor(count, 1,
     [&](Index first, Index last)
     {
@@ -62,22 +68,9 @@ void splitRows(
         {
           makeRow(i, scratch);
         }
-        chunks.interior[before + c] = { scratch.interior, interior };
-        chunks.coupling[before + c] = { scratch.coupling, coupling };
+        chunks.interior.chunks[before + c] = { scratch.interior, interior };
+        chunks.coupling.chunks[before + c] = { scratch.coupling, coupling };
       }
     });
 }
-
-/// The chunks of the rows in [0, rows).
-template <typename MakeRows>
-SplitChunks splitRows(Index rows, Monitor& monitor, const MakeRows& makeRows)
-{
-  SplitChunks chunks;
-  splitRows(0, rows, chunks, monitor, makeRows);
-  return chunks;
-}
-
-/// Moves a part of all chunks into `matrix`, which gets `rows` x `width`, and frees it.
-void joinRows(
-  CsrMatrix& matrix, Index rows, Index width, SplitChunks::Part& part, Monitor& monitor);
 }

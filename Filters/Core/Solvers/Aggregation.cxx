@@ -25,7 +25,7 @@ double distance2(const Points& points, Index i, Index j)
 }
 
 std::vector<std::uint8_t> nearNeighbors(
-  const ScaledRows& A, const Points& coordinates, Monitor& monitor)
+  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
 {
   auto near = largeVector<std::uint8_t>(A.entries());
   monitor.parallelFor(A.rows, Grain,
@@ -50,8 +50,8 @@ std::vector<std::uint8_t> nearNeighbors(
   return near;
 }
 
-int aggregate(const ScaledRows& A, const Points& coordinates, const std::vector<std::uint8_t>& near,
-  std::vector<int>& group)
+int aggregate(const CsrRows<float>& A, const Points& coordinates,
+  const std::vector<std::uint8_t>& near, std::vector<int>& group)
 {
   const int n = A.rows;
   constexpr int None = -1;
@@ -124,7 +124,7 @@ int aggregate(const ScaledRows& A, const Points& coordinates, const std::vector<
   return groups;
 }
 
-CsrRows<float> smoothedProlongation(const ScaledRows& A, float eigenvalue,
+CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
   const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
   Monitor& monitor)
 {
@@ -134,8 +134,8 @@ CsrRows<float> smoothedProlongation(const ScaledRows& A, float eigenvalue,
     float diagonal = 0, own = 0;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
-      diagonal += near[k] ? 0 : A.entry(k);
-      own += A.column[k] == i ? A.entry(k) : 0;
+      diagonal += near[k] ? 0 : A.value[k];
+      own += A.column[k] == i ? A.value[k] : 0;
     }
     // The far neighbors nearly outweigh it: smoothing the row would blow it up, and the next level
     // would be singular to rounding. Layers of hexahedra have such rows where their height comes
@@ -150,7 +150,7 @@ CsrRows<float> smoothedProlongation(const ScaledRows& A, float eigenvalue,
     {
       if (near[k])
       {
-        add(group[A.column[k]], -omega / diagonal * A.entry(k));
+        add(group[A.column[k]], -omega / diagonal * A.value[k]);
       }
     }
   };

@@ -16,18 +16,18 @@ namespace morph
 /// Nearness replaces the size of the entries: a trilinear hexahedron has no entry between nodes
 /// that share an edge, and stretched cells must coarsen along their short side first.
 std::vector<std::uint8_t> nearNeighbors(
-  const ScaledRows& A, const Points& coordinates, Monitor& monitor);
+  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor);
 
 /// Groups the rows of A into aggregates of near neighbors. `near`: #entries, see nearNeighbors().
 /// `group` becomes the aggregate of each row. Returns their number. Cost: three serial passes.
-int aggregate(const ScaledRows& A, const Points& coordinates, const std::vector<std::uint8_t>& near,
-  std::vector<int>& group);
+int aggregate(const CsrRows<float>& A, const Points& coordinates,
+  const std::vector<std::uint8_t>& near, std::vector<int>& group);
 
 /// Returns the smoothed prolongation from aggregates, P = (I - omega D^-1 A_F) T. T is
 /// constant on each aggregate. A_F keeps the near neighbors and adds the other entries to its
 /// diagonal. `eigenvalue`: the largest one of D^-1 A. `groups`: the number of aggregates. Source:
 /// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
-CsrRows<float> smoothedProlongation(const ScaledRows& A, float eigenvalue,
+CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
   const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
   Monitor& monitor);
 }

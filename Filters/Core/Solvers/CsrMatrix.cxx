@@ -18,21 +18,6 @@ void requireEntries(Index entries)
   }
 }
 
-Eigen::VectorXd diagonalOf(const CsrMatrix& matrix, Monitor& monitor)
-{
-  constexpr Index Grain = 4096;
-  Eigen::VectorXd diagonal(matrix.rows());
-  monitor.parallelFor(matrix.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        diagonal[i] = matrix.coeff(static_cast<int>(i), static_cast<int>(i));
-      }
-    });
-  return diagonal;
-}
-
 void allocateRows(CsrMatrix& matrix, Index rows, Index width, Index entries)
 {
   requireEntries(entries);

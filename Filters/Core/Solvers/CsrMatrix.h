@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Support/Monitor.h"
 #include "Support/Types.h"
 
 #include <Eigen/SparseCore>
@@ -13,9 +12,6 @@ using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 /// Throws Error if an int cannot number the entries.
 void requireEntries(Index entries);
-
-/// Returns the diagonal. The columns of each row must be ascending. Cost: a binary search a row.
-Eigen::VectorXd diagonalOf(const CsrMatrix& matrix, Monitor& monitor);
 
 /// Gives `matrix` the size rows x width and room for `entries`. Starts of rows, columns and values
 /// are not set. Throws Error as requireEntries().

@@ -3,8 +3,10 @@
 
 #include "Solvers/AssembleRows.h"
 #include "Solvers/LocalColumnMap.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/HugePages.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace morph
@@ -12,6 +14,7 @@ namespace morph
 namespace
 {
 /// Calls add(column, value times entry) for the entries of a row of B.
+///@{
 template <typename Scalar, typename Add>
 void addRow(const CsrRows<Scalar>& B, int row, double value, const Add& add)
 {
@@ -20,6 +23,16 @@ void addRow(const CsrRows<Scalar>& B, int row, double value, const Add& add)
     add(B.column[k], value * B.value[k]);
   }
 }
+template <typename Add>
+void addRow(const MixedPrecisionMatrix& B, int row, double value, const Add& add)
+{
+  const CsrRows<float>& rows = B.rounded();
+  for (int k = rows.start[row]; k < rows.start[row + 1]; ++k)
+  {
+    add(rows.column[k], value * B.inUnits(k));
+  }
+}
+///@}
 
 /// A row in work, whose entries have any order.
 class SparseRow
@@ -47,6 +60,48 @@ private:
   LocalColumnMap columns_;
   std::vector<double> values_;
 };
+
+template <typename Matrix>
+CsrRows<double> productOfThree(
+  const CsrRows<float>& R, const Matrix& A, const CsrRows<float>& P, int columns, Monitor& monitor)
+{
+  return assembleRows<double>(R.rows, columns, monitor,
+    [&]
+    {
+      return [&, RA = SparseRow()](int i, const auto& add) mutable
+      {
+        RA.clear();
+        const auto addToRA = [&RA](int column, double value) { RA.add(column, value); };
+        for (int k = R.start[i]; k < R.start[i + 1]; ++k)
+        {
+          addRow(A, R.column[k], R.value[k], addToRA);
+        }
+        for (int k = 0; k < RA.size(); ++k)
+        {
+          addRow(P, RA.column(k), RA.value(k), add);
+        }
+      };
+    });
+}
+}
+
+void absoluteRowSums(const CsrRows<float>& A, std::vector<float>& sums, Monitor& monitor)
+{
+  constexpr Index Grain = 4096;
+  sums.resize(A.rows);
+  monitor.parallelFor(A.rows, Grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        float sum = 0;
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          sum += std::abs(A.value[k]);
+        }
+        sums[i] = sum;
+      }
+    });
 }
 
 CsrRows<float> transpose(const CsrRows<float>& A, int columns)
@@ -79,22 +134,12 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns)
 CsrRows<double> tripleProduct(const CsrRows<float>& R, const CsrRows<double>& A,
   const CsrRows<float>& P, int columns, Monitor& monitor)
 {
-  return assembleRows<double>(R.rows, columns, monitor,
-    [&]
-    {
-      return [&, RA = SparseRow()](int i, const auto& add) mutable
-      {
-        RA.clear();
-        const auto addToRA = [&RA](int column, double value) { RA.add(column, value); };
-        for (int k = R.start[i]; k < R.start[i + 1]; ++k)
-        {
-          addRow(A, R.column[k], R.value[k], addToRA);
-        }
-        for (int k = 0; k < RA.size(); ++k)
-        {
-          addRow(P, RA.column(k), RA.value(k), add);
-        }
-      };
-    });
+  return productOfThree(R, A, P, columns, monitor);
+}
+
+CsrRows<double> tripleProduct(const CsrRows<float>& R, const MixedPrecisionMatrix& A,
+  const CsrRows<float>& P, int columns, Monitor& monitor)
+{
+  return productOfThree(R, A, P, columns, monitor);
 }
 }

@@ -21,7 +21,7 @@ constexpr float LanczosMargin = 1.1f; // covers the error of the Lanczos result
 }
 
 float largestEigenvalue(
-  const ScaledRows& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
+  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
 {
   // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A. Ten steps come within some
   // percent of the largest eigenvalue; the power method is then still far below.
@@ -60,7 +60,7 @@ float largestEigenvalue(
         float sum = 0;
         for (int k = A.start[i]; k < A.start[i + 1]; ++k)
         {
-          sum += A.entry(k) * scaled[A.column[k]];
+          sum += A.value[k] * scaled[A.column[k]];
         }
         next[i] = root[i] * sum - back * before[i];
         return static_cast<double>(next[i]) * now[i];
@@ -81,24 +81,12 @@ float largestEigenvalue(
   tridiagonal.computeFromTridiagonal(
     diagonal.head(made), off.head(std::max(made - 1, 0)), Eigen::EigenvaluesOnly);
   const float bound = static_cast<float>(tridiagonal.eigenvalues().maxCoeff());
-  // no eigenvalue exceeds the largest row sum
-  monitor.parallelFor(A.rows, DampedJacobi::Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        float sum = 0;
-        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        {
-          sum += std::abs(A.entry(k));
-        }
-        scaled[i] = sum * inverseDiagonal[i];
-      }
-    });
+  // No eigenvalue exceeds the largest row sum.
+  absoluteRowSums(A, scaled, monitor);
   float rowSum = 0;
-  for (const float sum : scaled)
+  for (int i = 0; i < A.rows; ++i)
   {
-    rowSum = std::max(rowSum, sum);
+    rowSum = std::max(rowSum, scaled[i] * inverseDiagonal[i]);
   }
   return bound > 0 && std::isfinite(bound) ? std::min(LanczosMargin * bound, rowSum) : rowSum;
 }

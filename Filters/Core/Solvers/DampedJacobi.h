@@ -16,7 +16,7 @@ namespace morph
 /// is no bound; the smoother damps all eigenvalues up to 1.25 times its argument. For a matrix that
 /// is not symmetric the recurrence is the same, and only the row sums are a bound.
 float largestEigenvalue(
-  const ScaledRows& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
+  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
 
 /// The multigrid's smoother for A x = rhs: x <- x + w D^-1 (rhs - A x), with the w that damps the
 /// eigenvalues in [largest / 4, largest] best. A cycle with one step before the coarse correction
@@ -39,10 +39,9 @@ public:
 
   /// Steps from x = 0. `rhs`, `x`: #rows. Cost: no pass over the matrix.
   void start(const Eigen::Vector4f* rhs, Eigen::Vector4f* x, Monitor& monitor) const;
-  /// Steps from `from` to `to`. `A`: CsrRows<float> or ScaledRows; the vectors: #rows. Cost: a pass
+  /// Steps from `from` to `to`. The vectors: #rows. Cost: a pass
   /// over the matrix.
-  template <typename Matrix>
-  void step(const Matrix& A, const Eigen::Vector4f* rhs, const Eigen::Vector4f* from,
+  void step(const CsrRows<float>& A, const Eigen::Vector4f* rhs, const Eigen::Vector4f* from,
     Eigen::Vector4f* to, Monitor& monitor) const
   {
     monitor.parallelFor(A.rows, Grain,

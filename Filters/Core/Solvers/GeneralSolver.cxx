@@ -72,7 +72,7 @@ Eigen::Array4i above(const Row& norm2, const Row& goal2)
 /// A or its transpose, with its hierarchy.
 struct GeneralSolver::System
 {
-  CsrMatrix A;
+  MixedPrecisionMatrix A;
   RowComponents components;
   Multigrid preconditioner;
   double norm = 0; ///< largest row sum of |A|
@@ -96,28 +96,14 @@ struct GeneralSolver::System
 
   void findNorm(Monitor& monitor)
   {
-    const Index blocks = (this->A.rows() + Grain - 1) / Grain;
-    std::vector<double> most(blocks, 0);
-    monitor.parallelFor(blocks, 1,
-      [&](Index first, Index last)
-      {
-        for (Index row = first * Grain; row < std::min<Index>(this->A.rows(), last * Grain); ++row)
-        {
-          double sum = 0;
-          for (CsrMatrix::InnerIterator entry(this->A, static_cast<int>(row)); entry; ++entry)
-          {
-            sum += std::abs(entry.value());
-          }
-          most[row / Grain] = std::max(most[row / Grain], sum);
-        }
-      });
-    this->norm = most.empty() ? 0 : *std::max_element(most.begin(), most.end());
+    std::vector<float> sums;
+    absoluteRowSums(this->A.rounded(), sums, monitor);
+    this->norm = sums.empty() ? 0 : this->A.unit() * *std::max_element(sums.begin(), sums.end());
   }
 
   std::size_t memory() const
   {
-    return 12 * static_cast<std::size_t>(this->A.nonZeros()) + 4 * this->A.rows() +
-           4 * this->components.ofRow.size() + this->preconditioner.memory() +
+    return this->A.memory() + 4 * this->components.ofRow.size() + this->preconditioner.memory() +
            this->workspaceBytes();
   }
 
@@ -406,7 +392,8 @@ GeneralSolver::Report GeneralSolver::System::solve(const RightHandSide& b, Multi
                                                 " Look for inverted or nearly flat cells in the "
                                                 "undeformed mesh, or raise the tolerance.");
     };
-    Gmres gmres(this->A);
+    const CsrMatrix matrix = this->A.toCsr();
+    Gmres gmres(matrix);
     // Each run of GMRES ends with the true residual.
     for (double before = HUGE_VAL; above(norm2, goal2).any();)
     {
@@ -448,8 +435,8 @@ GeneralSolver::Report GeneralSolver::System::solve(const RightHandSide& b, Multi
     }
   }
   this->giveBack(std::move(work));
-  const double pass =
-    12. * this->A.nonZeros() + (8. * sizeof(Row) + 4. * sizeof(Eigen::Vector4f)) * n;
+  const double pass = 12. * static_cast<double>(this->A.entries()) +
+                      (8. * sizeof(Row) + 4. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved =
     (report.iterations + 1 + runs) * pass + report.iterations * this->preconditioner.bytesMoved();
   return report;
@@ -467,7 +454,7 @@ struct GeneralSolver::Implementation
     if (!this->transposed)
     {
       auto fresh = std::make_unique<System>();
-      fresh->A = this->forward.A.transpose();
+      fresh->A = MixedPrecisionMatrix(CsrMatrix(this->forward.A.toCsr().transpose()), monitor);
       fresh->components = this->forward.components;
       fresh->findNorm(monitor);
       fresh->preconditioner.prepareTransposed(this->forward.preconditioner, fresh->A);
@@ -482,12 +469,13 @@ GeneralSolver::~GeneralSolver() = default;
 GeneralSolver::GeneralSolver(GeneralSolver&&) noexcept = default;
 GeneralSolver& GeneralSolver::operator=(GeneralSolver&&) noexcept = default;
 
-void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void GeneralSolver::prepare(
+  MixedPrecisionMatrix matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
   System& system = fresh->forward;
-  system.A.swap(matrix);
-  const Eigen::VectorXd diagonal = diagonalOf(system.A, monitor);
+  system.A = std::move(matrix);
+  const Eigen::VectorXd diagonal = system.A.diagonal(monitor);
   std::vector<Index> notPositive;
   for (Index i = 0; i < diagonal.size(); ++i)
   {
@@ -501,9 +489,8 @@ void GeneralSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, M
     throw SingularRows(notPositive);
   }
   system.findNorm(monitor);
-  system.components = rowComponents(system.A, monitor);
-  system.preconditioner.prepare(
-    system.A, Multigrid::Symmetry::General, diagonal.maxCoeff(), coordinates, monitor);
+  system.components = rowComponents(system.A.rounded(), monitor);
+  system.preconditioner.prepare(system.A, Multigrid::Symmetry::General, coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
@@ -526,7 +513,7 @@ GeneralSolver::Report GeneralSolver::solveTransposed(
     b, x, tolerance, maxIterations, monitor);
 }
 
-const CsrMatrix& GeneralSolver::matrix() const
+const MixedPrecisionMatrix& GeneralSolver::matrix() const
 {
   return this->implementation_->forward.A;
 }

@@ -18,21 +18,59 @@ constexpr int CoarsestSize = 200; // maximum number of rows for a dense factoris
 constexpr int MostLevels = 20;
 constexpr Index Grain = 4096;
 
-/// Refers to the matrix's arrays.
-CsrRows<double> rowsOf(const CsrMatrix& matrix)
+/// Refers to the arrays of `rows`.
+CsrRows<float> referTo(const CsrRows<float>& rows)
 {
-  CsrRows<double> rows;
-  rows.rows = static_cast<int>(matrix.rows());
-  rows.start = matrix.outerIndexPtr();
-  rows.column = matrix.innerIndexPtr();
-  rows.value = matrix.valuePtr();
-  return rows;
+  CsrRows<float> result;
+  result.rows = rows.rows;
+  result.start = rows.start;
+  result.column = rows.column;
+  result.value = rows.value;
+  return result;
+}
+
+/// Rounds `exact` to single precision. The result takes over its structure, to which `exact` then
+/// refers.
+CsrRows<float> roundRows(CsrRows<double>& exact, Monitor& monitor)
+{
+  CsrRows<float> rounded;
+  rounded.rows = exact.rows;
+  rounded.ownStart.swap(exact.ownStart);
+  rounded.ownColumn.swap(exact.ownColumn);
+  resizeUndefined(rounded.ownValue, static_cast<Index>(exact.entries()));
+  monitor.parallelFor(rounded.ownValue.size(), 16 * Grain,
+    [&](Index first, Index last)
+    {
+      for (Index k = first; k < last; ++k)
+      {
+        rounded.ownValue[k] = static_cast<float>(exact.value[k]);
+      }
+    });
+  rounded.adopt();
+  return rounded;
+}
+
+/// A dense matrix of the structure of `rows`. entry(k): the value of entry k.
+template <typename Entry>
+Eigen::MatrixXd denseMatrix(const CsrRows<float>& rows, const Entry& entry)
+{
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows.rows, rows.rows);
+  for (int i = 0; i < rows.rows; ++i)
+  {
+    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+    {
+      dense(i, rows.column[k]) += entry(k);
+    }
+  }
+  return dense;
 }
 }
 
-float Multigrid::addLevel(const ScaledRows& A, Monitor& monitor)
+float Multigrid::addLevel(Matrix&& A, Monitor& monitor)
 {
-  std::vector<std::uint8_t> positive(A.rows);
+  // Single precision has room for 2^-60 of such an entry and for its inverse.
+  const float least = std::ldexp(1.f, MixedPrecisionMatrix::LargestExponent - 126);
+  std::vector<std::uint8_t> usable(A.rows);
   auto inverseDiagonal = largeVector<float>(A.rows);
   monitor.parallelFor(A.rows, Grain,
     [&](Index first, Index last)
@@ -41,53 +79,32 @@ float Multigrid::addLevel(const ScaledRows& A, Monitor& monitor)
       {
         const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
         const int* found = std::find(row, end, static_cast<int>(i));
-        const float diagonal = found != end ? A.entry(static_cast<int>(found - A.column)) : 0.f;
-        positive[i] = diagonal > 0 && std::isfinite(1 / diagonal);
+        const float diagonal = found != end ? A.value[found - A.column] : 0.f;
+        usable[i] = diagonal >= least && std::isfinite(diagonal);
         inverseDiagonal[i] = 1 / diagonal;
       }
     });
-  if (std::find(positive.begin(), positive.end(), 0) != positive.end())
+  if (std::find(usable.begin(), usable.end(), 0) != usable.end())
   {
     return 0;
   }
   const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
   Level level;
   level.rows = A.rows;
+  level.A = std::move(A);
   level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
   this->levels_.push_back(std::move(level));
   return largest;
 }
 
-void Multigrid::storeMatrix(ExactMatrix& exact, double scale, Monitor& monitor)
-{
-  Matrix& A = this->levels_.back().A;
-  const ScaledRows scaled(exact, scale);
-  A.rows = exact.rows;
-  A.ownStart.swap(exact.ownStart);
-  A.ownColumn.swap(exact.ownColumn);
-  resizeUndefined(A.ownValue, static_cast<Index>(scaled.entries()));
-  monitor.parallelFor(A.ownValue.size(), 16 * Grain,
-    [&](Index first, Index last)
-    {
-      for (Index k = first; k < last; ++k)
-      {
-        A.ownValue[k] = scaled.entry(static_cast<int>(k));
-      }
-    });
-  A.adopt();
-}
-
-void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
+void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   const ConstPoints& coordinates, Monitor& monitor)
 {
   this->levels_.clear();
-  this->levels_.reserve(MostLevels); // levels contain pointers into themselves
+  this->levels_.reserve(MostLevels);
   this->symmetricCoarsest_.reset();
   this->generalCoarsest_.reset();
-  const double scale = 1 / unit;
-  ExactMatrix exact = rowsOf(matrix);
-  this->finest_ = ScaledRows(exact, scale);
-  float largest = this->addLevel(this->finest_, monitor);
+  float largest = this->addLevel(referTo(matrix.rounded()), monitor);
   if (largest == 0)
   {
     throw Error(Error::Kind::Singular,
@@ -100,33 +117,34 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
   // A level has about an eighth of the rows of the finer one.
   double left = 1;
   const auto progress = [&](double part) { monitor.progress(1 - left * (1 - 0.875 * part)); };
-  while (exact.rows > CoarsestSize && this->numberOfLevels() < MostLevels)
+  ExactMatrix exact; // of the last level but the finest
+  while (this->levels_.back().rows > CoarsestSize && this->numberOfLevels() < MostLevels)
   {
     monitor.check();
     Level& level = this->levels_.back();
-    const ScaledRows A(exact, scale);
     std::vector<int> group;
-    std::vector<std::uint8_t> near = nearNeighbors(A, places, monitor);
-    const int groups = aggregate(A, places, near, group);
-    if (groups > 0.8 * A.rows)
+    std::vector<std::uint8_t> near = nearNeighbors(level.A, places, monitor);
+    const int groups = aggregate(level.A, places, near, group);
+    if (groups > 0.8 * level.rows)
     {
       break; // nothing left to group: this level only has the smoother
     }
     progress(0.3);
-    level.P = smoothedProlongation(A, largest, near, group, groups, monitor);
+    level.P = smoothedProlongation(level.A, largest, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
     progress(0.4);
 
-    ExactMatrix coarse = tripleProduct(level.R, exact, level.P, groups, monitor);
+    ExactMatrix coarse = this->numberOfLevels() == 1
+                           ? tripleProduct(level.R, matrix, level.P, groups, monitor)
+                           : tripleProduct(level.R, exact, level.P, groups, monitor);
     progress(1);
     left *= 0.125;
-    largest = this->addLevel(ScaledRows(coarse, scale), monitor);
+    largest = this->addLevel(roundRows(coarse, monitor), monitor);
     if (largest == 0)
     {
       break; // rounding near flat cells spoiled the level
     }
-    this->storeMatrix(coarse, scale, monitor);
     std::swap(exact, coarse);
 
     Points centres = Points::Zero(groups, 3);
@@ -145,10 +163,16 @@ void Multigrid::prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
 
   Level& last = this->levels_.back();
   last.P = last.R = {};
-  this->factorizeCoarsest(exact, symmetry, unit);
+  if (last.rows <= 4 * CoarsestSize)
+  {
+    const bool isFinest = this->numberOfLevels() == 1;
+    this->factorizeCoarsest(
+      denseMatrix(last.A, [&](int k) { return isFinest ? matrix.inUnits(k) : exact.value[k]; }),
+      symmetry);
+  }
 }
 
-void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matrix)
+void Multigrid::prepareTransposed(const Multigrid& other, const MixedPrecisionMatrix& matrix)
 {
   this->levels_.clear();
   this->levels_.reserve(MostLevels);
@@ -158,14 +182,6 @@ void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matri
   {
     this->generalCoarsest_.emplace(other.generalCoarsest_->reconstructedMatrix().transpose());
   }
-  const auto refer = [](const Matrix& from, Matrix& to)
-  {
-    to.rows = from.rows;
-    to.start = from.start;
-    to.column = from.column;
-    to.value = from.value;
-  };
-  this->finest_ = ScaledRows(rowsOf(matrix), other.finest_.scale);
   // The cycle smooths alike before and after the coarse correction, so transposing the matrices
   // transposes it.
   for (const Level& from : other.levels_)
@@ -173,39 +189,27 @@ void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matri
     this->levels_.emplace_back();
     Level& level = this->levels_.back();
     level.rows = from.rows;
-    level.A = transpose(from.A, from.A.rows);
-    level.A.adopt();
-    refer(from.P, level.P);
-    refer(from.R, level.R);
+    level.A =
+      this->numberOfLevels() == 1 ? referTo(matrix.rounded()) : transpose(from.A, from.rows);
+    level.P = referTo(from.P);
+    level.R = referTo(from.R);
     level.smoother = from.smoother;
   }
 }
 
-void Multigrid::factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit)
+void Multigrid::factorizeCoarsest(const Eigen::MatrixXd& A, Symmetry symmetry)
 {
   constexpr double LeastReciprocalCondition = 1e-13;
-  if (exact.rows > 4 * CoarsestSize)
-  {
-    return;
-  }
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(exact.rows, exact.rows);
-  for (int i = 0; i < exact.rows; ++i)
-  {
-    for (int k = exact.start[i]; k < exact.start[i + 1]; ++k)
-    {
-      dense(i, exact.column[k]) += exact.value[k] / unit;
-    }
-  }
   if (symmetry == Symmetry::General)
   {
-    this->generalCoarsest_.emplace(dense);
+    this->generalCoarsest_.emplace(A);
     if (!(this->generalCoarsest_->rcond() > LeastReciprocalCondition))
     {
       this->generalCoarsest_.reset();
     }
     return;
   }
-  this->symmetricCoarsest_.emplace(dense);
+  this->symmetricCoarsest_.emplace(A);
   if (this->symmetricCoarsest_->info() != Eigen::Success)
   {
     this->symmetricCoarsest_.reset();
@@ -250,29 +254,16 @@ void Multigrid::apply(
   this->cycle(0, rhs, work, x, workspace, monitor);
 }
 
-template <typename Use>
-void Multigrid::withMatrix(std::size_t k, const Use& use) const
-{
-  if (k == 0)
-  {
-    use(this->finest_);
-    return;
-  }
-  use(this->levels_[k].A);
-}
-
 void Multigrid::cycle(
   std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
-  const auto stepToX = [&]
-  { this->withMatrix(k, [&](const auto& A) { level.smoother.step(A, rhs, work, x, monitor); }); };
   if (k + 1 == this->levels_.size())
   {
     if (!this->solveCoarsest(rhs, x))
     {
       level.smoother.start(rhs, work, monitor);
-      stepToX();
+      level.smoother.step(level.A, rhs, work, x, monitor);
     }
     return;
   }
@@ -280,15 +271,11 @@ void Multigrid::cycle(
   Workspace::Level& below = workspace.levels_[k + 1];
   level.smoother.start(rhs, work, monitor);
   Row* residual = x;
-  this->withMatrix(k,
-    [&](const auto& A)
+  monitor.parallelFor(level.rows, Grain,
+    [&](Index first, Index last)
     {
-      monitor.parallelFor(A.rows, Grain,
-        [&](Index first, Index last)
-        {
-          forRowProducts(A, work, first, last,
-            [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
-        });
+      forRowProducts(level.A, work, first, last,
+        [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
     [&](Index first, Index last)
@@ -300,7 +287,7 @@ void Multigrid::cycle(
       forRowProducts(level.P, below.x.data(), first, last,
         [&](Index i, const Row& product) { work[i] += product; });
     });
-  stepToX();
+  level.smoother.step(level.A, rhs, work, x, monitor);
 }
 
 std::size_t Multigrid::coarsestBytes() const
@@ -338,13 +325,11 @@ double Multigrid::bytesMoved() const
 {
   double bytes = 0;
   const double entry = sizeof(float) + sizeof(int), node = sizeof(Row);
-  const double finestEntry = sizeof(double) + sizeof(int);
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {
     const Level& level = this->levels_[k];
     // The residual, and smoothing after the correction.
-    bytes += 2 * (k == 0 ? finestEntry * this->finest_.entries() : entry * level.A.entries());
-    bytes += entry * (level.P.entries() + level.R.entries());
+    bytes += entry * (2 * level.A.entries() + level.P.entries() + level.R.entries());
     bytes += 11 * node * level.rows;
   }
   return bytes + this->coarsestBytes();

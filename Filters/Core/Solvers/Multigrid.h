@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
 #include "Solvers/DampedJacobi.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
@@ -18,10 +18,9 @@
 namespace morph
 {
 /// A smoothed-aggregation multigrid preconditioner for three right-hand sides at once. It is one
-/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. Vectors and coarse
-/// levels have single precision, which halves memory traffic. The finest matrix is rounded while it
-/// is read, which saves the memory of a copy. Source: Vanek, Mandel, Brezina, Computing 56 (1996)
-/// 179-196.
+/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. It has single precision,
+/// which halves memory traffic; the finest level is the matrix as rounded, not a copy. Source:
+/// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
 ///
 /// A matrix that is not symmetric is coarsened by P^T A P. On log-barrier weights this took 4
 /// BiCGSTAB iterations, and a hierarchy of the symmetrised matrix 4 to 9. On a mesh graded 1.6
@@ -37,15 +36,14 @@ public:
     General    ///< close to an M-matrix
   };
 
-  /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
-  /// `unit`: its largest diagonal entry, by which it is divided, so that results
-  /// do not depend on the unit of length and single precision does not overflow. `coordinates`:
-  /// #rows x 3. Throws Error of kind Singular if single precision cannot hold a diagonal entry.
-  void prepare(const CsrMatrix& matrix, Symmetry symmetry, double unit,
+  /// Makes the levels. The arrays of `matrix` must outlive this object: they are the finest level.
+  /// `coordinates`: #rows x 3. Throws Error of kind Singular if diagonal entries differ by a factor
+  /// of 1e38 or more.
+  void prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
     const ConstPoints& coordinates, Monitor& monitor);
-  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this
-  /// object and stay in place.
-  void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
+  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Their arrays must
+  /// outlive this object.
+  void prepareTransposed(const Multigrid& other, const MixedPrecisionMatrix& matrix);
 
   /// The vectors of all levels but the finest, one set per concurrent solve.
   class Workspace
@@ -62,8 +60,9 @@ public:
     std::vector<Level> levels_;
   };
 
-  /// Computes x = B rhs with a fixed B, symmetric positive definite for Symmetry::Symmetric. `rhs`,
-  /// `work`, `x`: #rows each; the content of `work` is lost.
+  /// Computes x = B rhs with a fixed B near the inverse of the matrix in its own units, symmetric
+  /// positive definite for Symmetry::Symmetric. `rhs`, `work`, `x`: #rows each; the content of
+  /// `work` is lost.
   void apply(const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
@@ -82,27 +81,22 @@ private:
   struct Level
   {
     int rows = 0;
-    Matrix A;    ///< empty in the finest level, which is finest_
+    Matrix A;    ///< of the finest level it refers to the solver's matrix
     Matrix P, R; ///< prolongation to this level from the next, and its transpose
     DampedJacobi smoother;
   };
 
-  /// Appends a level without its matrix. Returns the largest eigenvalue of D^-1 A. Where the
-  /// diagonal is not positive and finite, appends nothing and returns 0.
-  float addLevel(const ScaledRows& A, Monitor& monitor);
-  /// Gives the last level its matrix, in single precision, and takes over the structure of `exact`.
-  void storeMatrix(ExactMatrix& exact, double scale, Monitor& monitor);
-  void factorizeCoarsest(const ExactMatrix& exact, Symmetry symmetry, double unit);
+  /// Appends a level. Returns the largest eigenvalue of D^-1 A. Where single precision cannot
+  /// smooth by the diagonal, appends nothing and returns 0.
+  float addLevel(Matrix&& A, Monitor& monitor);
+  /// `A`: the last level's matrix in double precision.
+  void factorizeCoarsest(const Eigen::MatrixXd& A, Symmetry symmetry);
   bool solveCoarsest(const Row* rhs, Row* x) const;
-  /// Calls use(A) with the matrix of level k.
-  template <typename Use>
-  void withMatrix(std::size_t k, const Use& use) const;
   std::size_t coarsestBytes() const;
 
   void cycle(
     std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor&) const;
 
-  ScaledRows finest_;
   std::vector<Level> levels_;
   // Factors of the coarsest level, by symmetry; without either, its smoother is used.
   std::optional<Eigen::LLT<Eigen::MatrixXd>> symmetricCoarsest_;

@@ -55,6 +55,7 @@ public:
   }
 
   std::size_t entries() const { return this->entries_; }
+  const Scalar* values() const { return this->value_; } ///< #entries
 
   /// Sets the ends of the rows in start[1], start[2], ...; start[0] is given.
   void setEnds(int* start) const
@@ -65,10 +66,11 @@ public:
     }
   }
 
+  void copyColumns(int* column) const { std::copy_n(this->column_, this->entries_, column); }
   /// Copies the entries, and lets go of the arena.
   void copyAndRelease(int* column, Scalar* value)
   {
-    std::copy_n(this->column_, this->entries_, column);
+    this->copyColumns(column);
     std::copy_n(this->value_, this->entries_, value);
     *this = {};
   }

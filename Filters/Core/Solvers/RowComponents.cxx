@@ -8,10 +8,10 @@
 
 namespace morph
 {
-RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
+RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor)
 {
   constexpr Index Grain = 4096;
-  const int rows = static_cast<int>(matrix.rows());
+  const int rows = matrix.rows;
   UnionFind<int> components(rows);
   monitor.parallelFor(rows, Grain,
     [&](Index first, Index last)
@@ -19,9 +19,9 @@ RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
       for (Index row = first; row < last; ++row)
       {
         int root = static_cast<int>(row);
-        for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k)
+        for (int k = matrix.start[row]; k < matrix.start[row + 1]; ++k)
         {
-          root = components.join(root, matrix.innerIndexPtr()[k]);
+          root = components.join(root, matrix.column[k]);
         }
       }
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solvers/CsrRows.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
@@ -20,7 +21,7 @@ struct RowComponents
 
 /// Finds the components: rows are connected if either has an entry in the other's column. Cost: one
 /// pass over the matrix.
-RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor);
+RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor);
 
 /// Replaces a first guess of A x = b by 0, and its residual by b, if the residual's norm exceeds
 /// that of b. This applies to each column of each component. Where b is exactly 0, so is then the

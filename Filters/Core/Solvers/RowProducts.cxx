@@ -5,6 +5,8 @@
 #include "Support/SimdDispatch.h"
 #include "Support/SimdMath.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace morph
@@ -25,71 +27,68 @@ MORPH_SIMD_INLINE void loadRow(const double* x, int j, SimdDouble4& row)
 }
 MORPH_SIMD_INLINE void loadRow(const float* x, int j, SimdDouble4& row)
 {
-  SimdFloat4 narrow;
-  loadRow(x, j, narrow);
-  row = __builtin_convertvector(narrow, SimdDouble4);
+  row = widened(x + SimdWidth * j);
 }
 ///@}
 
 // Four sums hide the latency of an addition. They are added as (0 + 2) + (1 + 3), and then the
 // entries that are left.
 
-/// In double precision.
+/// In double precision, of values that are split as in MixedPrecisionMatrix.
 struct DoubleProduct
 {
   template <typename Scalar>
   static MORPH_SIMD_INLINE void run(Index i, const int* start, const int* column,
-    const double* value, const Scalar* x, Index first, MultiVectorRow* products)
+    const float* rounded, const int* rest, double unit, const Scalar* x, Index first,
+    MultiVectorRow* products)
   {
     SimdDouble4 sum[4] = {}, row;
     int k = start[i];
     const int end = start[i + 1];
     for (; k + 3 < end; k += 4)
     {
-      for (int j = 0; j < 4; ++j)
-      {
-        loadRow(x, column[k + j], row);
-        sum[j] += value[k + j] * row;
-      }
+      const SimdDouble4 value = joinValues(rounded + k, rest + k);
+      loadRow(x, column[k], row);
+      sum[0] += __builtin_shufflevector(value, value, 0, 0, 0, 0) * row;
+      loadRow(x, column[k + 1], row);
+      sum[1] += __builtin_shufflevector(value, value, 1, 1, 1, 1) * row;
+      loadRow(x, column[k + 2], row);
+      sum[2] += __builtin_shufflevector(value, value, 2, 2, 2, 2) * row;
+      loadRow(x, column[k + 3], row);
+      sum[3] += __builtin_shufflevector(value, value, 3, 3, 3, 3) * row;
     }
     SimdDouble4 all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
     for (; k < end; ++k)
     {
       loadRow(x, column[k], row);
-      all += value[k] * row;
+      all += joinValue(rounded[k], rest[k]) * row;
     }
+    all *= unit; // a power of two: nothing is rounded
     std::memcpy(products[i - first].data(), &all, sizeof(all));
   }
-};
 
-/// Reads values in single precision, `scale` times those that are stored.
-///@{
-MORPH_SIMD_INLINE void loadValues(const float* value, float, SimdFloat4& values)
-{
-  std::memcpy(&values, value, sizeof(values));
-}
-MORPH_SIMD_INLINE void loadValues(const double* value, double scale, SimdFloat4& values)
-{
-  SimdDouble4 wide;
-  std::memcpy(&wide, value, sizeof(wide));
-  values = __builtin_convertvector(wide * scale, SimdFloat4);
-}
-MORPH_SIMD_INLINE float loadValue(const float* value, float)
-{
-  return *value;
-}
-MORPH_SIMD_INLINE float loadValue(const double* value, double scale)
-{
-  return static_cast<float>(*value * scale);
-}
-///@}
+private:
+  static MORPH_SIMD_INLINE SimdDouble4 joinValues(const float* rounded, const int* rest)
+  {
+    return reinterpret_cast<SimdDouble4>(
+      reinterpret_cast<SimdInteger4>(widened(rounded)) + widened(rest));
+  }
+  static MORPH_SIMD_INLINE double joinValue(float rounded, int rest)
+  {
+    double number = rounded;
+    std::int64_t bits;
+    std::memcpy(&bits, &number, sizeof(bits));
+    bits += rest;
+    std::memcpy(&number, &bits, sizeof(bits));
+    return number;
+  }
+};
 
 /// In single precision. Two sums share a register, which saves 8 % of an evaluation with AVX2.
 struct FloatProduct
 {
-  template <typename Scalar>
   static MORPH_SIMD_INLINE void run(Index i, const int* start, const int* column,
-    const Scalar* value, Scalar scale, const float* x, Index first, Eigen::Vector4f* products)
+    const float* value, const float* x, Index first, Eigen::Vector4f* products)
   {
     SimdFloat8 sums01 = {}, sums23 = {};
     SimdFloat4 row[4], values;
@@ -97,7 +96,7 @@ struct FloatProduct
     const int end = start[i + 1];
     for (; k + 3 < end; k += 4)
     {
-      loadValues(value + k, scale, values);
+      std::memcpy(&values, value + k, sizeof(values));
       for (int j = 0; j < 4; ++j)
       {
         loadRow(x, column[k + j], row[j]);
@@ -113,7 +112,7 @@ struct FloatProduct
     for (; k < end; ++k)
     {
       loadRow(x, column[k], row[0]);
-      all += loadValue(value + k, scale) * row[0];
+      all += value[k] * row[0];
     }
     std::memcpy(products[i - first].data(), &all, sizeof(all));
   }
@@ -127,14 +126,16 @@ const typename Row::Scalar* numbersOf(const Row* x)
 }
 
 template <typename Row>
-void doubleProducts(
-  const CsrMatrix& A, const Row* x, Index first, Index last, MultiVectorRow* products)
+void doubleProducts(const MixedPrecisionMatrix& matrix, const Row* x, Index first, Index last,
+  MultiVectorRow* products)
 {
-  const int *start = A.outerIndexPtr(), *column = A.innerIndexPtr();
-  const double* value = A.valuePtr();
+  const CsrRows<float>& A = matrix.rounded();
+  const int* rest = matrix.rest();
+  const double unit = matrix.unit();
   const auto* numbers = numbersOf(x);
   const Index origin = first;
-  dispatchedFor<DoubleProduct>(first, last, start, column, value, numbers, origin, products);
+  dispatchedFor<DoubleProduct>(
+    first, last, A.start, A.column, A.value, rest, unit, numbers, origin, products);
 }
 }
 
@@ -143,28 +144,17 @@ void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first,
 {
   const float* numbers = numbersOf(x);
   const Index origin = first;
-  constexpr float Scale = 1;
-  dispatchedFor<FloatProduct>(
-    first, last, A.start, A.column, A.value, Scale, numbers, origin, products);
+  dispatchedFor<FloatProduct>(first, last, A.start, A.column, A.value, numbers, origin, products);
 }
 
-void rowProducts(
-  const ScaledRows& A, const Eigen::Vector4f* x, Index first, Index last, Eigen::Vector4f* products)
-{
-  const float* numbers = numbersOf(x);
-  const Index origin = first;
-  dispatchedFor<FloatProduct>(
-    first, last, A.start, A.column, A.value, A.scale, numbers, origin, products);
-}
-
-void rowProducts(
-  const CsrMatrix& A, const MultiVectorRow* x, Index first, Index last, MultiVectorRow* products)
+void rowProducts(const MixedPrecisionMatrix& A, const MultiVectorRow* x, Index first, Index last,
+  MultiVectorRow* products)
 {
   doubleProducts(A, x, first, last, products);
 }
 
-void rowProducts(
-  const CsrMatrix& A, const Eigen::Vector4f* x, Index first, Index last, MultiVectorRow* products)
+void rowProducts(const MixedPrecisionMatrix& A, const Eigen::Vector4f* x, Index first, Index last,
+  MultiVectorRow* products)
 {
   doubleProducts(A, x, first, last, products);
 }

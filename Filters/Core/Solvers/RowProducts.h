@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Support/Types.h"
 
@@ -17,12 +17,10 @@ namespace morph
 ///@{
 void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
   Eigen::Vector4f* products);
-void rowProducts(const ScaledRows& A, const Eigen::Vector4f* x, Index first, Index last,
-  Eigen::Vector4f* products);
-void rowProducts(
-  const CsrMatrix& A, const MultiVectorRow* x, Index first, Index last, MultiVectorRow* products);
-void rowProducts(
-  const CsrMatrix& A, const Eigen::Vector4f* x, Index first, Index last, MultiVectorRow* products);
+void rowProducts(const MixedPrecisionMatrix& A, const MultiVectorRow* x, Index first, Index last,
+  MultiVectorRow* products);
+void rowProducts(const MixedPrecisionMatrix& A, const Eigen::Vector4f* x, Index first, Index last,
+  MultiVectorRow* products);
 ///@}
 
 /// Calls use(i, (A x)_i) for the rows in [first, last), in their order. `use` may write other
@@ -31,7 +29,7 @@ template <typename Matrix, typename Row, typename Use>
 void forRowProducts(const Matrix& A, const Row* x, Index first, Index last, const Use& use)
 {
   constexpr Index Batch = 64; // its products stay in the fastest cache
-  std::conditional_t<std::is_same_v<Matrix, CsrMatrix>, MultiVectorRow, Eigen::Vector4f>
+  std::conditional_t<std::is_same_v<Matrix, MixedPrecisionMatrix>, MultiVectorRow, Eigen::Vector4f>
     products[Batch];
   for (Index start = first; start < last; start += Batch)
   {

@@ -92,11 +92,9 @@ void requireFinite(const Row& norm2, int iterations)
 
 struct SpdSolver::Implementation
 {
-  CsrMatrix A;
+  MixedPrecisionMatrix A;
   RowComponents components;
   Multigrid preconditioner;
-  double unit = 1; ///< the preconditioner is that of A over this
-
   SpareWorkspace<Workspace> spare;
 
   std::unique_ptr<Workspace> takeWorkspace()
@@ -128,13 +126,13 @@ SpdSolver::~SpdSolver() = default;
 SpdSolver::SpdSolver(SpdSolver&&) noexcept = default;
 SpdSolver& SpdSolver::operator=(SpdSolver&&) noexcept = default;
 
-void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor)
+void SpdSolver::prepare(
+  MixedPrecisionMatrix matrix, const ConstPoints& coordinates, Monitor& monitor)
 {
   auto fresh = std::make_unique<Implementation>();
-  fresh->A.swap(matrix); // Eigen 3.4 would copy on a move
-  fresh->A.makeCompressed();
+  fresh->A = std::move(matrix);
   const Index rows = fresh->A.rows();
-  const Eigen::VectorXd diagonal = diagonalOf(fresh->A, monitor);
+  const Eigen::VectorXd diagonal = fresh->A.diagonal(monitor);
   std::vector<Index> notPositive;
   for (Index i = 0; i < rows; ++i)
   {
@@ -147,10 +145,8 @@ void SpdSolver::prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monit
   {
     throw SingularRows(notPositive);
   }
-  fresh->components = rowComponents(fresh->A, monitor);
-  fresh->unit = diagonal.maxCoeff();
-  fresh->preconditioner.prepare(
-    fresh->A, Multigrid::Symmetry::Symmetric, fresh->unit, coordinates, monitor);
+  fresh->components = rowComponents(fresh->A.rounded(), monitor);
+  fresh->preconditioner.prepare(fresh->A, Multigrid::Symmetry::Symmetric, coordinates, monitor);
   this->implementation_ = std::move(fresh);
 }
 
@@ -296,8 +292,8 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }
   }
-  const double pass =
-    12. * this->A.nonZeros() + (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
+  const double pass = 12. * static_cast<double>(this->A.entries()) +
+                      (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
                       report.iterations * this->preconditioner.bytesMoved();
   return report;
@@ -317,16 +313,21 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
     monitor.parallelFor(n, Grain,
       [&](Index first, Index last)
       {
-        for (Index i = first; i < last; ++i)
-        {
-          residual[i] = toRow(b.row(i)) - rowProduct(this->A, i, solution);
-        }
+        forRowProducts(this->A, solution.data(), first, last,
+          [&](Index i, const Row& product) { residual[i] = toRow(b.row(i)) - product; });
       });
     project(constraints, residual);
     return sum([&](Index i) { return residual[i].squaredNorm(); });
   };
-  const double given2 = std::max(sum([&](Index i) { return b.row(i).squaredNorm(); }),
-    sum([&](Index i) { return rowProduct(this->A, i, solution).squaredNorm(); }));
+  const double ofSolution2 = reproducibleSumOfBlocks(n, monitor, 0.,
+    [&](Index first, Index last)
+    {
+      double sum = 0;
+      forRowProducts(this->A, solution.data(), first, last,
+        [&](Index, const Row& product) { sum += product.squaredNorm(); });
+      return sum;
+    });
+  const double given2 = std::max(sum([&](Index i) { return b.row(i).squaredNorm(); }), ofSolution2);
   const double goal2 = std::max(tolerance * tolerance, 1e-28) * given2;
   double norm2 = findResidual();
   if (!std::isfinite(given2) || !std::isfinite(norm2))
@@ -371,11 +372,16 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
       {
         direction[i] = first ? step[i] : Row(step[i] + beta * direction[i]);
       }
-      const double curvature = sum(
-        [&](Index i)
+      const double curvature = reproducibleSumOfBlocks(n, monitor, 0.,
+        [&](Index from, Index to)
         {
-          image[i] = rowProduct(this->A, i, direction);
-          return image[i].dot(direction[i]);
+          rowProducts(this->A, direction.data(), from, to, image.data() + from);
+          double sum = 0;
+          for (Index i = from; i < to; ++i)
+          {
+            sum += image[i].dot(direction[i]);
+          }
+          return sum;
         });
       project(constraints, image);
       const double alpha = rz / curvature;
@@ -391,7 +397,7 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
     norm2 = findResidual();
   }
   report.relativeResidual = given2 > 0 ? std::sqrt(norm2 / given2) : 0;
-  report.bytesMoved = report.iterations * (12. * static_cast<double>(this->A.nonZeros()) +
+  report.bytesMoved = report.iterations * (12. * static_cast<double>(this->A.entries()) +
                                             12. * sizeof(Row) * static_cast<double>(n) +
                                             this->preconditioner.bytesMoved());
   return report;
@@ -415,7 +421,6 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
   const double norm2 =
     reproducibleSum(n, monitor, 0., [&](Index i) { return from.row(i).squaredNorm(); });
   const double unscale = norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) : 1;
-  // The hierarchy is that of A over its largest diagonal entry.
   monitor.parallelFor(n, Grain,
     [&](Index first, Index last)
     {
@@ -425,7 +430,7 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
       }
     });
   const Eigen::Vector4f* step = work->precondition(this->implementation_->preconditioner, monitor);
-  const double factor = unscale / this->implementation_->unit;
+  const double factor = unscale / this->implementation_->A.unit();
   to.resize(n, 3);
   monitor.parallelFor(n, Grain,
     [&](Index first, Index last)
@@ -440,18 +445,13 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
 
 Points SpdSolver::product(const Points& x, Monitor& monitor) const
 {
-  const CsrMatrix& A = this->matrix();
-  Points result = Points::Zero(x.rows(), 3);
+  Points result(x.rows(), 3);
+  const Rows rows = toRows(x, monitor);
   monitor.parallelFor(x.rows(), Grain,
     [&](Index first, Index last)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        for (CsrMatrix::InnerIterator entry(A, static_cast<int>(i)); entry; ++entry)
-        {
-          result.row(i) += entry.value() * x.row(entry.col());
-        }
-      }
+      forRowProducts(this->matrix(), rows.data(), first, last,
+        [&](Index i, const Row& product) { result.row(i) = product.head<3>(); });
     });
   return result;
 }
@@ -472,7 +472,7 @@ SolveReport SpdSolver::solve(
   return solveColumns(*this, b, x, tolerance, maxIterations, monitor);
 }
 
-const CsrMatrix& SpdSolver::matrix() const
+const MixedPrecisionMatrix& SpdSolver::matrix() const
 {
   return this->implementation_->A;
 }
@@ -485,7 +485,7 @@ const RowComponents& SpdSolver::components() const
 std::size_t SpdSolver::memory() const
 {
   const Implementation& my = *this->implementation_;
-  return 12 * static_cast<std::size_t>(my.A.nonZeros()) + 4 * my.A.rows() +
-         4 * my.components.ofRow.size() + my.preconditioner.memory() + my.workspaceBytes();
+  return my.A.memory() + 4 * my.components.ofRow.size() + my.preconditioner.memory() +
+         my.workspaceBytes();
 }
 }

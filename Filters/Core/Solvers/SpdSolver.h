@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrMatrix.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -35,9 +35,9 @@ public:
   SpdSolver(SpdSolver&&) noexcept;
   SpdSolver& operator=(SpdSolver&&) noexcept;
 
-  /// Takes over `matrix` and leaves it empty. `coordinates`: #rows x 3, positions of the nodes, as
-  /// the multigrid groups near neighbors. Throws SingularRows if a diagonal entry is not positive.
-  void prepare(CsrMatrix& matrix, const ConstPoints& coordinates, Monitor& monitor);
+  /// Takes over `matrix`. `coordinates`: #rows x 3, positions of the nodes, as the multigrid groups
+  /// near neighbors. Throws SingularRows if a diagonal entry is not positive.
+  void prepare(MixedPrecisionMatrix matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// Solves A x = b. `x`: #rows x 3, the first guess, then the solution. A guess with a larger
   /// residual than 0 is not used, see keepBetterGuess(). Each column stops at |b - A x| <=
@@ -66,7 +66,7 @@ public:
   /// Returns A x, #rows x 3.
   Points product(const Points& x, Monitor& monitor) const;
 
-  const CsrMatrix& matrix() const;
+  const MixedPrecisionMatrix& matrix() const;
   const RowComponents& components() const;
   /// Returns the bytes of matrix, hierarchy and the work vectors of one solve.
   std::size_t memory() const;

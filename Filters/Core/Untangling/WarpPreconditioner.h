@@ -13,9 +13,9 @@ class WarpPreconditioner : public NodePreconditioner
 {
 public:
   /// `femWarp`: prepared, and prepared no more while this object lives.
-  explicit WarpPreconditioner(const FemWarp& femWarp)
+  WarpPreconditioner(const FemWarp& femWarp, Monitor& monitor)
     : femWarp_(femWarp)
-    , diagonal_(femWarp.solver().matrix().diagonal())
+    , diagonal_(femWarp.solver().matrix().diagonal(monitor))
   {
   }
   void apply(const Points& from, Points& to, Monitor& monitor) const override

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/MixedPrecisionMatrix.h"
+
+#include "Support/HugePages.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace morph
+{
+namespace
+{
+constexpr Index Grain = 65536;
+
+/// Returns the largest finite size, and at least `most`.
+double largestSize(const double* value, Index count, double most)
+{
+  for (Index k = 0; k < count; ++k)
+  {
+    const double size = std::abs(value[k]);
+    most = size > most && size <= std::numeric_limits<double>::max() ? size : most;
+  }
+  return most;
+}
+}
+
+MixedPrecisionMatrix::MixedPrecisionMatrix(const CsrMatrix& matrix, Monitor& monitor)
+{
+  assert(matrix.isCompressed());
+  const Index entries = matrix.nonZeros();
+  this->allocate(matrix.rows(), matrix.cols(), entries, largestSize(matrix.valuePtr(), entries, 0));
+  std::copy_n(matrix.outerIndexPtr(), matrix.rows() + 1, this->rounded_.ownStart.data());
+  monitor.parallelFor(entries, Grain,
+    [&](Index first, Index last)
+    {
+      std::copy(matrix.innerIndexPtr() + first, matrix.innerIndexPtr() + last,
+        this->rounded_.ownColumn.data() + first);
+      this->store(matrix.valuePtr() + first, last - first, first);
+    });
+}
+
+MixedPrecisionMatrix::MixedPrecisionMatrix(ChunkedMatrix chunked, Monitor& monitor)
+{
+  std::vector<StoredRows<double>>& chunks = chunked.chunks;
+  const auto count = static_cast<Index>(chunks.size());
+  std::vector<double> largest(chunks.size(), 0);
+  monitor.parallelFor(count, 1,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        largest[c] = largestSize(chunks[c].values(), static_cast<Index>(chunks[c].entries()), 0);
+      }
+    });
+  this->allocate(chunked.rows, chunked.columns, chunked.entries(),
+    largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end()));
+  chunked.setStarts(this->rounded_.ownStart.data());
+  monitor.parallelFor(count, 1,
+    [&](Index first, Index last)
+    {
+      for (Index c = first; c < last; ++c)
+      {
+        const Index at = this->rounded_.start[c * ChunkRows];
+        this->store(chunks[c].values(), static_cast<Index>(chunks[c].entries()), at);
+        chunks[c].copyColumns(this->rounded_.ownColumn.data() + at);
+        chunks[c] = {};
+      }
+    });
+}
+
+void MixedPrecisionMatrix::allocate(Index rows, Index columns, Index entries, double largest)
+{
+  constexpr int MostExponent = 1000; // its power of two and the inverse are finite
+  const int exponent =
+    largest > 0 ? std::clamp(std::ilogb(largest) - LargestExponent, -MostExponent, MostExponent)
+                : 0;
+  this->unit_ = std::ldexp(1., exponent);
+  this->columns_ = columns;
+  this->rounded_.rows = static_cast<int>(rows);
+  this->rounded_.ownStart.resize(rows + 1);
+  resizeUndefined(this->rounded_.ownColumn, entries);
+  resizeUndefined(this->rounded_.ownValue, entries);
+  resizeUndefined(this->rest_, entries);
+  this->rounded_.adopt();
+}
+
+void MixedPrecisionMatrix::store(const double* value, Index count, Index k)
+{
+  constexpr double Least = std::numeric_limits<float>::min();
+  const double scale = 1 / this->unit_;
+  const auto bitsOf = [](double number)
+  {
+    std::int64_t bits;
+    std::memcpy(&bits, &number, sizeof(bits));
+    return bits;
+  };
+  float* rounded = this->rounded_.ownValue.data() + k;
+  int* rest = this->rest_.data() + k;
+  for (Index i = 0; i < count; ++i)
+  {
+    double number = value[i] * scale;
+    if (std::abs(number) < Least && value[i] != 0)
+    {
+      number = std::copysign(Least, number);
+    }
+    rounded[i] = static_cast<float>(number);
+    // At most half of what the last digit of a float counts in those of a double: 2^28.
+    rest[i] = static_cast<int>(bitsOf(number) - bitsOf(rounded[i]));
+  }
+}
+
+Eigen::VectorXd MixedPrecisionMatrix::diagonal(Monitor& monitor) const
+{
+  const CsrRows<float>& A = this->rounded_;
+  Eigen::VectorXd diagonal(A.rows);
+  monitor.parallelFor(A.rows, Grain / 16,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
+        const int* found = std::find(row, end, static_cast<int>(i));
+        diagonal[i] = found != end ? this->value(static_cast<int>(found - A.column)) : 0;
+      }
+    });
+  return diagonal;
+}
+
+CsrMatrix MixedPrecisionMatrix::toCsr() const
+{
+  const auto entries = static_cast<Index>(this->entries());
+  CsrMatrix matrix;
+  allocateRows(matrix, this->rows(), this->columns_, entries);
+  if (this->rounded_.start)
+  {
+    std::copy_n(this->rounded_.start, this->rows() + 1, matrix.outerIndexPtr());
+  }
+  std::copy_n(this->rounded_.column, entries, matrix.innerIndexPtr());
+  for (Index k = 0; k < entries; ++k)
+  {
+    matrix.valuePtr()[k] = this->value(static_cast<int>(k));
+  }
+  return matrix;
+}
+
+std::size_t MixedPrecisionMatrix::memory() const
+{
+  return sizeof(int) * (this->rounded_.ownStart.size() + this->rest_.size()) +
+         (sizeof(int) + sizeof(float)) * this->entries();
+}
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/ChunkedMatrix.h"
+#include "Solvers/CsrMatrix.h"
+#include "Solvers/CsrRows.h"
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace morph
+{
+/// A sparse matrix in compressed rows that is read in single or in double precision, 12 bytes an
+/// entry. It keeps the entries rounded to single precision, and what this leaves of their bits in
+/// another array. So a preconditioner reads 8 bytes an entry, without a copy of its own.
+///
+/// Values are exact, with one exception: an entry below 2^-187 of the largest gets about this size.
+/// Beside a diagonal entry that Multigrid accepts this is below rounding.
+class MixedPrecisionMatrix
+{
+public:
+  /// The largest entry has this size, to a factor of 2, in units of unit(). Entries of very
+  /// different rows then have room below and above it in single precision.
+  static constexpr int LargestExponent = 60;
+
+  MixedPrecisionMatrix() = default;
+  /// Copies `matrix`, which is compressed.
+  MixedPrecisionMatrix(const CsrMatrix& matrix, Monitor& monitor);
+  /// Joins the rows, and frees the chunks one by one.
+  MixedPrecisionMatrix(ChunkedMatrix chunked, Monitor& monitor);
+  // Copies would refer to the other's arrays.
+  MixedPrecisionMatrix(const MixedPrecisionMatrix&) = delete;
+  MixedPrecisionMatrix& operator=(const MixedPrecisionMatrix&) = delete;
+  MixedPrecisionMatrix(MixedPrecisionMatrix&&) noexcept = default;
+  MixedPrecisionMatrix& operator=(MixedPrecisionMatrix&&) noexcept = default;
+
+  Index rows() const { return this->rounded_.rows; }
+  Index columns() const { return this->columns_; }
+  std::size_t entries() const { return this->rounded_.entries(); }
+
+  /// The structure, and the entries in units of unit(), rounded.
+  const CsrRows<float>& rounded() const { return this->rounded_; }
+  /// What rounding leaves: the difference of the bits of both doubles.
+  const int* rest() const { return this->rest_.data(); }
+  /// A power of two.
+  double unit() const { return this->unit_; }
+
+  double value(int k) const { return this->unit_ * this->inUnits(k); }
+  /// value() in units of unit().
+  double inUnits(int k) const
+  {
+    double number = this->rounded_.value[k];
+    std::int64_t bits;
+    std::memcpy(&bits, &number, sizeof(bits));
+    bits += this->rest_[k];
+    std::memcpy(&number, &bits, sizeof(bits));
+    return number;
+  }
+
+  /// 0 where a row has no entry.
+  Eigen::VectorXd diagonal(Monitor& monitor) const;
+  CsrMatrix toCsr() const;
+  /// Returns the bytes in use.
+  std::size_t memory() const;
+
+private:
+  void allocate(Index rows, Index columns, Index entries, double largest);
+  /// Sets the entries from k on to `count` values.
+  void store(const double* value, Index count, Index k);
+
+  CsrRows<float> rounded_;
+  Eigen::ArrayXi rest_;
+  Index columns_ = 0;
+  double unit_ = 1;
+};
+}
