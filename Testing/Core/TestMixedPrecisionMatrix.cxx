@@ -117,6 +117,33 @@ TEST(MixedPrecisionMatrix, FromChunksIsThatOfTheJoinedRows)
   }
 }
 
+TEST(MixedPrecisionMatrix, ColumnsAreNarrowWhereTheyFit)
+{
+  constexpr int Most = static_cast<int>(NarrowColumns::MostStep), Rows = 3 * Most;
+  Monitor monitor;
+  const auto narrowed = [&](int row, std::vector<int> columns)
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const int column : columns)
+    {
+      entries.emplace_back(row, column, 1 + column);
+    }
+    CsrMatrix matrix(Rows, Rows);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    MixedPrecisionMatrix mixed(matrix, monitor);
+    const bool fits = mixed.narrowColumns(monitor);
+    EXPECT_EQ(fits, mixed.narrowColumns(monitor));
+    EXPECT_EQ((mixed.toCsr() - matrix).norm(), 0);
+    EXPECT_EQ(mixed.diagonal(monitor), Eigen::VectorXd(matrix.diagonal()));
+    return fits;
+  };
+  EXPECT_TRUE(narrowed(Most, { 0, Most, 2 * Most }));
+  EXPECT_TRUE(narrowed(0, { 0, Most, 2 * Most, 3 * Most - 1 }));
+  EXPECT_FALSE(narrowed(Most + 1, { 0, Most + 1 })); // too far below the diagonal
+  EXPECT_FALSE(narrowed(Most, { Most + 1 }));        // nothing up to the diagonal
+  EXPECT_FALSE(narrowed(0, { 0, Most + 1 }));        // too far from the one before
+}
+
 TEST(MixedPrecisionMatrix, MayBeEmpty)
 {
   Monitor monitor;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -106,6 +107,49 @@ TEST(RowProducts, HaveTheSameBitsOnEveryProcessor)
   forRowProducts(rows.doubles, rows.x.data(), 0, rows.A.rows,
     [&](Index i, const MultiVectorRow& product)
     { EXPECT_EQ(product, rows.expectedWide(static_cast<int>(i))) << "row " << i; });
+}
+
+// Narrow columns are read in another way, and must not change a bit either.
+TEST(RowProducts, OfNarrowColumnsHaveTheSameBits)
+{
+  constexpr Index Rows = 70000, Width = 17;
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < Rows; ++i)
+  {
+    for (Index k = 0; k < i % Width; ++k) // from far below the diagonal to far above it
+    {
+      const Index column = std::max<Index>(0, i - NarrowColumns::MostStep) + 8000 * k;
+      entries.emplace_back(i, std::min(column, Rows - 1), number(random));
+    }
+  }
+  CsrMatrix A(Rows, Rows);
+  A.setFromTriplets(entries.begin(), entries.end());
+  Monitor monitor;
+  const MixedPrecisionMatrix wide(A, monitor);
+  MixedPrecisionMatrix narrow(A, monitor);
+  ASSERT_TRUE(narrow.narrowColumns(monitor));
+  EXPECT_LT(narrow.memory(), wide.memory());
+  EXPECT_EQ((narrow.toCsr() - A).norm(), 0);
+  FloatMultiVector x(Rows), single[2] = { FloatMultiVector(Rows), FloatMultiVector(Rows) };
+  MultiVector xDouble(Rows), both[2] = { MultiVector(Rows), MultiVector(Rows) };
+  for (Index j = 0; j < Rows; ++j)
+  {
+    xDouble[j] = MultiVectorRow::NullaryExpr([&](Index) { return number(random); });
+    x[j] = xDouble[j].cast<float>();
+  }
+  const auto expectSame = [&](const auto& a, const auto& b)
+  { EXPECT_EQ(std::memcmp(a.data(), b.data(), Rows * sizeof(a[0])), 0); };
+  rowProducts(wide.rounded(), x.data(), 0, Rows, single[0].data());
+  rowProducts(narrow.rounded(), x.data(), 0, Rows, single[1].data());
+  expectSame(single[0], single[1]);
+  rowProducts(wide, x.data(), 0, Rows, both[0].data());
+  rowProducts(narrow, x.data(), 0, Rows, both[1].data());
+  expectSame(both[0], both[1]);
+  rowProducts(wide, xDouble.data(), 0, Rows, both[0].data());
+  rowProducts(narrow, xDouble.data(), 0, Rows, both[1].data());
+  expectSame(both[0], both[1]);
 }
 
 TEST(RowProducts, AgreeWithEigen)

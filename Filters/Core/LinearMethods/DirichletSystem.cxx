@@ -233,7 +233,6 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
   Monitor& monitor)
 {
   const auto count = static_cast<Index>(rows.size());
-  const CsrRows<float>& ofInterior = interior.rounded();
   std::vector<double> part(static_cast<std::size_t>((count + Grain - 1) / Grain), 0);
   monitor.parallelFor(static_cast<Index>(part.size()), 1,
     [&](Index firstPart, Index lastPart)
@@ -252,10 +251,7 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
             sum += term;
             size += term.abs();
           };
-          for (int k = ofInterior.start[i]; k < ofInterior.start[i + 1]; ++k)
-          {
-            add(interior.value(k), rows[ofInterior.column[k]]);
-          }
+          interior.forRow(i, [&](int column, int k) { add(interior.value(k), rows[column]); });
           for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
           {
             add(entry.value(), partition.prescribed[entry.col()]);

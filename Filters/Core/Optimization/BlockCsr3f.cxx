@@ -29,9 +29,7 @@ MORPH_SIMD_INLINE void readBlock(const float* block, SimdDouble4 (&column)[3])
 {
   for (int j = 0; j < 3; ++j)
   {
-    SimdFloat4 entries;
-    std::memcpy(&entries, block + 3 * j, sizeof(entries));
-    column[j] = __builtin_convertvector(entries, SimdDouble4);
+    column[j] = widened(block + 3 * j);
   }
 }
 

@@ -2,25 +2,36 @@
 #pragma once
 
 #include "Support/Monitor.h"
+#include "Support/Types.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace morph
 {
 class MixedPrecisionMatrix;
 
+/// Columns of 16 bits, for rows whose columns ascend and are near each other and the diagonal. Each
+/// entry has the step from the column before it. The first one steps from before(row).
+struct NarrowColumns
+{
+  static constexpr Index MostStep = 65535;
+  static Index before(Index row) { return row - MostStep; }
+};
+
 /// A sparse matrix in compressed rows that owns its arrays or refers to another matrix's. Columns
-/// of a row may have any order.
+/// of a row may have any order, unless they are narrow.
 template <typename Scalar>
 struct CsrRows
 {
   using Values = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
   int rows = 0;
-  const int* start = nullptr; ///< #rows + 1
-  const int* column = nullptr;
+  const int* start = nullptr;          ///< #rows + 1
+  const int* column = nullptr;         ///< null where columns are narrow
+  const std::uint16_t* step = nullptr; ///< null where not; see NarrowColumns
   const Scalar* value = nullptr;
   std::vector<int> ownStart;
   // Eigen does not initialise its arrays: each thread is the first to touch its part.
@@ -28,6 +39,13 @@ struct CsrRows
   Values ownValue;
 
   std::size_t entries() const { return this->start ? this->start[this->rows] : 0; }
+  /// Returns the bytes that a product reads, without vectors.
+  double bytesRead() const
+  {
+    const std::size_t column = this->step ? sizeof(std::uint16_t) : sizeof(int);
+    return static_cast<double>(
+      (column + sizeof(Scalar)) * this->entries() + sizeof(int) * (this->rows + std::size_t(1)));
+  }
   /// Refers to the own arrays.
   void adopt()
   {

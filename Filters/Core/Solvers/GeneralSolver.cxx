@@ -435,8 +435,7 @@ GeneralSolver::Report GeneralSolver::System::solve(const RightHandSide& b, Multi
     }
   }
   this->giveBack(std::move(work));
-  const double pass = 12. * static_cast<double>(this->A.entries()) +
-                      (8. * sizeof(Row) + 4. * sizeof(Eigen::Vector4f)) * n;
+  const double pass = this->A.bytesRead() + (8. * sizeof(Row) + 4. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved =
     (report.iterations + 1 + runs) * pass + report.iterations * this->preconditioner.bytesMoved();
   return report;
@@ -458,6 +457,7 @@ struct GeneralSolver::Implementation
       fresh->components = this->forward.components;
       fresh->findNorm(monitor);
       fresh->preconditioner.prepareTransposed(this->forward.preconditioner, fresh->A);
+      fresh->A.narrowColumns(monitor);
       this->transposed = std::move(fresh);
     }
     return *this->transposed;
@@ -491,6 +491,7 @@ void GeneralSolver::prepare(
   system.findNorm(monitor);
   system.components = rowComponents(system.A.rounded(), monitor);
   system.preconditioner.prepare(system.A, Multigrid::Symmetry::General, coordinates, monitor);
+  system.A.narrowColumns(monitor);
   this->implementation_ = std::move(fresh);
 }
 

@@ -4,6 +4,7 @@
 #include "Support/HugePages.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -14,7 +15,8 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 65536;
+constexpr Index Grain = 65536; // entries
+constexpr Index RowGrain = 4096;
 
 /// Returns the largest finite size, and at least `most`.
 double largestSize(const double* value, Index count, double most)
@@ -113,18 +115,56 @@ void MixedPrecisionMatrix::store(const double* value, Index count, Index k)
   }
 }
 
+bool MixedPrecisionMatrix::narrowColumns(Monitor& monitor)
+{
+  CsrRows<float>& A = this->rounded_;
+  if (A.step)
+  {
+    return true;
+  }
+  resizeUndefined(this->step_, static_cast<Index>(this->entries()));
+  std::atomic<bool> fits = true;
+  monitor.parallelFor(A.rows, RowGrain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last && fits; ++i)
+      {
+        Index before = NarrowColumns::before(i);
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          const Index step = A.column[k] - before;
+          if (step < 0 || step > NarrowColumns::MostStep)
+          {
+            fits = false;
+            break;
+          }
+          this->step_[k] = static_cast<std::uint16_t>(step);
+          before = A.column[k];
+        }
+      }
+    });
+  if (!fits)
+  {
+    this->step_ = {};
+    return false;
+  }
+  A.ownColumn = {};
+  A.column = nullptr;
+  A.step = this->step_.data();
+  return true;
+}
+
 Eigen::VectorXd MixedPrecisionMatrix::diagonal(Monitor& monitor) const
 {
-  const CsrRows<float>& A = this->rounded_;
-  Eigen::VectorXd diagonal(A.rows);
-  monitor.parallelFor(A.rows, Grain / 16,
+  Eigen::VectorXd diagonal(this->rows());
+  monitor.parallelFor(this->rows(), RowGrain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
       {
-        const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
-        const int* found = std::find(row, end, static_cast<int>(i));
-        diagonal[i] = found != end ? this->value(static_cast<int>(found - A.column)) : 0;
+        diagonal[i] = 0;
+        this->forRow(
+          i, [&](int column, int k) { diagonal[i] += column == i ? this->value(k) : 0; });
       }
     });
   return diagonal;
@@ -135,21 +175,27 @@ CsrMatrix MixedPrecisionMatrix::toCsr() const
   const auto entries = static_cast<Index>(this->entries());
   CsrMatrix matrix;
   allocateRows(matrix, this->rows(), this->columns_, entries);
-  if (this->rounded_.start)
+  matrix.outerIndexPtr()[0] = 0;
+  for (Index i = 0; i < this->rows(); ++i)
   {
-    std::copy_n(this->rounded_.start, this->rows() + 1, matrix.outerIndexPtr());
-  }
-  std::copy_n(this->rounded_.column, entries, matrix.innerIndexPtr());
-  for (Index k = 0; k < entries; ++k)
-  {
-    matrix.valuePtr()[k] = this->value(static_cast<int>(k));
+    matrix.outerIndexPtr()[i + 1] = this->rounded_.start[i + 1];
+    this->forRow(i,
+      [&](int column, int k)
+      {
+        matrix.innerIndexPtr()[k] = column;
+        matrix.valuePtr()[k] = this->value(k);
+      });
   }
   return matrix;
 }
 
+double MixedPrecisionMatrix::bytesRead() const
+{
+  return this->rounded_.bytesRead() + sizeof(int) * static_cast<double>(this->entries());
+}
+
 std::size_t MixedPrecisionMatrix::memory() const
 {
-  return sizeof(int) * (this->rounded_.ownStart.size() + this->rest_.size()) +
-         (sizeof(int) + sizeof(float)) * this->entries();
+  return static_cast<std::size_t>(this->bytesRead());
 }
 }

@@ -66,7 +66,7 @@ Eigen::MatrixXd denseMatrix(const CsrRows<float>& rows, const Entry& entry)
 }
 }
 
-float Multigrid::addLevel(Matrix&& A, Monitor& monitor)
+float Multigrid::addLevel(const Matrix& A, Monitor& monitor)
 {
   // Single precision has room for 2^-60 of such an entry and for its inverse.
   const float least = std::ldexp(1.f, MixedPrecisionMatrix::LargestExponent - 126);
@@ -91,7 +91,6 @@ float Multigrid::addLevel(Matrix&& A, Monitor& monitor)
   const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
   Level level;
   level.rows = A.rows;
-  level.A = std::move(A);
   level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
   this->levels_.push_back(std::move(level));
   return largest;
@@ -101,10 +100,11 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   const ConstPoints& coordinates, Monitor& monitor)
 {
   this->levels_.clear();
-  this->levels_.reserve(MostLevels);
+  this->levels_.reserve(MostLevels); // `level` below stays valid
   this->symmetricCoarsest_.reset();
   this->generalCoarsest_.reset();
-  float largest = this->addLevel(referTo(matrix.rounded()), monitor);
+  this->finest_ = &matrix.rounded();
+  float largest = this->addLevel(*this->finest_, monitor);
   if (largest == 0)
   {
     throw Error(Error::Kind::Singular,
@@ -122,15 +122,16 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   {
     monitor.check();
     Level& level = this->levels_.back();
+    const Matrix& A = this->matrix(this->levels_.size() - 1);
     std::vector<int> group;
-    std::vector<std::uint8_t> near = nearNeighbors(level.A, places, monitor);
-    const int groups = aggregate(level.A, places, near, group);
+    std::vector<std::uint8_t> near = nearNeighbors(A, places, monitor);
+    const int groups = aggregate(A, places, near, group);
     if (groups > 0.8 * level.rows)
     {
       break; // nothing left to group: this level only has the smoother
     }
     progress(0.3);
-    level.P = smoothedProlongation(level.A, largest, near, group, groups, monitor);
+    level.P = smoothedProlongation(A, largest, near, group, groups, monitor);
     level.R = transpose(level.P, groups);
     near = {};
     progress(0.4);
@@ -140,11 +141,13 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
                            : tripleProduct(level.R, exact, level.P, groups, monitor);
     progress(1);
     left *= 0.125;
-    largest = this->addLevel(roundRows(coarse, monitor), monitor);
+    Matrix rounded = roundRows(coarse, monitor);
+    largest = this->addLevel(rounded, monitor);
     if (largest == 0)
     {
       break; // rounding near flat cells spoiled the level
     }
+    this->levels_.back().A = std::move(rounded);
     std::swap(exact, coarse);
 
     Points centres = Points::Zero(groups, 3);
@@ -166,8 +169,8 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   if (last.rows <= 4 * CoarsestSize)
   {
     const bool isFinest = this->numberOfLevels() == 1;
-    this->factorizeCoarsest(
-      denseMatrix(last.A, [&](int k) { return isFinest ? matrix.inUnits(k) : exact.value[k]; }),
+    this->factorizeCoarsest(denseMatrix(this->matrix(this->levels_.size() - 1),
+                              [&](int k) { return isFinest ? matrix.inUnits(k) : exact.value[k]; }),
       symmetry);
   }
 }
@@ -184,13 +187,16 @@ void Multigrid::prepareTransposed(const Multigrid& other, const MixedPrecisionMa
   }
   // The cycle smooths alike before and after the coarse correction, so transposing the matrices
   // transposes it.
+  this->finest_ = &matrix.rounded();
   for (const Level& from : other.levels_)
   {
     this->levels_.emplace_back();
     Level& level = this->levels_.back();
     level.rows = from.rows;
-    level.A =
-      this->numberOfLevels() == 1 ? referTo(matrix.rounded()) : transpose(from.A, from.rows);
+    if (this->numberOfLevels() > 1)
+    {
+      level.A = transpose(from.A, from.rows);
+    }
     level.P = referTo(from.P);
     level.R = referTo(from.R);
     level.smoother = from.smoother;
@@ -258,12 +264,13 @@ void Multigrid::cycle(
   std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
+  const Matrix& A = this->matrix(k);
   if (k + 1 == this->levels_.size())
   {
     if (!this->solveCoarsest(rhs, x))
     {
       level.smoother.start(rhs, work, monitor);
-      level.smoother.step(level.A, rhs, work, x, monitor);
+      level.smoother.step(A, rhs, work, x, monitor);
     }
     return;
   }
@@ -274,8 +281,8 @@ void Multigrid::cycle(
   monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)
     {
-      forRowProducts(level.A, work, first, last,
-        [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
+      forRowProducts(
+        A, work, first, last, [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
     });
   monitor.parallelFor(level.R.rows, Grain / 8,
     [&](Index first, Index last)
@@ -287,7 +294,7 @@ void Multigrid::cycle(
       forRowProducts(level.P, below.x.data(), first, last,
         [&](Index i, const Row& product) { work[i] += product; });
     });
-  level.smoother.step(level.A, rhs, work, x, monitor);
+  level.smoother.step(A, rhs, work, x, monitor);
 }
 
 std::size_t Multigrid::coarsestBytes() const
@@ -324,12 +331,12 @@ std::size_t Multigrid::workspaceBytes() const
 double Multigrid::bytesMoved() const
 {
   double bytes = 0;
-  const double entry = sizeof(float) + sizeof(int), node = sizeof(Row);
+  const double node = sizeof(Row);
   for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
   {
     const Level& level = this->levels_[k];
     // The residual, and smoothing after the correction.
-    bytes += entry * (2 * level.A.entries() + level.P.entries() + level.R.entries());
+    bytes += 2 * this->matrix(k).bytesRead() + level.P.bytesRead() + level.R.bytesRead();
     bytes += 11 * node * level.rows;
   }
   return bytes + this->coarsestBytes();

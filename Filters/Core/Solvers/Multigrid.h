@@ -36,13 +36,13 @@ public:
     General    ///< close to an M-matrix
   };
 
-  /// Makes the levels. The arrays of `matrix` must outlive this object: they are the finest level.
-  /// `coordinates`: #rows x 3. Throws Error of kind Singular if diagonal entries differ by a factor
+  /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
+  /// Its columns may become narrow afterwards. `coordinates`: #rows x 3. Throws Error of kind Singular if diagonal entries differ by a factor
   /// of 1e38 or more.
   void prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
     const ConstPoints& coordinates, Monitor& monitor);
-  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Their arrays must
-  /// outlive this object.
+  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this
+  /// object and stay in place.
   void prepareTransposed(const Multigrid& other, const MixedPrecisionMatrix& matrix);
 
   /// The vectors of all levels but the finest, one set per concurrent solve.
@@ -81,14 +81,18 @@ private:
   struct Level
   {
     int rows = 0;
-    Matrix A;    ///< of the finest level it refers to the solver's matrix
+    Matrix A;    ///< empty in the finest level
     Matrix P, R; ///< prolongation to this level from the next, and its transpose
     DampedJacobi smoother;
   };
 
-  /// Appends a level. Returns the largest eigenvalue of D^-1 A. Where single precision cannot
-  /// smooth by the diagonal, appends nothing and returns 0.
-  float addLevel(Matrix&& A, Monitor& monitor);
+  /// Appends a level without its matrix. Returns the largest eigenvalue of D^-1 A. Where single
+  /// precision cannot smooth by the diagonal, appends nothing and returns 0.
+  float addLevel(const Matrix& A, Monitor& monitor);
+  const Matrix& matrix(std::size_t level) const
+  {
+    return level == 0 ? *this->finest_ : this->levels_[level].A;
+  }
   /// `A`: the last level's matrix in double precision.
   void factorizeCoarsest(const Eigen::MatrixXd& A, Symmetry symmetry);
   bool solveCoarsest(const Row* rhs, Row* x) const;
@@ -97,6 +101,7 @@ private:
   void cycle(
     std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor&) const;
 
+  const Matrix* finest_ = nullptr;
   std::vector<Level> levels_;
   // Factors of the coarsest level, by symmetry; without either, its smoother is used.
   std::optional<Eigen::LLT<Eigen::MatrixXd>> symmetricCoarsest_;

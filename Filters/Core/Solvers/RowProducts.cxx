@@ -15,56 +15,104 @@ namespace
 {
 using SimdFloat8 = float __attribute__((vector_size(32)));
 
-/// Copies row j of a multivector.
+/// Copies the row of a multivector that starts after `at` doubles.
 ///@{
-MORPH_SIMD_INLINE void loadRow(const float* x, int j, SimdFloat4& row)
+MORPH_SIMD_INLINE void load(const float* x, Index at, SimdFloat4& row)
 {
-  std::memcpy(&row, x + SimdWidth * j, sizeof(row));
+  std::memcpy(&row, x + 2 * at, sizeof(row));
 }
-MORPH_SIMD_INLINE void loadRow(const double* x, int j, SimdDouble4& row)
+MORPH_SIMD_INLINE void load(const float* x, Index at, SimdDouble4& row)
 {
-  std::memcpy(&row, x + SimdWidth * j, sizeof(row));
+  row = widened(x + 2 * at);
 }
-MORPH_SIMD_INLINE void loadRow(const float* x, int j, SimdDouble4& row)
+MORPH_SIMD_INLINE void load(const double* x, Index at, SimdDouble4& row)
 {
-  row = widened(x + SimdWidth * j);
+  std::memcpy(&row, x + at, sizeof(row));
 }
 ///@}
 
+/// How a row's columns are read, one after the other. `Doubles`: the size of a multivector's row.
+/// `at`: where the multivector's row of the column before starts, in doubles, and then that of this
+/// column. x86 multiplies by 2, 4 and 8 while it adds and addresses, which saves an instruction.
+///@{
+template <Index Doubles>
+struct WideColumn
+{
+  using Stored = int;
+  static MORPH_SIMD_INLINE Index before(Index) { return 0; }
+  static MORPH_SIMD_INLINE void next(const int* stored, Index& at) { at = Doubles * *stored; }
+};
+template <Index Doubles>
+struct NarrowColumn
+{
+  using Stored = std::uint16_t;
+  static MORPH_SIMD_INLINE Index before(Index row) { return Doubles * NarrowColumns::before(row); }
+  static MORPH_SIMD_INLINE void next(const std::uint16_t* stored, Index& at)
+  {
+    at += Doubles * *stored;
+  }
+};
+///@}
+
+/// Asks for the part of an array that is needed about 20 rows later. Processors do so by themselves,
+/// but start anew with each page of memory. This saves 15 to 25 % of a product on hexahedra.
+template <typename T>
+MORPH_SIMD_INLINE void prefetch(const T* array)
+{
+  constexpr int Ahead = 512, Line = 64 / sizeof(T);
+  __builtin_prefetch(array + Ahead); // never faults, also beyond the end
+  if (sizeof(T) > 2)
+  {
+    __builtin_prefetch(array + Ahead + Line);
+  }
+}
+
+// Each body makes all rows by itself, as its pointers then stay in registers.
 // Four sums hide the latency of an addition. They are added as (0 + 2) + (1 + 3), and then the
 // entries that are left.
 
 /// In double precision, of values that are split as in MixedPrecisionMatrix.
+template <template <Index> typename ColumnOf>
 struct DoubleProduct
 {
   template <typename Scalar>
-  static MORPH_SIMD_INLINE void run(Index i, const int* start, const int* column,
-    const float* rounded, const int* rest, double unit, const Scalar* x, Index first,
-    MultiVectorRow* products)
+  static MORPH_SIMD_INLINE void run(Index, Index first, Index last, const int* start,
+    const typename ColumnOf<1>::Stored* column, const float* rounded, const int* rest, double unit,
+    const Scalar* x, MultiVectorRow* products)
   {
-    SimdDouble4 sum[4] = {}, row;
-    int k = start[i];
-    const int end = start[i + 1];
-    for (; k + 3 < end; k += 4)
+    using Column = ColumnOf<SimdWidth * sizeof(Scalar) / sizeof(double)>;
+    for (Index i = first; i < last; ++i)
     {
-      const SimdDouble4 value = joinValues(rounded + k, rest + k);
-      loadRow(x, column[k], row);
-      sum[0] += __builtin_shufflevector(value, value, 0, 0, 0, 0) * row;
-      loadRow(x, column[k + 1], row);
-      sum[1] += __builtin_shufflevector(value, value, 1, 1, 1, 1) * row;
-      loadRow(x, column[k + 2], row);
-      sum[2] += __builtin_shufflevector(value, value, 2, 2, 2, 2) * row;
-      loadRow(x, column[k + 3], row);
-      sum[3] += __builtin_shufflevector(value, value, 3, 3, 3, 3) * row;
+      SimdDouble4 sum[4] = {}, row[4];
+      Index at = Column::before(i);
+      int k = start[i];
+      const int end = start[i + 1];
+      prefetch(column + k);
+      prefetch(rounded + k);
+      prefetch(rest + k);
+      for (; k + 3 < end; k += 4)
+      {
+        const SimdDouble4 value = joinValues(rounded + k, rest + k);
+        for (int j = 0; j < 4; ++j)
+        {
+          Column::next(column + k + j, at);
+          load(x, at, row[j]);
+        }
+        sum[0] += __builtin_shufflevector(value, value, 0, 0, 0, 0) * row[0];
+        sum[1] += __builtin_shufflevector(value, value, 1, 1, 1, 1) * row[1];
+        sum[2] += __builtin_shufflevector(value, value, 2, 2, 2, 2) * row[2];
+        sum[3] += __builtin_shufflevector(value, value, 3, 3, 3, 3) * row[3];
+      }
+      SimdDouble4 all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+      for (; k < end; ++k)
+      {
+        Column::next(column + k, at);
+        load(x, at, row[0]);
+        all += joinValue(rounded[k], rest[k]) * row[0];
+      }
+      all *= unit; // a power of two: nothing is rounded
+      std::memcpy(products[i - first].data(), &all, sizeof(all));
     }
-    SimdDouble4 all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
-    for (; k < end; ++k)
-    {
-      loadRow(x, column[k], row);
-      all += joinValue(rounded[k], rest[k]) * row;
-    }
-    all *= unit; // a power of two: nothing is rounded
-    std::memcpy(products[i - first].data(), &all, sizeof(all));
   }
 
 private:
@@ -85,36 +133,47 @@ private:
 };
 
 /// In single precision. Two sums share a register, which saves 8 % of an evaluation with AVX2.
+template <template <Index> typename ColumnOf>
 struct FloatProduct
 {
-  static MORPH_SIMD_INLINE void run(Index i, const int* start, const int* column,
-    const float* value, const float* x, Index first, Eigen::Vector4f* products)
+  static MORPH_SIMD_INLINE void run(Index, Index first, Index last, const int* start,
+    const typename ColumnOf<1>::Stored* column, const float* value, const float* x,
+    Eigen::Vector4f* products)
   {
-    SimdFloat8 sums01 = {}, sums23 = {};
-    SimdFloat4 row[4], values;
-    int k = start[i];
-    const int end = start[i + 1];
-    for (; k + 3 < end; k += 4)
+    using Column = ColumnOf<SimdWidth * sizeof(float) / sizeof(double)>;
+    for (Index i = first; i < last; ++i)
     {
-      std::memcpy(&values, value + k, sizeof(values));
-      for (int j = 0; j < 4; ++j)
+      SimdFloat8 sums01 = {}, sums23 = {};
+      SimdFloat4 row[4], values;
+      Index at = Column::before(i);
+      int k = start[i];
+      const int end = start[i + 1];
+      prefetch(column + k);
+      prefetch(value + k);
+      for (; k + 3 < end; k += 4)
       {
-        loadRow(x, column[k + j], row[j]);
+        std::memcpy(&values, value + k, sizeof(values));
+        for (int j = 0; j < 4; ++j)
+        {
+          Column::next(column + k + j, at);
+          load(x, at, row[j]);
+        }
+        sums01 += __builtin_shufflevector(values, values, 0, 0, 0, 0, 1, 1, 1, 1) *
+                  __builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7);
+        sums23 += __builtin_shufflevector(values, values, 2, 2, 2, 2, 3, 3, 3, 3) *
+                  __builtin_shufflevector(row[2], row[3], 0, 1, 2, 3, 4, 5, 6, 7);
       }
-      sums01 += __builtin_shufflevector(values, values, 0, 0, 0, 0, 1, 1, 1, 1) *
-                __builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7);
-      sums23 += __builtin_shufflevector(values, values, 2, 2, 2, 2, 3, 3, 3, 3) *
-                __builtin_shufflevector(row[2], row[3], 0, 1, 2, 3, 4, 5, 6, 7);
+      const SimdFloat8 pairs = sums01 + sums23;
+      SimdFloat4 all = __builtin_shufflevector(pairs, pairs, 0, 1, 2, 3) +
+                       __builtin_shufflevector(pairs, pairs, 4, 5, 6, 7);
+      for (; k < end; ++k)
+      {
+        Column::next(column + k, at);
+        load(x, at, row[0]);
+        all += value[k] * row[0];
+      }
+      std::memcpy(products[i - first].data(), &all, sizeof(all));
     }
-    const SimdFloat8 pairs = sums01 + sums23;
-    SimdFloat4 all = __builtin_shufflevector(pairs, pairs, 0, 1, 2, 3) +
-                     __builtin_shufflevector(pairs, pairs, 4, 5, 6, 7);
-    for (; k < end; ++k)
-    {
-      loadRow(x, column[k], row[0]);
-      all += value[k] * row[0];
-    }
-    std::memcpy(products[i - first].data(), &all, sizeof(all));
   }
 };
 
@@ -133,9 +192,14 @@ void doubleProducts(const MixedPrecisionMatrix& matrix, const Row* x, Index firs
   const int* rest = matrix.rest();
   const double unit = matrix.unit();
   const auto* numbers = numbersOf(x);
-  const Index origin = first;
-  dispatchedFor<DoubleProduct>(
-    first, last, A.start, A.column, A.value, rest, unit, numbers, origin, products);
+  if (A.step)
+  {
+    dispatchedFor<DoubleProduct<NarrowColumn>>(
+      0, 1, first, last, A.start, A.step, A.value, rest, unit, numbers, products);
+    return;
+  }
+  dispatchedFor<DoubleProduct<WideColumn>>(
+    0, 1, first, last, A.start, A.column, A.value, rest, unit, numbers, products);
 }
 }
 
@@ -143,8 +207,14 @@ void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first,
   Eigen::Vector4f* products)
 {
   const float* numbers = numbersOf(x);
-  const Index origin = first;
-  dispatchedFor<FloatProduct>(first, last, A.start, A.column, A.value, numbers, origin, products);
+  if (A.step)
+  {
+    dispatchedFor<FloatProduct<NarrowColumn>>(
+      0, 1, first, last, A.start, A.step, A.value, numbers, products);
+    return;
+  }
+  dispatchedFor<FloatProduct<WideColumn>>(
+    0, 1, first, last, A.start, A.column, A.value, numbers, products);
 }
 
 void rowProducts(const MixedPrecisionMatrix& A, const MultiVectorRow* x, Index first, Index last,

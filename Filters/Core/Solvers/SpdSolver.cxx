@@ -147,6 +147,7 @@ void SpdSolver::prepare(
   }
   fresh->components = rowComponents(fresh->A.rounded(), monitor);
   fresh->preconditioner.prepare(fresh->A, Multigrid::Symmetry::Symmetric, coordinates, monitor);
+  fresh->A.narrowColumns(monitor);
   this->implementation_ = std::move(fresh);
 }
 
@@ -292,8 +293,7 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }
   }
-  const double pass = 12. * static_cast<double>(this->A.entries()) +
-                      (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
+  const double pass = this->A.bytesRead() + (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
                       report.iterations * this->preconditioner.bytesMoved();
   return report;
@@ -397,9 +397,9 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
     norm2 = findResidual();
   }
   report.relativeResidual = given2 > 0 ? std::sqrt(norm2 / given2) : 0;
-  report.bytesMoved = report.iterations * (12. * static_cast<double>(this->A.entries()) +
-                                            12. * sizeof(Row) * static_cast<double>(n) +
-                                            this->preconditioner.bytesMoved());
+  report.bytesMoved =
+    report.iterations * (this->A.bytesRead() + 12. * sizeof(Row) * static_cast<double>(n) +
+                          this->preconditioner.bytesMoved());
   return report;
 }
 
