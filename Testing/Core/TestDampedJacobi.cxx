@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 #include "Solvers/DampedJacobi.h"
+#include "Solvers/MultiVector.h"
 
 #include <gtest/gtest.h>
 
@@ -56,8 +57,15 @@ TEST(DampedJacobi, StartsAsAStepFromZero)
     rhs.emplace_back(number(random), number(random), number(random), number(random));
   }
   smoother().start(rhs.data(), started.data(), monitor);
-  smoother().step(line(), rhs.data(), zero.data(), stepped.data(), monitor);
+  const Eigen::Vector4d products =
+    smoother().step(line(), rhs.data(), zero.data(), stepped.data(), monitor);
   EXPECT_EQ(started, stepped);
+  Eigen::Vector4d expected = Eigen::Vector4d::Zero();
+  for (int i = 0; i < Rows; ++i)
+  {
+    expected += rhs[i].cast<double>().cwiseProduct(stepped[i].cast<double>());
+  }
+  EXPECT_LE((products - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.maxCoeff());
 }
 
 // The range in which it is a smoother: from a quarter of the largest eigenvalue.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DampedJacobi.h"
 
+#include "Solvers/RowProducts.h"
 #include "Support/HugePages.h"
 #include "Support/ReproducibleSum.h"
 
@@ -110,6 +111,23 @@ void DampedJacobi::start(const Eigen::Vector4f* rhs, Eigen::Vector4f* x, Monitor
       {
         x[i] = this->weight_[i] * rhs[i];
       }
+    });
+}
+
+Eigen::Vector4d DampedJacobi::step(const CsrRows<float>& A, const Eigen::Vector4f* rhs,
+  const Eigen::Vector4f* from, Eigen::Vector4f* to, Monitor& monitor) const
+{
+  return reproducibleSumOfBlocks(A.rows, monitor, Eigen::Vector4d(Eigen::Vector4d::Zero()),
+    [&](Index first, Index last)
+    {
+      Eigen::Vector4d products = Eigen::Vector4d::Zero();
+      forRowProducts(A, from, first, last,
+        [&](Index i, const Eigen::Vector4f& product)
+        {
+          to[i] = from[i] + this->weight_[i] * (rhs[i] - product);
+          products += rhs[i].cwiseProduct(to[i]).cast<double>();
+        });
+      return products;
     });
 }
 }

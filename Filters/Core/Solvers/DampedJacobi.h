@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Solvers/CsrRows.h"
-#include "Solvers/MultiVector.h"
-#include "Solvers/RowProducts.h"
 #include "Support/Monitor.h"
+
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <vector>
@@ -39,19 +39,10 @@ public:
 
   /// Steps from x = 0. `rhs`, `x`: #rows. Cost: no pass over the matrix.
   void start(const Eigen::Vector4f* rhs, Eigen::Vector4f* x, Monitor& monitor) const;
-  /// Steps from `from` to `to`. The vectors: #rows. Cost: a pass
-  /// over the matrix.
-  void step(const CsrRows<float>& A, const Eigen::Vector4f* rhs, const Eigen::Vector4f* from,
-    Eigen::Vector4f* to, Monitor& monitor) const
-  {
-    monitor.parallelFor(A.rows, Grain,
-      [&](Index first, Index last)
-      {
-        forRowProducts(A, from, first, last,
-          [&](Index i, const Eigen::Vector4f& product)
-          { to[i] = from[i] + this->weight_[i] * (rhs[i] - product); });
-      });
-  }
+  /// Steps from `from` to `to`. The vectors: #rows. Returns the products rhs^T to of the columns.
+  /// Cost: a pass over the matrix.
+  Eigen::Vector4d step(const CsrRows<float>& A, const Eigen::Vector4f* rhs,
+    const Eigen::Vector4f* from, Eigen::Vector4f* to, Monitor& monitor) const;
 
   std::size_t memory() const { return this->weight_.size() * sizeof(float); }
 

@@ -5,6 +5,7 @@
 #include "Solvers/RowProducts.h"
 #include "Support/Error.h"
 #include "Support/HugePages.h"
+#include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -254,13 +255,13 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
   }
 }
 
-void Multigrid::apply(
+Eigen::Vector4d Multigrid::apply(
   const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
-  this->cycle(0, rhs, work, x, workspace, monitor);
+  return this->cycle(0, rhs, work, x, workspace, monitor);
 }
 
-void Multigrid::cycle(
+Eigen::Vector4d Multigrid::cycle(
   std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
@@ -270,9 +271,10 @@ void Multigrid::cycle(
     if (!this->solveCoarsest(rhs, x))
     {
       level.smoother.start(rhs, work, monitor);
-      level.smoother.step(A, rhs, work, x, monitor);
+      return level.smoother.step(A, rhs, work, x, monitor);
     }
-    return;
+    return reproducibleSum(level.rows, monitor, Eigen::Vector4d(Eigen::Vector4d::Zero()),
+      [&](Index i) { return Eigen::Vector4d(rhs[i].cwiseProduct(x[i]).cast<double>()); });
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
@@ -294,7 +296,7 @@ void Multigrid::cycle(
       forRowProducts(level.P, below.x.data(), first, last,
         [&](Index i, const Row& product) { work[i] += product; });
     });
-  level.smoother.step(A, rhs, work, x, monitor);
+  return level.smoother.step(A, rhs, work, x, monitor);
 }
 
 std::size_t Multigrid::coarsestBytes() const

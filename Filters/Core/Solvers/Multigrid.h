@@ -62,8 +62,9 @@ public:
 
   /// Computes x = B rhs with a fixed B near the inverse of the matrix in its own units, symmetric
   /// positive definite for Symmetry::Symmetric. `rhs`, `work`, `x`: #rows each; the content of
-  /// `work` is lost.
-  void apply(const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
+  /// `work` is lost. Returns the products rhs^T x of the columns.
+  Eigen::Vector4d apply(
+    const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
   /// Returns the bytes of the levels, without the finest matrix.
@@ -98,7 +99,8 @@ private:
   bool solveCoarsest(const Row* rhs, Row* x) const;
   std::size_t coarsestBytes() const;
 
-  void cycle(
+  /// apply() from level k down.
+  Eigen::Vector4d cycle(
     std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor&) const;
 
   const Matrix* finest_ = nullptr;

@@ -41,14 +41,19 @@ struct Workspace
   FloatMultiVector residual32, direction;
   Multigrid::Workspace multigrid;
 
-  /// Returns `multigrid` applied to residual32. It lies in `image`, whose content is lost: an
-  /// iteration reads the one before it writes the other.
-  const Eigen::Vector4f* precondition(const Multigrid& preconditioner, Monitor& monitor)
+  /// `multigrid` applied to residual32. It lies in `image`, whose content is lost: an iteration
+  /// reads the one before it writes the other.
+  struct Step
+  {
+    const Eigen::Vector4f* rows;
+    Row products; ///< of the columns of residual32 and these
+  };
+  Step precondition(const Multigrid& preconditioner, Monitor& monitor)
   {
     const FloatHalves halves(this->image);
-    preconditioner.apply(
+    const Row products = preconditioner.apply(
       this->residual32.data(), halves.first, halves.second, this->multigrid, monitor);
-    return halves.second;
+    return { halves.second, products };
   }
 };
 
@@ -203,12 +208,13 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
     before = now;
 
     // The preconditioner has single precision: scales each column's residual to about 1.
-    Row scale = zero;
+    Row scale = zero, unscale = zero;
     for (int c = 0; c < 4; ++c)
     {
       if (norm2[c] > goal2[c])
       {
-        scale[c] = 1 / std::sqrt(norm2[c] / static_cast<double>(n));
+        unscale[c] = std::sqrt(norm2[c] / static_cast<double>(n));
+        scale[c] = 1 / unscale[c];
       }
     }
     monitor.parallelFor(n, Grain,
@@ -239,18 +245,18 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
       }
       monitor.check();
 
-      const Eigen::Vector4f* step = work.precondition(this->preconditioner, monitor);
+      const Workspace::Step step = work.precondition(this->preconditioner, monitor);
       const Row rzBefore = rz;
-      rz = reproducibleSum(n, monitor, zero,
-        [&](Index i) { return Row(residual[i].cwiseProduct(step[i].cast<double>())); });
+      rz = unscale.cwiseProduct(step.products);
       const Row beta = first ? zero : ratio(rz, rzBefore, running);
       monitor.parallelFor(n, Grain,
         [&](Index from, Index to)
         {
           for (Index i = from; i < to; ++i)
           {
-            direction[i] = (step[i].cast<double>() + beta.cwiseProduct(direction[i].cast<double>()))
-                             .cast<float>();
+            direction[i] =
+              (step.rows[i].cast<double>() + beta.cwiseProduct(direction[i].cast<double>()))
+                .cast<float>();
           }
         });
       const Row curvature = reproducibleSumOfBlocks(n, monitor, zero,
@@ -293,7 +299,7 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
       report.relativeResidual = std::max(report.relativeResidual, std::sqrt(norm2[c] / bNorm2[c]));
     }
   }
-  const double pass = this->A.bytesRead() + (7. * sizeof(Row) + 7. * sizeof(Eigen::Vector4f)) * n;
+  const double pass = this->A.bytesRead() + (6. * sizeof(Row) + 6. * sizeof(Eigen::Vector4f)) * n;
   report.bytesMoved = (report.iterations + 1 + restarts) * pass +
                       report.iterations * this->preconditioner.bytesMoved();
   return report;
@@ -429,7 +435,8 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
         work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>();
       }
     });
-  const Eigen::Vector4f* step = work->precondition(this->implementation_->preconditioner, monitor);
+  const Eigen::Vector4f* step =
+    work->precondition(this->implementation_->preconditioner, monitor).rows;
   const double factor = unscale / this->implementation_->A.unit();
   to.resize(n, 3);
   monitor.parallelFor(n, Grain,
