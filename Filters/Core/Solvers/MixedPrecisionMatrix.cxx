@@ -40,7 +40,7 @@ MixedPrecisionMatrix::MixedPrecisionMatrix(const CsrMatrix& matrix, Monitor& mon
     [&](Index first, Index last)
     {
       std::copy(matrix.innerIndexPtr() + first, matrix.innerIndexPtr() + last,
-        this->rounded_.ownColumn.data() + first);
+        this->columnsInWork() + first);
       this->store(matrix.valuePtr() + first, last - first, first);
     });
 }
@@ -68,7 +68,7 @@ MixedPrecisionMatrix::MixedPrecisionMatrix(ChunkedMatrix chunked, Monitor& monit
       {
         const Index at = this->rounded_.start[c * ChunkRows];
         this->store(chunks[c].values(), static_cast<Index>(chunks[c].entries()), at);
-        chunks[c].copyColumns(this->rounded_.ownColumn.data() + at);
+        chunks[c].copyColumns(this->columnsInWork() + at);
         chunks[c] = {};
       }
     });
@@ -81,13 +81,14 @@ void MixedPrecisionMatrix::allocate(Index rows, Index columns, Index entries, do
     largest > 0 ? std::clamp(std::ilogb(largest) - LargestExponent, -MostExponent, MostExponent)
                 : 0;
   this->unit_ = std::ldexp(1., exponent);
-  this->columns_ = columns;
+  this->width_ = columns;
   this->rounded_.rows = static_cast<int>(rows);
   this->rounded_.ownStart.resize(rows + 1);
-  resizeUndefined(this->rounded_.ownColumn, entries);
+  this->columns_ = PageBlock(entries * sizeof(int));
   resizeUndefined(this->rounded_.ownValue, entries);
   resizeUndefined(this->rest_, entries);
   this->rounded_.adopt();
+  this->rounded_.column = this->columnsInWork();
 }
 
 void MixedPrecisionMatrix::store(const double* value, Index count, Index k)
@@ -115,19 +116,14 @@ void MixedPrecisionMatrix::store(const double* value, Index count, Index k)
   }
 }
 
-bool MixedPrecisionMatrix::narrowColumns(Monitor& monitor)
+bool MixedPrecisionMatrix::columnsAreNear(Monitor& monitor) const
 {
-  CsrRows<float>& A = this->rounded_;
-  if (A.step)
-  {
-    return true;
-  }
-  resizeUndefined(this->step_, static_cast<Index>(this->entries()));
-  std::atomic<bool> fits = true;
+  const CsrRows<float>& A = this->rounded_;
+  std::atomic<bool> areNear = true;
   monitor.parallelFor(A.rows, RowGrain,
     [&](Index first, Index last)
     {
-      for (Index i = first; i < last && fits; ++i)
+      for (Index i = first; i < last && areNear; ++i)
       {
         Index before = NarrowColumns::before(i);
         for (int k = A.start[i]; k < A.start[i + 1]; ++k)
@@ -135,22 +131,56 @@ bool MixedPrecisionMatrix::narrowColumns(Monitor& monitor)
           const Index step = A.column[k] - before;
           if (step < 0 || step > NarrowColumns::MostStep)
           {
-            fits = false;
-            break;
+            areNear = false;
           }
-          this->step_[k] = static_cast<std::uint16_t>(step);
           before = A.column[k];
         }
       }
     });
-  if (!fits)
+  return areNear;
+}
+
+bool MixedPrecisionMatrix::narrowColumns(Monitor& monitor)
+{
+  CsrRows<float>& A = this->rounded_;
+  if (A.step)
   {
-    this->step_ = {};
+    return true;
+  }
+  if (!this->columnsAreNear(monitor))
+  {
     return false;
   }
-  A.ownColumn = {};
+  // Steps take the place of columns that have been read: band by band, through a copy.
+  constexpr Index Band = 16 * RowGrain;
+  std::vector<std::uint16_t> steps;
+  for (Index begin = 0; begin < A.rows; begin += Band)
+  {
+    const Index end = std::min<Index>(A.rows, begin + Band);
+    const int start = A.start[begin];
+    steps.resize(A.start[end] - start);
+    monitor.parallelFor(end - begin, RowGrain,
+      [&](Index first, Index last)
+      {
+        for (Index i = begin + first; i < begin + last; ++i)
+        {
+          Index before = NarrowColumns::before(i);
+          for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+          {
+            steps[k - start] = static_cast<std::uint16_t>(A.column[k] - before);
+            before = A.column[k];
+          }
+        }
+      });
+    constexpr std::size_t Size = sizeof(std::uint16_t);
+    if (!steps.empty())
+    {
+      std::memcpy(this->columns_.data() + Size * start, steps.data(), Size * steps.size());
+    }
+  }
+  this->columns_.shrink(sizeof(std::uint16_t) * this->entries());
   A.column = nullptr;
-  A.step = this->step_.data();
+  A.step = reinterpret_cast<const std::uint16_t*>(this->columns_.data());
   return true;
 }
 
@@ -174,7 +204,7 @@ CsrMatrix MixedPrecisionMatrix::toCsr() const
 {
   const auto entries = static_cast<Index>(this->entries());
   CsrMatrix matrix;
-  allocateRows(matrix, this->rows(), this->columns_, entries);
+  allocateRows(matrix, this->rows(), this->width_, entries);
   matrix.outerIndexPtr()[0] = 0;
   for (Index i = 0; i < this->rows(); ++i)
   {

@@ -5,6 +5,7 @@
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
 #include "Support/Monitor.h"
+#include "Support/PageBlock.h"
 #include "Support/Types.h"
 
 #include <Eigen/Core>
@@ -41,7 +42,7 @@ public:
   MixedPrecisionMatrix& operator=(MixedPrecisionMatrix&&) noexcept = default;
 
   Index rows() const { return this->rounded_.rows; }
-  Index columns() const { return this->columns_; }
+  Index columns() const { return this->width_; }
   std::size_t entries() const { return this->rounded_.entries(); }
 
   /// The structure, and the entries in units of unit(), rounded.
@@ -51,8 +52,8 @@ public:
   /// A power of two.
   double unit() const { return this->unit_; }
 
-  /// Replaces the columns by NarrowColumns where all fit; functions that read CsrRows::column must
-  /// not be called any more. Returns whether they fit.
+  /// Replaces the columns by NarrowColumns where all fit, without other memory; functions that read
+  /// CsrRows::column must not be called any more. Returns whether they fit.
   bool narrowColumns(Monitor& monitor);
   /// Calls use(column, k) for the entries k of a row.
   template <typename Use>
@@ -88,14 +89,17 @@ public:
   std::size_t memory() const;
 
 private:
+  /// Where the columns are made.
+  int* columnsInWork() { return reinterpret_cast<int*>(this->columns_.data()); }
+  bool columnsAreNear(Monitor& monitor) const;
   void allocate(Index rows, Index columns, Index entries, double largest);
   /// Sets the entries from k on to `count` values.
   void store(const double* value, Index count, Index k);
 
-  CsrRows<float> rounded_;
-  Eigen::Array<std::uint16_t, Eigen::Dynamic, 1> step_;
+  CsrRows<float> rounded_; ///< its columns or steps are in columns_
+  PageBlock columns_;
   Eigen::ArrayXi rest_;
-  Index columns_ = 0;
+  Index width_ = 0;
   double unit_ = 1;
 };
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 #include <new>
@@ -60,5 +61,24 @@ void freePages(void* data, std::size_t bytes) noexcept
   ::operator delete(data);
   static_cast<void>(bytes);
 #endif
+}
+
+std::size_t freePagesBehind(void* data, std::size_t bytes, std::size_t kept) noexcept
+{
+  if (kept == 0)
+  {
+    freePages(data, bytes);
+    return 0;
+  }
+#ifdef __linux__
+  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t left = (kept + page - 1) / page * page;
+  if (left < bytes)
+  {
+    munmap(static_cast<char*>(data) + left, bytes - left);
+    return left;
+  }
+#endif
+  return bytes;
 }
 }

@@ -20,6 +20,8 @@ void adviseHugePages(void* data, std::size_t bytes) noexcept;
 ///@{
 void* allocatePages(std::size_t bytes);
 void freePages(void* data, std::size_t bytes) noexcept;
+/// Gives back the whole pages behind the first `kept` bytes. Returns how many bytes are left.
+std::size_t freePagesBehind(void* data, std::size_t bytes, std::size_t kept) noexcept;
 ///@}
 
 /// Resizes a vector whose values are not needed any more, with huge pages where it grows.
