@@ -7,7 +7,6 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Solvers/GeneralSolver.h"
-#include "Solvers/LocalColumnMap.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SpdSolver.h"
 #include "Untangling/InversionFree.h"
@@ -17,7 +16,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <random>
 
@@ -378,26 +376,6 @@ TYPED_TEST(GuessOf, TheSolverIsOfAnySize)
       solver.solve(Points(factor * problem.b), x, 1e-10, 500, watching).iterations, iterations)
       << exponent;
     EXPECT_TRUE(identical(Points(x / factor), reference)) << exponent;
-  }
-}
-
-TEST(LocalColumnMap, NumbersColumnsInTheOrderOfInsertion)
-{
-  std::mt19937 random(meshes::seed());
-  LocalColumnMap local;
-  for (int length : { 0, 1, 40, 5000, 3, 63, 64, 65, 700 })
-  {
-    std::uniform_int_distribution<int> column(0, 2 * length);
-    std::map<int, int> expected;
-    local.clear();
-    for (int k = 0; k < length; ++k)
-    {
-      const int one = column(random) * 4096; // far apart, as in a large matrix
-      const int index = expected.emplace(one, static_cast<int>(expected.size())).first->second;
-      ASSERT_EQ(local.localIndex(one), index) << length;
-      ASSERT_EQ(local.size(), static_cast<int>(expected.size()));
-      ASSERT_EQ(local.column(index), one);
-    }
   }
 }
 

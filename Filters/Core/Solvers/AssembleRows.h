@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solvers/ColumnMap.h"
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
-#include "Solvers/DenseColumnMap.h"
-#include "Solvers/LocalColumnMap.h"
 #include "Solvers/RowChunks.h"
 #include "Support/HugePages.h"
 #include "Support/Monitor.h"
@@ -18,7 +17,7 @@
 namespace morph
 {
 /// Makes the rows of one chunk. `local`: the columns in a row.
-template <typename Scalar, typename ColumnMap, typename MakeRow>
+template <typename Scalar, typename MakeRow>
 void makeChunk(int first, int last, MakeRow& makeRow, ColumnMap& local, RowsInWork<Scalar>& rows)
 {
   rows.clear();
@@ -50,7 +49,6 @@ void makeChunk(int first, int last, MakeRow& makeRow, ColumnMap& local, RowsInWo
 template <typename Scalar, typename MakeRows>
 CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRows& makeRows)
 {
-  constexpr int FewColumns = 1 << 18; // a table of them stays in a core's cache
   const Index chunks = chunksOf(rows);
   std::vector<StoredRows<Scalar>> parts(chunks);
   monitor.parallelFor(chunks, 1,
@@ -59,27 +57,16 @@ CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const Make
       std::shared_ptr<PageArena> arena;
       RowsInWork<Scalar> scratch; // keeps its capacity between chunks
       auto makeRow = makeRows();
-      const auto makeChunks = [&](auto local)
+      ColumnMap local(columns);
+      for (Index c = firstChunk; c < lastChunk; ++c)
       {
-        for (Index c = firstChunk; c < lastChunk; ++c)
+        if ((c - firstChunk) % ChunksOfArena == 0)
         {
-          if ((c - firstChunk) % ChunksOfArena == 0)
-          {
-            arena = std::make_shared<PageArena>();
-          }
-          const Index last = std::min<Index>(rows, (c + 1) * ChunkRows);
-          makeChunk(
-            static_cast<int>(c * ChunkRows), static_cast<int>(last), makeRow, local, scratch);
-          parts[c] = { scratch, arena };
+          arena = std::make_shared<PageArena>();
         }
-      };
-      if (columns <= FewColumns)
-      {
-        makeChunks(DenseColumnMap(columns));
-      }
-      else
-      {
-        makeChunks(LocalColumnMap());
+        const Index last = std::min<Index>(rows, (c + 1) * ChunkRows);
+        makeChunk(static_cast<int>(c * ChunkRows), static_cast<int>(last), makeRow, local, scratch);
+        parts[c] = { scratch, arena };
       }
     });
 

@@ -2,7 +2,7 @@
 #include "Solvers/CsrRows.h"
 
 #include "Solvers/AssembleRows.h"
-#include "Solvers/LocalColumnMap.h"
+#include "Solvers/ColumnMap.h"
 #include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/HugePages.h"
 
@@ -38,6 +38,10 @@ void addRow(const MixedPrecisionMatrix& B, int row, double value, const Add& add
 class SparseRow
 {
 public:
+  explicit SparseRow(int columns)
+    : columns_(columns)
+  {
+  }
   void clear()
   {
     this->columns_.clear();
@@ -57,7 +61,7 @@ public:
   double value(int at) const { return this->values_[at]; }
 
 private:
-  LocalColumnMap columns_;
+  ColumnMap columns_;
   std::vector<double> values_;
 };
 
@@ -68,7 +72,7 @@ CsrRows<double> productOfThree(
   return assembleRows<double>(R.rows, columns, monitor,
     [&]
     {
-      return [&, RA = SparseRow()](int i, const auto& add) mutable
+      return [&, RA = SparseRow(P.rows)](int i, const auto& add) mutable
       {
         RA.clear();
         const auto addToRA = [&RA](int column, double value) { RA.add(column, value); };
