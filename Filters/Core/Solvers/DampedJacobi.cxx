@@ -125,7 +125,7 @@ Eigen::Vector4d DampedJacobi::step(const CsrRows<float>& A, const Eigen::Vector4
         [&](Index i, const Eigen::Vector4f& product)
         {
           to[i] = from[i] + this->weight_[i] * (rhs[i] - product);
-          products += rhs[i].cwiseProduct(to[i]).cast<double>();
+          products += rhs[i].cast<double>().cwiseProduct(to[i].cast<double>());
         });
       return products;
     });

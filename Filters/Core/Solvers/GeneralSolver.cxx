@@ -178,13 +178,14 @@ void GeneralSolver::System::bicgstab(Rows& x, Row& norm2, const Row& goal2, Work
   Rows &residual = work.residual, &image = work.image, &second = work.second;
   FloatMultiVector& direction = work.direction;
 
-  // The preconditioner has single precision: scales each column's residual to about 1.
+  // The preconditioner has single precision: scales each column's residual to its size.
   Row scale = zero, unscale = zero;
   const auto rescale = [&]
   {
     for (int c = 0; c < 4; ++c)
     {
-      unscale[c] = norm2[c] > goal2[c] ? std::sqrt(norm2[c] / static_cast<double>(n)) : 0;
+      unscale[c] =
+        norm2[c] > goal2[c] ? std::sqrt(norm2[c] / static_cast<double>(n)) / Multigrid::Size : 0;
       scale[c] = unscale[c] > 0 ? 1 / unscale[c] : 0;
     }
   };

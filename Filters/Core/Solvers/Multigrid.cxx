@@ -274,7 +274,8 @@ Eigen::Vector4d Multigrid::cycle(
       return level.smoother.step(A, rhs, work, x, monitor);
     }
     return reproducibleSum(level.rows, monitor, Eigen::Vector4d(Eigen::Vector4d::Zero()),
-      [&](Index i) { return Eigen::Vector4d(rhs[i].cwiseProduct(x[i]).cast<double>()); });
+      [&](Index i)
+      { return Eigen::Vector4d(rhs[i].cast<double>().cwiseProduct(x[i].cast<double>())); });
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];

@@ -60,6 +60,9 @@ public:
     std::vector<Level> levels_;
   };
 
+  /// The size that right-hand sides should have. Solutions are then as far below 1 as these are
+  /// above it, since entries of the matrix have the square of this size.
+  static constexpr double Size = 1 << MixedPrecisionMatrix::LargestExponent / 2;
   /// Computes x = B rhs with a fixed B near the inverse of the matrix in its own units, symmetric
   /// positive definite for Symmetry::Symmetric. `rhs`, `work`, `x`: #rows each; the content of
   /// `work` is lost. Returns the products rhs^T x of the columns.

@@ -36,8 +36,8 @@ struct Workspace
   }
 
   Rows residual, image;
-  /// In units in which the first residual is about 1. The iterate moves along the direction as
-  /// rounded, so that rounding it costs no accuracy.
+  /// In units in which the first residual has Multigrid::Size. The iterate moves along the direction
+  /// as rounded, so that rounding it costs no accuracy.
   FloatMultiVector residual32, direction;
   Multigrid::Workspace multigrid;
 
@@ -207,13 +207,13 @@ SolveReport SpdSolver::Implementation::iterate(const RightHandSide& b, Rows& sol
     }
     before = now;
 
-    // The preconditioner has single precision: scales each column's residual to about 1.
+    // The preconditioner has single precision: scales each column's residual to its size.
     Row scale = zero, unscale = zero;
     for (int c = 0; c < 4; ++c)
     {
       if (norm2[c] > goal2[c])
       {
-        unscale[c] = std::sqrt(norm2[c] / static_cast<double>(n));
+        unscale[c] = std::sqrt(norm2[c] / static_cast<double>(n)) / Multigrid::Size;
         scale[c] = 1 / unscale[c];
       }
     }
@@ -345,8 +345,8 @@ SolveReport SpdSolver::Implementation::iterateConstrained(const Points& b,
   for (double before = HUGE_VAL; norm2 > goal2 && norm2 <= 0.25 * before;)
   {
     before = norm2;
-    // The preconditioner has single precision: scales the residual to about 1.
-    const double unscale = std::sqrt(norm2 / static_cast<double>(n));
+    // The preconditioner has single precision: scales the residual to its size.
+    const double unscale = std::sqrt(norm2 / static_cast<double>(n)) / Multigrid::Size;
     double rz = 0;
     for (bool first = true; norm2 > goal2; first = false)
     {
@@ -423,10 +423,11 @@ void SpdSolver::precondition(const Points& from, Points& to, Monitor& monitor) c
 {
   const Index n = from.rows();
   std::unique_ptr<Workspace> work = this->implementation_->takeWorkspace();
-  // Single precision: scales the numbers to about 1.
+  // Single precision: scales the numbers to the preconditioner's size.
   const double norm2 =
     reproducibleSum(n, monitor, 0., [&](Index i) { return from.row(i).squaredNorm(); });
-  const double unscale = norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) : 1;
+  const double unscale =
+    norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) / Multigrid::Size : 1;
   monitor.parallelFor(n, Grain,
     [&](Index first, Index last)
     {
