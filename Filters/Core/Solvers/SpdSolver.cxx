@@ -36,8 +36,8 @@ struct Workspace
   }
 
   Rows residual, image;
-  /// In units in which the first residual has Multigrid::Size. The iterate moves along the direction
-  /// as rounded, so that rounding it costs no accuracy.
+  /// In units in which the first residual has Multigrid::Size. The iterate moves along the
+  /// direction as rounded, so that rounding it costs no accuracy.
   FloatMultiVector residual32, direction;
   Multigrid::Workspace multigrid;
 
