@@ -205,13 +205,14 @@ SystemMethod::Rows FemWarp::assemble(
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   FemWarpSystem system;
-  CsrMatrix interior;
+  Rows rows;
   BadCells bad;
   ranks.together(
     [&]
     {
       system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
-      interior = joinRows(std::move(system.interior), monitor);
+      joinRows(std::move(system.interior), rows.interior, monitor);
+      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -236,7 +237,7 @@ SystemMethod::Rows FemWarp::assemble(
   {
     monitor.warn(warning);
   }
-  return { std::move(interior), std::move(system.coupling) };
+  return rows;
 }
 
 void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
@@ -250,13 +251,14 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
-  CsrMatrix interior;
+  Rows rows;
   ranks.together(
     [&]
     {
       system =
         logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
-      interior = joinRows(std::move(system.interior), monitor);
+      joinRows(std::move(system.interior), rows.interior, monitor);
+      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
@@ -288,6 +290,6 @@ SystemMethod::Rows LogBarrierWarp::assemble(
                  " took weights among a second ring of neighbors, " + std::to_string(counts[2]) +
                  " affine weights, " + std::to_string(counts[3]) + " FEMWARP's row.");
   }
-  return { std::move(interior), std::move(system.coupling) };
+  return rows;
 }
 }

@@ -14,7 +14,7 @@
  *
  * Preparing assembles the stiffness matrix (equations (9) to (12) of Staten et al.) and sets up a
  * multigrid preconditioner; evaluating solves for the three coordinates together by conjugate
- * gradients in about a dozen iterations. Memory: about 0.5 kB a node of a hexahedral mesh, 0.4 kB
+ * gradients in about a dozen iterations. Memory: about 0.5 kB a node of a hexahedral mesh, 0.35 kB
  * of a tetrahedral one.
  *
  * T. J. Baker, "Mesh movement and metamorphosis", Engineering with Computers 18 (2002)

@@ -15,7 +15,7 @@
  *
  * Preparing computes the weights (equation (13) of Staten et al.), about 1 microsecond a node, and
  * sets up a multigrid preconditioner; evaluating solves for the three coordinates together in about
- * a dozen iterations. Memory: about 0.6 kB a node of a hexahedral mesh.
+ * a dozen iterations. Memory: about 0.5 kB a node of a hexahedral mesh.
  *
  * S. M. Shontz, S. A. Vavasis, "A mesh warping algorithm based on weighted Laplacian smoothing",
  * Proc. 12th Int. Meshing Roundtable (2003) 147-158; M. L. Staten, S. J. Owen, S. M. Shontz, A. G.

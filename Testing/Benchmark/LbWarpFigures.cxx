@@ -9,8 +9,10 @@
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/NodeWeights.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace benchmark
 {
@@ -93,8 +95,9 @@ void Run::weights(const Problem& problem)
     rows.push_back(rowsWatch.seconds());
 
     const ThreadStopwatch systemWatch;
-    const morph::LogBarrierSystem made = morph::logBarrierSystem(
+    morph::LogBarrierSystem made = morph::logBarrierSystem(
       problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
+    const morph::MixedPrecisionMatrix joined(std::move(made.interior), *monitor);
     system.push_back(systemWatch.seconds());
 
     // The weights without the search for neighbors, ours and Eigen's, on the same numbers.

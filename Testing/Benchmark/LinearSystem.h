@@ -4,6 +4,7 @@
 #include "TwistedBrick.h"
 
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 
 namespace benchmark
 {

@@ -11,6 +11,7 @@
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/SpdSolver.h"
 
 #include <time.h>

@@ -8,6 +8,7 @@
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
 #include "Quality/MovableQuality.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Dense>

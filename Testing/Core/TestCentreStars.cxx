@@ -6,6 +6,7 @@
 #include "Mesh/Topology.h"
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 #include "Solvers/CsrRows.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 
 #include <gtest/gtest.h>
 
@@ -74,15 +75,35 @@ void expectSame(const CsrRows<double>& a, const CsrRows<double>& b)
 }
 }
 
-// Many columns are numbered by a hash map, few by a table.
+// Columns near each other are numbered by a table, and far ones by a hash map.
 TEST(CsrRows, TripleProductsDoNotDependOnHowColumnsAreNumbered)
 {
+  constexpr int Spread = 30000;
   const Factors of;
   const CsrRows<double> few = of.product(Factors::Columns, meshes::ThreadedMonitor(2));
-  expectSame(few, of.product(1 << 20, meshes::ThreadedMonitor(2)));
+  Factors apart;
+  apart.P.ownColumn *= Spread;
+  CsrRows<double> far = apart.product(Spread * Factors::Columns, meshes::ThreadedMonitor(2));
+  far.ownColumn /= Spread;
+  expectSame(few, far);
   const Eigen::MatrixXd expected =
     dense(of.R, Factors::Inner) * dense(of.A, Factors::Inner) * dense(of.P, Factors::Columns);
   EXPECT_LT((dense(few, Factors::Columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(CsrRows, TripleProductsTakeASplitMatrixInItsUnits)
+{
+  const Factors of;
+  CsrMatrix matrix(of.A.rows, Factors::Inner);
+  matrix.resizeNonZeros(static_cast<Index>(of.A.entries()));
+  std::copy_n(of.A.start, of.A.rows + 1, matrix.outerIndexPtr());
+  std::copy_n(of.A.column, of.A.entries(), matrix.innerIndexPtr());
+  std::copy_n(of.A.value, of.A.entries(), matrix.valuePtr());
+  meshes::ThreadedMonitor monitor(2);
+  const MixedPrecisionMatrix split(matrix, monitor);
+  CsrRows<double> found = tripleProduct(of.R, split, of.P, Factors::Columns, monitor);
+  found.ownValue *= split.unit();
+  expectSame(found, of.product(Factors::Columns, meshes::ThreadedMonitor(2)));
 }
 
 TEST(CsrRows, TripleProductsDoNotDependOnThreads)

@@ -7,6 +7,7 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Solvers/GeneralSolver.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/RowComponents.h"
 #include "Solvers/SpdSolver.h"
 #include "Untangling/InversionFree.h"
@@ -14,10 +15,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace morph;
 using motions::identical;
@@ -357,6 +363,71 @@ TYPED_TEST(GuessOf, TheSolverIsUsedOnlyWhereItIsBetterThanZero)
   x.setConstant(.1);
   EXPECT_EQ(solver.solve(Points::Zero(2 * n, 3), x, 1e-10, 500, monitor).iterations, 0);
   EXPECT_TRUE((x.array() == 0).all());
+}
+
+// A line whose unknowns are numbered at random: columns are too far from each other to be narrow.
+TYPED_TEST(GuessOf, TheSolverMayBeOfRowsInAnyOrder)
+{
+  constexpr int n = 100000;
+  std::mt19937 random(meshes::seed());
+  std::vector<int> number(n);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), random);
+  std::vector<Eigen::Triplet<double>> entries;
+  Points places = Points::Zero(n, 3), expected(n, 3);
+  for (int i = 0; i < n; ++i)
+  {
+    places(number[i], 0) = i;
+    expected.row(number[i]) << std::sin(1e-3 * i), 1, i % 3;
+    entries.emplace_back(number[i], number[i], 2.5);
+    if (i > 0)
+    {
+      entries.emplace_back(number[i], number[i - 1], -1);
+      entries.emplace_back(number[i - 1], number[i], -1);
+    }
+  }
+  CsrMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  meshes::ThreadedMonitor monitor(2);
+  MixedPrecisionMatrix matrix(A, monitor);
+  TypeParam solver;
+  solver.prepare(std::move(matrix), places, monitor);
+  EXPECT_TRUE(solver.matrix().rounded().column != nullptr);
+  Points x = Points::Zero(n, 3);
+  solver.solve(Points(A * expected), x, 1e-12, 100, monitor);
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// Single precision has room for factors up to 1e38.
+TYPED_TEST(GuessOf, TheSolverSaysWhereEntriesAreTooDifferent)
+{
+  constexpr int n = 1000; // more than the multigrid factorises
+  for (const double small : { 1e-30, 1e-45 })
+  {
+    CsrMatrix A(n, n);
+    for (int i = 0; i < n; ++i)
+    {
+      A.insert(i, i) = i % 2 == 0 ? 1 : small;
+    }
+    meshes::ThreadedMonitor monitor(2);
+    const Points places = Points::Random(n, 3), b = Points::Constant(n, 3, 1);
+    Points x = Points::Zero(n, 3);
+    TypeParam solver;
+    std::string message;
+    const auto solve = [&]
+    {
+      solver.prepare(MixedPrecisionMatrix(A, monitor), places, monitor);
+      solver.solve(b, x, 1e-10, 100, monitor);
+    };
+    if (small < 1e-38)
+    {
+      EXPECT_EQ(motions::kindOf(solve, message), Error::Kind::Singular);
+      EXPECT_NE(message.find("1e38"), std::string::npos) << message;
+      continue;
+    }
+    solve();
+    EXPECT_LE((A * x - b).cwiseAbs().maxCoeff(), 1e-9);
+  }
 }
 
 TYPED_TEST(GuessOf, TheSolverIsOfAnySize)

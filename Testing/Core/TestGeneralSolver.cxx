@@ -5,6 +5,7 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Solvers/Gmres.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "WatchingMonitor.h"
 

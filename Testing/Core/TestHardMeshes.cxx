@@ -6,6 +6,7 @@
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/Topology.h"
 #include "Motions.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Untangling/Smoothing.h"
 

@@ -6,6 +6,7 @@
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/LogBarrierWeights.h"
 #include "Mesh/CellShape.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>

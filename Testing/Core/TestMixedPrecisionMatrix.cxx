@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
+#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/MixedPrecisionMatrix.h"
+#include "Solvers/RowProducts.h"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +75,19 @@ TEST(MixedPrecisionMatrix, TinyEntriesStayTinyAndOthersExact)
   EXPECT_TRUE(std::isnan(matrix.value(6)));
 }
 
+TEST(MixedPrecisionMatrix, TakesAMatrixThatIsNotCompressed)
+{
+  CsrMatrix loose(3, 3);
+  loose.reserve(Eigen::VectorXi::Constant(3, 2));
+  loose.insert(0, 0) = 2;
+  loose.insert(2, 1) = -3;
+  ASSERT_FALSE(loose.isCompressed());
+  Monitor monitor;
+  const MixedPrecisionMatrix matrix(loose, monitor);
+  EXPECT_EQ(matrix.entries(), 2u);
+  EXPECT_EQ((matrix.toCsr() - loose).norm(), 0);
+}
+
 TEST(MixedPrecisionMatrix, FromChunksIsThatOfTheJoinedRows)
 {
   // Two chunks and a part of one, with rows of 0 to 6 entries.
@@ -99,7 +114,8 @@ TEST(MixedPrecisionMatrix, FromChunksIsThatOfTheJoinedRows)
     return chunked;
   };
   meshes::ThreadedMonitor monitor(3);
-  const CsrMatrix joined = joinRows(make(random), monitor);
+  CsrMatrix joined;
+  joinRows(make(random), joined, monitor);
   const MixedPrecisionMatrix matrix(make(random), monitor);
   EXPECT_EQ(joined.rows(), Rows);
   EXPECT_EQ(matrix.rows(), Rows);
@@ -155,6 +171,12 @@ TEST(MixedPrecisionMatrix, MayBeEmpty)
     EXPECT_EQ(matrix.unit(), 1);
     EXPECT_EQ(matrix.toCsr().nonZeros(), 0);
     EXPECT_EQ(matrix.diagonal(monitor).norm(), 0);
+    MultiVector x(3, MultiVectorRow::Ones()), products(3, MultiVectorRow::Ones());
+    rowProducts(matrix, x.data(), 0, none.rows(), products.data());
+    for (Index i = 0; i < none.rows(); ++i)
+    {
+      EXPECT_EQ(products[i], MultiVectorRow(MultiVectorRow::Zero()));
+    }
   }
   EXPECT_EQ(MixedPrecisionMatrix().entries(), 0u);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace morph;
@@ -126,10 +127,11 @@ TEST(RowProducts, OfNarrowColumnsHaveTheSameBits)
   }
   CsrMatrix A(Rows, Rows);
   A.setFromTriplets(entries.begin(), entries.end());
-  Monitor monitor;
+  meshes::ThreadedMonitor monitor(3);
   const MixedPrecisionMatrix wide(A, monitor);
-  MixedPrecisionMatrix narrow(A, monitor);
-  ASSERT_TRUE(narrow.narrowColumns(monitor));
+  MixedPrecisionMatrix before(A, monitor);
+  ASSERT_TRUE(before.narrowColumns(monitor));
+  const MixedPrecisionMatrix narrow = std::move(before);
   EXPECT_LT(narrow.memory(), wide.memory());
   EXPECT_EQ((narrow.toCsr() - A).norm(), 0);
   FloatMultiVector x(Rows), single[2] = { FloatMultiVector(Rows), FloatMultiVector(Rows) };

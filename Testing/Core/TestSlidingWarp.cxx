@@ -98,7 +98,9 @@ struct Block
     }
     ThreadedMonitor monitor;
     FemWarpSystem system = femWarpSystem(this->mesh, unknown, this->prescribed, {}, monitor);
-    const Eigen::MatrixXd A = joinRows(std::move(system.interior), monitor);
+    CsrMatrix interior;
+    joinRows(std::move(system.interior), interior, monitor);
+    const Eigen::MatrixXd A = interior;
     const Points given =
       rows(this->moved, this->prescribed) - rows(this->mesh.points, this->prescribed);
     const Points b = -(system.coupling * given);

@@ -2,6 +2,7 @@
 #include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
 #include "BoundaryMorphing/MotionFit.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
 

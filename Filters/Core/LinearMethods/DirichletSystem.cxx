@@ -2,6 +2,7 @@
 #include "LinearMethods/DirichletSystem.h"
 
 #include "Mesh/UnknownOrdering.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Support/HugePages.h"
 

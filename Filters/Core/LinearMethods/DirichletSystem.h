@@ -5,7 +5,6 @@
 #include "Mesh/NodePartition.h"
 #include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -90,6 +89,7 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
 struct DirichletEquations;
+class MixedPrecisionMatrix;
 
 /// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
 class AffineResidual

@@ -5,6 +5,7 @@
 #include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 

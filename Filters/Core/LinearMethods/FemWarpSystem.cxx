@@ -253,7 +253,7 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vecto
   monitor.check();
   monitor.progress(0.5);
   system.interior = std::move(chunks.interior);
-  system.coupling = joinRows(std::move(chunks.coupling), monitor);
+  joinRows(std::move(chunks.coupling), system.coupling, monitor);
   return system;
 }
 

@@ -2,6 +2,7 @@
 #include "LinearMethods/GraphLaplace.h"
 
 #include "Mesh/CellEdges.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
 

@@ -5,6 +5,7 @@
 #include "Mesh/Topology.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace morph
 {
@@ -114,7 +115,7 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   }
   system.meanIterations = n > 0 ? static_cast<double>(iterations) / static_cast<double>(n) : 0;
   system.interior = std::move(chunks.interior);
-  system.coupling = joinRows(std::move(chunks.coupling), monitor);
+  joinRows(std::move(chunks.coupling), system.coupling, monitor);
   return system;
 }
 }

@@ -4,6 +4,7 @@
 #include "LinearMethods/FemWarpSystem.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <utility>

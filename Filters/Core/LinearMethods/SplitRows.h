@@ -53,7 +53,7 @@ void splitRows(
     {
       auto makeRow = makeRows();
       SplitRows scratch; // keeps its capacity between chunks
-      // Two arenas, so that the interior's memory is freed before the coupling is joined.
+      // Two arenas: the parts are joined, and freed, one after the other.
       std::shared_ptr<PageArena> interior, coupling;
       for (Index c = first; c < last; ++c)
       {

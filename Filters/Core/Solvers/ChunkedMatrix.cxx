@@ -23,9 +23,8 @@ void ChunkedMatrix::setStarts(int* start) const
   }
 }
 
-CsrMatrix joinRows(ChunkedMatrix chunked, Monitor& monitor)
+void joinRows(ChunkedMatrix chunked, CsrMatrix& matrix, Monitor& monitor)
 {
-  CsrMatrix matrix;
   allocateRows(matrix, chunked.rows, chunked.columns, chunked.entries());
   const int* start = matrix.outerIndexPtr();
   chunked.setStarts(matrix.outerIndexPtr());
@@ -38,6 +37,5 @@ CsrMatrix joinRows(ChunkedMatrix chunked, Monitor& monitor)
         chunked.chunks[c].copyAndRelease(matrix.innerIndexPtr() + at, matrix.valuePtr() + at);
       }
     });
-  return matrix;
 }
 }

@@ -22,6 +22,6 @@ struct ChunkedMatrix
   void setStarts(int* start) const;
 };
 
-/// Returns the matrix in compressed rows, and frees the chunks one by one.
-CsrMatrix joinRows(ChunkedMatrix chunked, Monitor& monitor);
+/// Moves the rows into `matrix`, and frees the chunks one by one.
+void joinRows(ChunkedMatrix chunked, CsrMatrix& matrix, Monitor& monitor);
 }

@@ -42,9 +42,9 @@ struct CsrRows
   /// Returns the bytes that a product reads, without vectors.
   double bytesRead() const
   {
-    const std::size_t column = this->step ? sizeof(std::uint16_t) : sizeof(int);
+    const std::size_t ofColumn = this->step ? sizeof(std::uint16_t) : sizeof(int);
     return static_cast<double>(
-      (column + sizeof(Scalar)) * this->entries() + sizeof(int) * (this->rows + std::size_t(1)));
+      (ofColumn + sizeof(Scalar)) * this->entries() + sizeof(int) * (this->rows + std::size_t(1)));
   }
   /// Refers to the own arrays.
   void adopt()
@@ -63,7 +63,8 @@ CsrRows<float> transpose(const CsrRows<float>& A, int columns);
 
 /// Returns R A P in double precision; P has `columns` columns. The result does not depend on
 /// threads. Throws Error if an int cannot number its entries. Cost: the products R A and (R A) P.
-/// No product is stored but the result: A P of a hexahedral mesh has 0.24 kB a row.
+/// No product is stored but the result: A P of a hexahedral mesh has 0.24 kB a row. Each range of
+/// threads has two tables of at most 1 MiB.
 ///@{
 CsrRows<double> tripleProduct(const CsrRows<float>& R, const CsrRows<double>& A,
   const CsrRows<float>& P, int columns, Monitor& monitor);

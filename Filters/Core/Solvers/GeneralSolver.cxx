@@ -2,6 +2,7 @@
 #include "Solvers/GeneralSolver.h"
 
 #include "Solvers/Gmres.h"
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
 #include "Solvers/RowProducts.h"
@@ -454,7 +455,8 @@ struct GeneralSolver::Implementation
     if (!this->transposed)
     {
       auto fresh = std::make_unique<System>();
-      fresh->A = MixedPrecisionMatrix(CsrMatrix(this->forward.A.toCsr().transpose()), monitor);
+      const CsrMatrix matrix = this->forward.A.toCsr().transpose();
+      fresh->A = MixedPrecisionMatrix(matrix, monitor);
       fresh->components = this->forward.components;
       fresh->findNorm(monitor);
       fresh->preconditioner.prepareTransposed(this->forward.preconditioner, fresh->A);

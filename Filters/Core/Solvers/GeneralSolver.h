@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -13,6 +12,8 @@
 
 namespace morph
 {
+class MixedPrecisionMatrix;
+
 /// Solves A X = B and A^T X = B by BiCGSTAB, with A sparse and close to an M-matrix. B has three
 /// or four columns; one pass over the matrix serves all of them. The right preconditioner is a
 /// smoothed-aggregation multigrid of A, or of its transpose for the transposed system. Source: van
@@ -33,8 +34,9 @@ public:
     int fallBackIterations = 0; ///< of GMRES, among `iterations`
   };
 
-  /// Takes over `matrix`. `coordinates`: #rows x 3, positions of the nodes, as the multigrid groups
-  /// near neighbors. Throws SingularRows if a diagonal entry is not positive.
+  /// Takes over `matrix`, whose columns are not narrow yet. `coordinates`: #rows x 3, positions of
+  /// the nodes, as the multigrid groups near neighbors. Throws SingularRows if a diagonal entry is
+  /// not positive.
   void prepare(MixedPrecisionMatrix matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// Solves A x = b. `x`: #rows x 3, the first guess, then the solution. A guess with a larger

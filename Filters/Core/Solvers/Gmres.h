@@ -13,7 +13,7 @@ namespace morph
 /// from the right by an incomplete factorisation with thresholds (Saad, Numer. Linear Algebra
 /// Appl. 1 (1994) 387-402). Eigen's, column by column; sequential. GeneralSolver falls back on it:
 /// unlike BiCGSTAB it does not break down. Memory while it runs: three times that of the matrix,
-/// and 250 bytes a row.
+/// 250 bytes a row, and the matrix, which GeneralSolver copies for it.
 class Gmres
 {
 public:

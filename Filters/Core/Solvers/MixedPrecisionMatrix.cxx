@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/MixedPrecisionMatrix.h"
 
+#include "Solvers/ChunkedMatrix.h"
 #include "Support/HugePages.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace morph
@@ -18,9 +17,10 @@ namespace
 constexpr Index Grain = 65536; // entries
 constexpr Index RowGrain = 4096;
 
-/// Returns the largest finite size, and at least `most`.
-double largestSize(const double* value, Index count, double most)
+/// Returns the largest finite size; 0 where there is none.
+double largestSize(const double* value, Index count)
 {
+  double most = 0;
   for (Index k = 0; k < count; ++k)
   {
     const double size = std::abs(value[k]);
@@ -32,9 +32,15 @@ double largestSize(const double* value, Index count, double most)
 
 MixedPrecisionMatrix::MixedPrecisionMatrix(const CsrMatrix& matrix, Monitor& monitor)
 {
-  assert(matrix.isCompressed());
+  if (!matrix.isCompressed())
+  {
+    CsrMatrix compressed = matrix;
+    compressed.makeCompressed();
+    *this = MixedPrecisionMatrix(compressed, monitor);
+    return;
+  }
   const Index entries = matrix.nonZeros();
-  this->allocate(matrix.rows(), matrix.cols(), entries, largestSize(matrix.valuePtr(), entries, 0));
+  this->allocate(matrix.rows(), matrix.cols(), entries, largestSize(matrix.valuePtr(), entries));
   std::copy_n(matrix.outerIndexPtr(), matrix.rows() + 1, this->rounded_.ownStart.data());
   monitor.parallelFor(entries, Grain,
     [&](Index first, Index last)
@@ -55,7 +61,7 @@ MixedPrecisionMatrix::MixedPrecisionMatrix(ChunkedMatrix chunked, Monitor& monit
     {
       for (Index c = first; c < last; ++c)
       {
-        largest[c] = largestSize(chunks[c].values(), static_cast<Index>(chunks[c].entries()), 0);
+        largest[c] = largestSize(chunks[c].values(), static_cast<Index>(chunks[c].entries()));
       }
     });
   this->allocate(chunked.rows, chunked.columns, chunked.entries(),
@@ -226,6 +232,7 @@ double MixedPrecisionMatrix::bytesRead() const
 
 std::size_t MixedPrecisionMatrix::memory() const
 {
-  return static_cast<std::size_t>(this->bytesRead());
+  return sizeof(int) * (this->rounded_.ownStart.size() + this->rest_.size()) +
+         sizeof(float) * this->rounded_.ownValue.size() + this->columns_.bytes();
 }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/CsrRows.h"
 #include "Support/Monitor.h"
@@ -16,9 +15,11 @@
 
 namespace morph
 {
+struct ChunkedMatrix;
+
 /// A sparse matrix in compressed rows that is read in single or in double precision. It keeps the
 /// entries rounded to single precision, and what this leaves of their bits in another array. So a
-/// preconditioner reads 8 bytes an entry, the rest 12, and there is no copy. narrowColumns() makes
+/// preconditioner reads 8 bytes an entry and all others 12, without a copy. narrowColumns() makes
 /// this 6 and 10.
 ///
 /// Values are exact, with one exception: an entry below 2^-187 of the largest gets about this size.
@@ -31,11 +32,11 @@ public:
   static constexpr int LargestExponent = 60;
 
   MixedPrecisionMatrix() = default;
-  /// Copies `matrix`, which is compressed.
+  /// Copies `matrix`.
   MixedPrecisionMatrix(const CsrMatrix& matrix, Monitor& monitor);
   /// Joins the rows, and frees the chunks one by one.
   MixedPrecisionMatrix(ChunkedMatrix chunked, Monitor& monitor);
-  // Copies would refer to the other's arrays.
+  // Copies would refer to the other's arrays. What was moved from can be assigned to, no more.
   MixedPrecisionMatrix(const MixedPrecisionMatrix&) = delete;
   MixedPrecisionMatrix& operator=(const MixedPrecisionMatrix&) = delete;
   MixedPrecisionMatrix(MixedPrecisionMatrix&&) noexcept = default;
@@ -52,8 +53,9 @@ public:
   /// A power of two.
   double unit() const { return this->unit_; }
 
-  /// Replaces the columns by NarrowColumns where all fit, without other memory; functions that read
-  /// CsrRows::column must not be called any more. Returns whether they fit.
+  /// Replaces the columns by NarrowColumns where all fit, in their own memory. Functions that read
+  /// CsrRows::column must not be called any more. Returns whether they fit. After an exception the
+  /// matrix has no meaning.
   bool narrowColumns(Monitor& monitor);
   /// Calls use(column, k) for the entries k of a row.
   template <typename Use>

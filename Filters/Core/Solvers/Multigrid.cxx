@@ -8,8 +8,10 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace morph
 {
@@ -26,6 +28,7 @@ CsrRows<float> referTo(const CsrRows<float>& rows)
   result.rows = rows.rows;
   result.start = rows.start;
   result.column = rows.column;
+  result.step = rows.step;
   result.value = rows.value;
   return result;
 }
@@ -105,6 +108,7 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   this->symmetricCoarsest_.reset();
   this->generalCoarsest_.reset();
   this->finest_ = &matrix.rounded();
+  assert(!this->finest_->step);
   float largest = this->addLevel(*this->finest_, monitor);
   if (largest == 0)
   {

@@ -37,8 +37,8 @@ public:
   };
 
   /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
-  /// Its columns may become narrow afterwards. `coordinates`: #rows x 3. Throws Error of kind
-  /// Singular if diagonal entries differ by a factor of 1e38 or more.
+  /// Its columns may become narrow afterwards, not before. `coordinates`: #rows x 3. Throws Error
+  /// of kind Singular where a diagonal entry is about 1e38 times smaller than the largest entry.
   void prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
     const ConstPoints& coordinates, Monitor& monitor);
   /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this

@@ -5,12 +5,14 @@
 #include "Support/UnionFind.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace morph
 {
 RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor)
 {
   constexpr Index Grain = 4096;
+  assert(!matrix.step);
   const int rows = matrix.rows;
   UnionFind<int> components(rows);
   monitor.parallelFor(rows, Grain,

@@ -13,7 +13,8 @@ namespace morph
 {
 /// Sets products[i - first] to (A x)_i for the rows in [first, last). `x`: a row for each column
 /// of A. It uses AVX2 where the processor has it; the bits are the same without. Cost: measured on
-/// hexahedra, 0.6 ns an entry and thread with AVX2 and 0.75 without.
+/// hexahedra with narrow columns and AVX2, 0.6 ns an entry and thread in single precision, and 0.9
+/// in double.
 ///@{
 void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
   Eigen::Vector4f* products);

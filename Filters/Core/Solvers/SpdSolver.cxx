@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/SpdSolver.h"
 
+#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
 #include "Solvers/RowProducts.h"
@@ -478,6 +479,11 @@ SolveReport SpdSolver::solve(
   const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
 {
   return solveColumns(*this, b, x, tolerance, maxIterations, monitor);
+}
+
+Eigen::VectorXd SpdSolver::diagonal(Monitor& monitor) const
+{
+  return this->matrix().diagonal(monitor);
 }
 
 const MixedPrecisionMatrix& SpdSolver::matrix() const

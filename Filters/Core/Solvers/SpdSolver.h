@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -16,6 +15,8 @@
 
 namespace morph
 {
+class MixedPrecisionMatrix;
+
 /// Rows of a system whose three columns are the coordinates of nodes, and the directions in which
 /// these may change. All other rows are free.
 struct RowConstraints
@@ -35,8 +36,9 @@ public:
   SpdSolver(SpdSolver&&) noexcept;
   SpdSolver& operator=(SpdSolver&&) noexcept;
 
-  /// Takes over `matrix`. `coordinates`: #rows x 3, positions of the nodes, as the multigrid groups
-  /// near neighbors. Throws SingularRows if a diagonal entry is not positive.
+  /// Takes over `matrix`, whose columns are not narrow yet. `coordinates`: #rows x 3, positions of
+  /// the nodes, as the multigrid groups near neighbors. Throws SingularRows if a diagonal entry is
+  /// not positive.
   void prepare(MixedPrecisionMatrix matrix, const ConstPoints& coordinates, Monitor& monitor);
 
   /// Solves A x = b. `x`: #rows x 3, the first guess, then the solution. A guess with a larger
@@ -65,6 +67,9 @@ public:
   void precondition(const Points& from, Points& to, Monitor& monitor) const;
   /// Returns A x, #rows x 3.
   Points product(const Points& x, Monitor& monitor) const;
+
+  /// Returns the matrix's diagonal.
+  Eigen::VectorXd diagonal(Monitor& monitor) const;
 
   const MixedPrecisionMatrix& matrix() const;
   const RowComponents& components() const;

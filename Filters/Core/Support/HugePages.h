@@ -20,7 +20,8 @@ void adviseHugePages(void* data, std::size_t bytes) noexcept;
 ///@{
 void* allocatePages(std::size_t bytes);
 void freePages(void* data, std::size_t bytes) noexcept;
-/// Gives back the whole pages behind the first `kept` bytes. Returns how many bytes are left.
+/// Gives back the whole pages behind the first `kept` bytes. Returns how many bytes are left: all,
+/// on other systems than Linux, unless `kept` is 0.
 std::size_t freePagesBehind(void* data, std::size_t bytes, std::size_t kept) noexcept;
 ///@}
 

@@ -15,7 +15,7 @@ public:
   /// `femWarp`: prepared, and prepared no more while this object lives.
   WarpPreconditioner(const FemWarp& femWarp, Monitor& monitor)
     : femWarp_(femWarp)
-    , diagonal_(femWarp.solver().matrix().diagonal(monitor))
+    , diagonal_(femWarp.solver().diagonal(monitor))
   {
   }
   void apply(const Points& from, Points& to, Monitor& monitor) const override
