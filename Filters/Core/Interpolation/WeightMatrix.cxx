@@ -2,6 +2,7 @@
 #include "Interpolation/WeightMatrix.h"
 
 #include "Support/Error.h"
+#include "Support/Prefetch.h"
 #include "Support/SimdDispatch.h"
 
 #include <algorithm>
@@ -23,27 +24,35 @@ using PaddedPoints = WeightMatrix::PaddedPoints;
 /// Four numbers a site fill vector registers; three do not.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-/// Computes the weighted sum of `n` sites, three numbers each. Two partial sums avoid waiting for
-/// the preceding addition.
+inline __attribute__((always_inline)) const Four& site(const double* sites, std::int32_t column)
+{
+  return *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column));
+}
+
+/// Computes the weighted sum of `n` sites, three numbers each. Four partial sums hide the latency
+/// of an addition.
 inline __attribute__((always_inline)) void weightedSum(
   const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
 {
-  Four even = { 0, 0, 0, 0 }, odd = even;
+  Four first = { 0, 0, 0, 0 }, second = first, third = first, fourth = first;
   Index e = 0;
-  for (; e + 1 < n; e += 2)
+  for (; n - e > 3; e += 4)
   {
-    even += weight[e] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e]));
-    odd +=
-      weight[e + 1] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e + 1]));
+    prefetchAhead(weight, e);
+    prefetchAhead(column, e);
+    first += weight[e] * site(sites, column[e]);
+    second += weight[e + 1] * site(sites, column[e + 1]);
+    third += weight[e + 2] * site(sites, column[e + 2]);
+    fourth += weight[e + 3] * site(sites, column[e + 3]);
   }
-  if (e < n)
+  first = (first + third) + (second + fourth);
+  for (; e < n; ++e)
   {
-    even += weight[e] * *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column[e]));
+    first += weight[e] * site(sites, column[e]);
   }
-  even += odd;
-  sum[0] = even[0];
-  sum[1] = even[1];
-  sum[2] = even[2];
+  sum[0] = first[0];
+  sum[1] = first[1];
+  sum[2] = first[2];
 }
 
 struct MultiplyRow

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/RowProducts.h"
 
+#include "Support/Prefetch.h"
 #include "Support/Simd.h"
 #include "Support/SimdDispatch.h"
 #include "Support/SimdMath.h"
@@ -38,6 +39,7 @@ template <Index Doubles>
 struct WideColumn
 {
   using Stored = int;
+  static constexpr int Lines = 2;
   static MORPH_SIMD_INLINE Index before(Index) { return 0; }
   static MORPH_SIMD_INLINE void next(const int* stored, Index& at) { at = Doubles * *stored; }
 };
@@ -45,6 +47,7 @@ template <Index Doubles>
 struct NarrowColumn
 {
   using Stored = std::uint16_t;
+  static constexpr int Lines = 1;
   static MORPH_SIMD_INLINE Index before(Index row) { return Doubles * NarrowColumns::before(row); }
   static MORPH_SIMD_INLINE void next(const std::uint16_t* stored, Index& at)
   {
@@ -53,21 +56,7 @@ struct NarrowColumn
 };
 ///@}
 
-/// Asks for the part of an array that is needed about 20 rows after its entry k. Processors do so
-/// by themselves, but not across pages of memory. This saves 15 to 25 % of a product on hexahedra.
-template <typename T>
-MORPH_SIMD_INLINE void prefetch(const T* array, int k)
-{
-  constexpr std::uintptr_t Ahead = 512, Line = 64;
-  // No pointer arithmetic: the place may lie beyond the array, where a prefetch does no harm.
-  const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(array) + sizeof(T) * (k + Ahead);
-  __builtin_prefetch(reinterpret_cast<const void*>(place));
-  if (sizeof(T) > 2)
-  {
-    __builtin_prefetch(reinterpret_cast<const void*>(place + Line));
-  }
-}
-
+// Asking for memory ahead saves 15 to 25 % of a product on hexahedra. Their rows have two lines.
 // Each body makes all rows by itself, as its pointers then stay in registers.
 // Four sums hide the latency of an addition. They are added as (0 + 2) + (1 + 3), and then the
 // entries that are left.
@@ -88,9 +77,9 @@ struct DoubleProduct
       Index at = Column::before(i);
       int k = start[i];
       const int end = start[i + 1];
-      prefetch(column, k);
-      prefetch(rounded, k);
-      prefetch(rest, k);
+      prefetchAhead(column, k, Column::Lines);
+      prefetchAhead(rounded, k, 2);
+      prefetchAhead(rest, k, 2);
       for (; end - k > 3; k += 4)
       {
         // Written out: GCC 12 leaves a loop here as one, and copies rows through memory.
@@ -153,8 +142,8 @@ struct FloatProduct
       Index at = Column::before(i);
       int k = start[i];
       const int end = start[i + 1];
-      prefetch(column, k);
-      prefetch(value, k);
+      prefetchAhead(column, k, Column::Lines);
+      prefetchAhead(value, k, 2);
       for (; end - k > 3; k += 4)
       {
         std::memcpy(&values, value + k, sizeof(values));
