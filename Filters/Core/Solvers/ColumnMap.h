@@ -70,7 +70,7 @@ private:
   static constexpr int None = -1, MostWidth = 1 << 18; // stays in a core's cache
 
   /// At least width_ for columns that the table does not have.
-  std::uint32_t place(int column) const { return static_cast<std::uint32_t>(column) - this->base_; }
+  std::size_t place(int column) const { return static_cast<std::size_t>(column) - this->base_; }
   int localIndexOfFar(int column)
   {
     const auto far = static_cast<std::size_t>(this->far_.localIndex(column));

@@ -124,23 +124,20 @@ void MixedPrecisionMatrix::store(const double* value, Index count, Index k)
 
 bool MixedPrecisionMatrix::columnsAreNear(Monitor& monitor) const
 {
-  const CsrRows<float>& A = this->rounded_;
   std::atomic<bool> areNear = true;
-  monitor.parallelFor(A.rows, RowGrain,
+  monitor.parallelFor(this->rows(), RowGrain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last && areNear; ++i)
       {
-        Index before = NarrowColumns::before(i);
-        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        {
-          const Index step = A.column[k] - before;
-          if (step < 0 || step > NarrowColumns::MostStep)
+        this->forSteps(i,
+          [&](int, Index step)
           {
-            areNear = false;
-          }
-          before = A.column[k];
-        }
+            if (step < 0 || step > NarrowColumns::MostStep)
+            {
+              areNear = false;
+            }
+          });
       }
     });
   return areNear;
@@ -170,12 +167,8 @@ bool MixedPrecisionMatrix::narrowColumns(Monitor& monitor)
       {
         for (Index i = begin + first; i < begin + last; ++i)
         {
-          Index before = NarrowColumns::before(i);
-          for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-          {
-            steps[k - start] = static_cast<std::uint16_t>(A.column[k] - before);
-            before = A.column[k];
-          }
+          this->forSteps(
+            i, [&](int k, Index step) { steps[k - start] = static_cast<std::uint16_t>(step); });
         }
       });
     constexpr std::size_t Size = sizeof(std::uint16_t);

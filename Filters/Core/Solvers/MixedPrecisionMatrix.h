@@ -72,12 +72,14 @@ public:
 
   double value(int k) const { return this->unit_ * this->inUnits(k); }
   /// value() in units of unit().
-  double inUnits(int k) const
+  double inUnits(int k) const { return joined(this->rounded_.value[k], this->rest_[k]); }
+  /// The number that a rounded entry and its rest stand for. Always inlined, for any processor.
+  static inline __attribute__((always_inline)) double joined(float rounded, int rest)
   {
-    double number = this->rounded_.value[k];
+    double number = rounded;
     std::int64_t bits;
     std::memcpy(&bits, &number, sizeof(bits));
-    bits += this->rest_[k];
+    bits += rest;
     std::memcpy(&number, &bits, sizeof(bits));
     return number;
   }
@@ -93,6 +95,18 @@ public:
 private:
   /// Where the columns are made.
   int* columnsInWork() { return reinterpret_cast<int*>(this->columns_.data()); }
+  /// Calls use(k, step) for the entries k of a row whose columns are not narrow.
+  template <typename Use>
+  void forSteps(Index row, const Use& use) const
+  {
+    Index before = NarrowColumns::before(row);
+    this->forRow(row,
+      [&](int column, int k)
+      {
+        use(k, column - before);
+        before = column;
+      });
+  }
   bool columnsAreNear(Monitor& monitor) const;
   void allocate(Index rows, Index columns, Index entries, double largest);
   /// Sets the entries from k on to `count` values.

@@ -102,7 +102,7 @@ struct DoubleProduct
       {
         Column::next(column + k, at);
         load(x, at, row);
-        all += joinValue(rounded[k], rest[k]) * row;
+        all += MixedPrecisionMatrix::joined(rounded[k], rest[k]) * row;
       }
       all *= unit; // a power of two: nothing is rounded
       std::memcpy(products[i - first].data(), &all, sizeof(all));
@@ -114,15 +114,6 @@ private:
   {
     return reinterpret_cast<SimdDouble4>(
       reinterpret_cast<SimdInteger4>(widened(rounded)) + widened(rest));
-  }
-  static MORPH_SIMD_INLINE double joinValue(float rounded, int rest)
-  {
-    double number = rounded;
-    std::int64_t bits;
-    std::memcpy(&bits, &number, sizeof(bits));
-    bits += rest;
-    std::memcpy(&number, &bits, sizeof(bits));
-    return number;
   }
 };
 
