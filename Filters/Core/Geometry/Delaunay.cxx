@@ -136,9 +136,6 @@ Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 
   const Exact::Point_3 centre = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
   return { CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z()) };
 }
-
-/// The face opposite corner k, ordered so that the face and corner k are positively oriented.
-constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
 }
 
 void Delaunay::build(const Points& absolute, Monitor& monitor)
@@ -195,6 +192,7 @@ void Delaunay::replace(Points sites, std::vector<Tetrahedron> tetrahedra)
 
 int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
 {
+  constexpr auto& Faces = Tetrahedron::Faces;
   int before = Outside; // the previous tetrahedron: x is not on its side
   int here = start;
   std::uint32_t random = 0;

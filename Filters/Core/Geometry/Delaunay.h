@@ -15,7 +15,7 @@ namespace morph
 /// The tessellation is not unique where more than four sites lie on one empty sphere, as on every
 /// structured boundary. CGAL then decides by a symbolic perturbation in lexicographic order of the
 /// coordinates. So the same set of sites gives the same tetrahedra in any order; rotated sites may
-/// give others (CosphericalCells.h).
+/// give others (CosphericalStars.h).
 ///
 /// All coordinates here are relative to origin(), which lies near sites that are far from 0. This
 /// shift is exact, so the tessellation does not change, and rounding is relative to the sites'
@@ -29,6 +29,14 @@ public:
   {
     std::array<int, 4> sites;     ///< positively oriented, as VTK orders them
     std::array<int, 4> neighbors; ///< neighbors[k] shares the face opposite sites[k]
+
+    /// The face opposite corner k, ordered so that the face and corner k are positively oriented.
+    static constexpr int Faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+    /// Returns that face's sites.
+    std::array<int, 3> face(int k) const
+    {
+      return { this->sites[Faces[k][0]], this->sites[Faces[k][1]], this->sites[Faces[k][2]] };
+    }
   };
 
   /// `absolute`: the sites' coordinates, #sites x 3, finite and distinct. Throws Error of kind

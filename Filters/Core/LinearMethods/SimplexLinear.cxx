@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexLinear.h"
 
-#include "Geometry/CosphericalCells.h"
+#include "Geometry/CosphericalStars.h"
 #include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
 #include "LinearMethods/BridgingTetrahedra.h"
@@ -9,6 +9,8 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -18,11 +20,30 @@ namespace
 {
 constexpr Index Grain = 4096;
 
-std::vector<int> distinct(std::vector<int> values)
+/// Returns the tetrahedra with nodes in them, ascending. `far`: rows that do not count.
+std::vector<int> usedTetrahedra(
+  const PointLocation& enclosing, const std::vector<Index>& far, std::size_t tetrahedra)
 {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
+  std::vector<std::uint8_t> isUsed(tetrahedra, 0);
+  auto nextFar = far.begin();
+  for (std::size_t row = 0; row < enclosing.tetrahedron.size(); ++row)
+  {
+    if (nextFar != far.end() && *nextFar == static_cast<Index>(row))
+    {
+      ++nextFar;
+      continue;
+    }
+    isUsed[enclosing.tetrahedron[row]] = 1;
+  }
+  std::vector<int> used;
+  for (std::size_t t = 0; t < tetrahedra; ++t)
+  {
+    if (isUsed[t])
+    {
+      used.push_back(static_cast<int>(t));
+    }
+  }
+  return used;
 }
 
 /// A tetrahedron's weights are unbounded outside the hull. Beyond this, the affine fit of the
@@ -97,24 +118,6 @@ void fillWeights(const Delaunay& delaunay, const PointLocation& enclosing,
 }
 }
 
-Points SimplexLinear::withMeans(const Points& sites) const
-{
-  const Index means = static_cast<Index>(this->means_.offsets.size()) - 1;
-  Points all(sites.rows() + means, 3);
-  all.topRows(sites.rows()) = sites;
-  for (Index m = 0; m < means; ++m)
-  {
-    // Relative to the first: equal values have that value as their mean, bit for bit.
-    const Eigen::RowVector3d first = sites.row(*this->means_.begin(m));
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    std::for_each(this->means_.begin(m), this->means_.end(m),
-      [&](Index site) { sum += sites.row(site) - first; });
-    all.row(sites.rows() + m) =
-      first + sum / static_cast<double>(this->means_.end(m) - this->means_.begin(m));
-  }
-  return all;
-}
-
 void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
@@ -139,13 +142,7 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
                 : affineWeights(this->delaunay_.sites().topRows(this->sites_.size()), places,
                     MostWeight, monitor),
     this->weights_, monitor);
-  std::vector<int> inside = enclosing.tetrahedron;
-  for (const Index row : far)
-  {
-    inside[row] = Delaunay::Outside;
-  }
-  inside.erase(std::remove(inside.begin(), inside.end(), Delaunay::Outside), inside.end());
-  this->used_ = distinct(std::move(inside));
+  this->used_ = usedTetrahedra(enclosing, far, this->delaunay_.tetrahedra().size());
   this->affine_ = static_cast<Index>(far.size());
   this->extrapolated_ = static_cast<Index>(enclosing.extrapolated.size());
   this->bridging_ = static_cast<Index>(bridgingTetrahedra(
@@ -156,7 +153,7 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport SimplexLinear::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points displacement = this->withMeans(this->sites_.average(prescribed));
+  const Points displacement = withMeans(this->sites_.average(prescribed), this->means_, monitor);
   this->weights_.multiply(displacement, free, monitor);
   monitor.check();
 

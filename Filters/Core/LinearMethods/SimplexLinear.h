@@ -17,7 +17,7 @@ namespace morph
 ///
 /// Coincident prescribed nodes (1e-12 of the size) count as one that moves by their mean.
 /// Cospherical nodes (on every structured boundary) leave the tessellation undetermined. Their
-/// convex cells are divided from the means of their corners (CosphericalCells.h). So neither
+/// convex cells are divided from the means of their corners (CosphericalStars.h). So neither
 /// renumbering nor turning the mesh has an effect beyond rounding.
 ///
 /// Counts: `FoldedTetrahedra`, with free nodes and without positive volume after the motion, which
@@ -49,9 +49,6 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  /// Appends the means to `sites`, #sites x 3.
-  Points withMeans(const Points& sites) const;
-
   InterpolationSites sites_;
   Adjacency means_;
   Delaunay delaunay_;

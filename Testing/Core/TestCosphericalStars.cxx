@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Geometry/CosphericalCells.h"
+#include "Geometry/CosphericalStars.h"
 
 #include "LinearMethods/SimplexLinear.h"
 #include "Meshes.h"
@@ -141,7 +141,7 @@ void expectTessellation(const Star& star, double rounding = 1e-12)
 }
 }
 
-TEST(CosphericalCells, ABoxIsDividedFromItsMeanAndThoseOfItsFaces)
+TEST(CosphericalStars, ABoxIsDividedFromItsMeanAndThoseOfItsFaces)
 {
   const Star star(meshes::hexes(1, 1, 1).points);
   EXPECT_EQ(star.delaunay.tetrahedra().size(), 24u);
@@ -156,7 +156,7 @@ TEST(CosphericalCells, ABoxIsDividedFromItsMeanAndThoseOfItsFaces)
   expectTessellation(star);
 }
 
-TEST(CosphericalCells, AnOctahedronKeepsItsFaces)
+TEST(CosphericalStars, AnOctahedronKeepsItsFaces)
 {
   Points corners(6, 3);
   corners << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
@@ -166,7 +166,7 @@ TEST(CosphericalCells, AnOctahedronKeepsItsFaces)
   expectTessellation(star);
 }
 
-TEST(CosphericalCells, SitesWithoutTiesKeepTheirTetrahedra)
+TEST(CosphericalStars, SitesWithoutTiesKeepTheirTetrahedra)
 {
   std::mt19937 generator(meshes::seed());
   const Star star(random(200, generator));
@@ -178,7 +178,7 @@ TEST(CosphericalCells, SitesWithoutTiesKeepTheirTetrahedra)
   }
 }
 
-TEST(CosphericalCells, ManySitesOnOneSphereAreOneCell)
+TEST(CosphericalStars, ManySitesOnOneSphereAreOneCell)
 {
   // Along a spiral they lie evenly, and no four in one plane.
   Points sites(3000, 3);
@@ -195,7 +195,7 @@ TEST(CosphericalCells, ManySitesOnOneSphereAreOneCell)
   expectTessellation(star);
 }
 
-TEST(CosphericalCells, FillTheHullOfTurnedLatticesAndCylinders)
+TEST(CosphericalStars, FillTheHullOfTurnedLatticesAndCylinders)
 {
   std::mt19937 generator(meshes::seed());
   for (const Mesh& mesh : { meshes::hexes(6, 6, 6), meshes::hexes(5, 3, 9), cylinder(6, 8) })
@@ -232,7 +232,7 @@ TEST(CosphericalCells, FillTheHullOfTurnedLatticesAndCylinders)
 
 // As a mesher places nodes on a turned solid: each ring a little off its plane. A tetrahedron of
 // four nodes of a ring is flat.
-TEST(CosphericalCells, FlatTetrahedraInsideDoNotPartTheirNeighbors)
+TEST(CosphericalStars, FlatTetrahedraInsideDoNotPartTheirNeighbors)
 {
   std::mt19937 generator(meshes::seed());
   std::uniform_real_distribution<double> value(-1, 1);
@@ -269,7 +269,7 @@ TEST(CosphericalCells, FlatTetrahedraInsideDoNotPartTheirNeighbors)
   }
 }
 
-TEST(CosphericalCells, SimplexLinearFollowsAnyRotation)
+TEST(CosphericalStars, SimplexLinearFollowsAnyRotation)
 {
   std::mt19937 generator(meshes::seed());
   for (const auto& [name, mesh] :
