@@ -5,6 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
+#include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
 
@@ -68,19 +69,14 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
   }
 }
 
-/// Returns sorted lists of the distinct second values for each first value.
-Adjacency lists(const std::vector<std::pair<Index, Index>>& pairs, Index rows, Monitor& monitor)
+/// Sorts the values and adds those that are missing in `to`, which ascends.
+void unite(std::vector<Index> values, std::vector<Index>& to)
 {
-  Adjacency result = sortIntoBuckets(static_cast<Index>(pairs.size()), rows, monitor,
-    [&](Index first, Index last, const auto& add)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        add(pairs[i].first, pairs[i].second);
-      }
-    });
-  removeRepeated(result);
-  return result;
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::vector<Index> all;
+  std::set_union(values.begin(), values.end(), to.begin(), to.end(), std::back_inserter(all));
+  to = std::move(all);
 }
 
 class Classifier
@@ -99,9 +95,9 @@ public:
   {
     validate(static_cast<Index>(this->points_.rows()), this->faces_, this->options_);
     const Index nodes = static_cast<Index>(this->points_.rows());
-    this->result_.dimension.assign(nodes, -1);
-    this->result_.entity.assign(nodes, -1);
-    this->result_.parameter.assign(nodes, NoParameter);
+    this->result_.dimension = largeVector<std::int8_t>(nodes, -1, monitor);
+    this->result_.entity = largeVector<Index>(nodes, -1, monitor);
+    this->result_.parameter = largeVector<double>(nodes, NoParameter, monitor);
     this->result_.edges = surfaceEdges(this->points_, this->faces_, monitor);
     monitor.check();
     monitor.progress(0.4);
@@ -113,7 +109,7 @@ public:
     this->findCurves(monitor);
     monitor.check();
     monitor.progress(0.8);
-    this->placeNodes(monitor);
+    this->placeNodes();
     this->nameVerticesAndSurfaces();
     this->compareWithGiven(monitor);
     return std::move(this->result_);
@@ -242,28 +238,40 @@ private:
     return !this->isGiven(node, 1) && this->turns(node, edges);
   }
 
-  void findVertices()
+  /// Returns each end of each curve edge with that edge, sorted.
+  std::vector<std::pair<Index, Index>> endsOfCurveEdges() const
   {
-    const Index nodes = static_cast<Index>(this->points_.rows());
-    std::vector<int> degree(nodes, 0);
-    std::vector<std::array<Index, 2>> edgesAt(nodes, { -1, -1 });
-    for (Index e : this->curveEdges_)
+    std::vector<std::pair<Index, Index>> ends;
+    for (const Index e : this->curveEdges_)
     {
-      for (Index node : this->result_.edges.nodes[e])
+      for (const Index node : this->result_.edges.nodes[e])
       {
-        if (degree[node] < 2)
-        {
-          edgesAt[node][degree[node]] = e;
-        }
-        ++degree[node];
+        ends.emplace_back(node, e);
       }
     }
-    this->isVertex_.assign(nodes, 0);
-    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i)
+    std::sort(ends.begin(), ends.end());
+    return ends;
+  }
+
+  void findVertices()
+  {
+    this->isVertex_.assign(this->points_.rows(), 0);
+    const std::vector<std::pair<Index, Index>> ends = this->endsOfCurveEdges();
+    auto next = ends.begin();
+    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i) // ascending
     {
       const Index node = this->faces_.nodes[i], k = static_cast<Index>(i);
+      int degree = 0;
+      std::array<Index, 2> edges = { -1, -1 };
+      for (; next != ends.end() && next->first == node; ++next, ++degree)
+      {
+        if (degree < 2)
+        {
+          edges[degree] = next->second;
+        }
+      }
       const bool isCorner = this->faces_.between.begin(k) == this->faces_.between.end(k);
-      if (isCorner && this->isVertex(node, degree[node], edgesAt[node]))
+      if (isCorner && this->isVertex(node, degree, edges))
       {
         this->isVertex_[node] = 1;
         this->result_.dimension[node] = 0;
@@ -396,10 +404,12 @@ private:
     this->result_.entity[node] = entity;
   }
 
-  void placeNodes(Monitor& monitor)
+  void placeNodes()
   {
     Classification& result = this->result_;
-    std::vector<std::pair<Index, Index>> nodesOn, curvesOf; // surface, node or curve
+    const std::size_t count = this->patches_.id.size();
+    result.surfaces.resize(count);
+    std::vector<std::vector<Index>> onCurves(count); // nodes, by surface
     for (std::size_t c = 0; c < result.curves.size(); ++c)
     {
       const GeometryCurve& curve = result.curves[c];
@@ -410,17 +420,14 @@ private:
           this->place(curve.nodes[i], 1, static_cast<Index>(c));
           result.parameter[curve.nodes[i]] = curve.parameter[i];
         }
-        for (Index s : curve.surfaces)
-        {
-          nodesOn.emplace_back(s, curve.nodes[i]);
-        }
       }
-      for (Index s : curve.surfaces)
+      for (const Index s : curve.surfaces)
       {
-        curvesOf.emplace_back(s, static_cast<Index>(c));
+        onCurves[s].insert(onCurves[s].end(), curve.nodes.begin(), curve.nodes.end());
+        result.surfaces[s].curves.push_back(static_cast<Index>(c));
       }
     }
-    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i)
+    for (std::size_t i = 0; i < this->faces_.nodes.size(); ++i) // ascending
     {
       const Index node = this->faces_.nodes[i];
       if (result.dimension[node] < 0)
@@ -428,24 +435,18 @@ private:
         this->place(node, 2, this->surfaceOf(static_cast<Index>(i)));
       }
       const Index* first = this->patchesAtNode_.begin(node);
-      for (const Index* s = first; s != this->patchesAtNode_.end(node); ++s)
+      const Index* last = this->patchesAtNode_.end(node);
+      std::for_each(first, last, [&](Index s) { result.surfaces[s].nodes.push_back(node); });
+      const Index own = result.dimension[node] == 2 ? result.entity[node] : -1;
+      if (own >= 0 && std::find(first, last, own) == last) // in the middle of an edge or a face
       {
-        nodesOn.emplace_back(*s, node);
-      }
-      if (result.dimension[node] == 2)
-      {
-        nodesOn.emplace_back(result.entity[node], node); // mid-side nodes are no corners
+        result.surfaces[own].nodes.push_back(node);
       }
     }
-    const Index count = static_cast<Index>(this->patches_.id.size());
-    const Adjacency nodes = lists(nodesOn, count, monitor),
-                    curves = lists(curvesOf, count, monitor);
-    result.surfaces.resize(count);
-    for (Index s = 0; s < count; ++s)
+    for (std::size_t s = 0; s < count; ++s)
     {
       result.surfaces[s].id = this->patches_.id[s];
-      result.surfaces[s].nodes.assign(nodes.begin(s), nodes.end(s));
-      result.surfaces[s].curves.assign(curves.begin(s), curves.end(s));
+      unite(std::move(onCurves[s]), result.surfaces[s].nodes);
     }
     for (std::size_t f = 0; f < this->patches_.ofFace.size(); ++f)
     {
@@ -572,11 +573,17 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
         placeInside(node, parts.ofNode[node]);
       }
     });
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  const auto hasOthers = [&mesh](Index c) // nodes between its corners
   {
     const CellShape* shape = cellShape(mesh.types[c]);
-    const bool hasOthers = !shape || shape->numberOfCorners != mesh.cellSize(c);
-    for (Index k = 0; hasOthers && k < mesh.cellSize(c); ++k) // between the corners
+    return !shape || shape->numberOfCorners != mesh.cellSize(c);
+  };
+  const Index cells = mesh.numberOfCells();
+  const bool any =
+    reproducibleSum(cells, monitor, Index(0), [&](Index c) { return Index(hasOthers(c)); }) > 0;
+  for (Index c = 0; any && c < cells; ++c)
+  {
+    for (Index k = 0; hasOthers(c) && k < mesh.cellSize(c); ++k)
     {
       placeInside(mesh.cell(c)[k], parts.ofCell[c]);
     }
