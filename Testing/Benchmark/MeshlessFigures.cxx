@@ -119,7 +119,7 @@ void Run::againstSibson(const Problem& problem, const morph::InterpolationSites&
   constexpr morph::Index Samples = 20;
   const std::vector<morph::Index>& free = problem.partition.free;
   const auto n = static_cast<morph::Index>(free.size());
-  const morph::Points targets = sites.average(problem.target);
+  const morph::Points targets = sites.average(problem.target, *makeMonitor(this->cores_));
   double seconds = 0, difference = 0;
   for (morph::Index i = 0; i < Samples; ++i)
   {

@@ -224,7 +224,8 @@ TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
   const InterpolationSites sites(points, ids);
   ASSERT_EQ(sites.size(), 30);
   const Points values = randomPoints(90, random);
-  const Points mean = sites.average(values);
+  Monitor monitor;
+  const Points mean = sites.average(values, monitor);
   Points expected = Points::Zero(30, 3);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(30);
   for (Index i = 0; i < 90; ++i)
@@ -244,7 +245,7 @@ TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
   // A node by itself keeps every bit.
   const InterpolationSites single(points, { 25, 27 });
   const Points pair = randomPoints(2, random);
-  Points back = single.average(pair);
+  Points back = single.average(pair, monitor);
   EXPECT_EQ(back.row(single.siteOf()[0]), pair.row(0));
 }
 

@@ -75,7 +75,7 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
 Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const
 {
   Points near(static_cast<Index>(this->reached_.size()), 3);
-  this->weights_.multiply(this->sites_.average(displacement), near, monitor);
+  this->weights_.multiply(this->sites_.average(displacement, monitor), near, monitor);
   Points result = Points::Zero(this->places_, 3);
   for (Index i = 0; i < near.rows(); ++i)
   {

@@ -245,7 +245,7 @@ SurfaceResidual::Report SurfaceResidual::evaluate(
 {
   this->require(prescribed);
   monitor.check();
-  const Points ofSites = this->sites_.average(prescribed - this->prescribed_);
+  const Points ofSites = this->sites_.average(prescribed - this->prescribed_, monitor);
   const Map map = this->map(ofSites, prescribed);
   const Points displacement = this->spread(map, ofSites, monitor);
   Points result = this->points_;
@@ -268,7 +268,7 @@ void SurfaceResidual::evaluateLinear(
 {
   this->require(displacement);
   monitor.check();
-  const Points ofSites = this->sites_.average(displacement);
+  const Points ofSites = this->sites_.average(displacement, monitor);
   moved = this->spread(this->linearMap(ofSites), ofSites, monitor);
 }
 }

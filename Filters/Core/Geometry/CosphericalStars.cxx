@@ -342,7 +342,9 @@ Points withMeans(const Points& values, const Adjacency& means, Monitor& monitor)
 {
   const Index count = static_cast<Index>(means.offsets.size()) - 1;
   Points all(values.rows() + count, 3);
-  all.topRows(values.rows()) = values;
+  monitor.parallelFor(values.rows(), Grain,
+    [&](Index first, Index last)
+    { all.middleRows(first, last - first) = values.middleRows(first, last - first); });
   monitor.parallelFor(count, Grain,
     [&](Index first, Index last)
     {

@@ -16,6 +16,7 @@ namespace morph
 {
 namespace
 {
+constexpr Index Grain = 4096;
 constexpr double RelativeTolerance = 1e-12; // of the diagonal
 
 /// A hash table of points by their cell in a regular grid. Its cost does not depend on which cells
@@ -196,10 +197,10 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
   }
 }
 
-Points InterpolationSites::average(const Points& prescribed) const
+Points InterpolationSites::average(const Points& prescribed, Monitor& monitor) const
 {
   Points result(this->size(), 3);
-  for (Index s = 0; s < this->size(); ++s)
+  const auto averageOf = [&](Index s)
   {
     const Index *i = this->prescribed_.begin(s), *end = this->prescribed_.end(s);
     Eigen::RowVector3d sum = prescribed.row(*i);
@@ -212,8 +213,16 @@ Points InterpolationSites::average(const Points& prescribed) const
       }
       sum /= count;
     }
-    result.row(s) = sum;
-  }
+    return sum;
+  };
+  monitor.parallelFor(this->size(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index s = first; s < last; ++s)
+      {
+        result.row(s) = averageOf(s);
+      }
+    });
   return result;
 }
 

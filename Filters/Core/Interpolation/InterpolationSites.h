@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Support/Adjacency.h"
+#include "Support/Monitor.h"
 #include "Support/Types.h"
 
 #include <vector>
@@ -37,7 +38,7 @@ public:
 
   /// Averages values (`prescribed`: #ids x 3, for instance displacements) over each site's nodes.
   /// Returns #sites x 3; a single node keeps its own value bit for bit.
-  Points average(const Points& prescribed) const;
+  Points average(const Points& prescribed, Monitor& monitor) const;
   /// The adjoint of average(): adds the transposed mean of `sites` (#sites x 3) to `prescribed`
   /// (#ids x 3).
   void scatterTranspose(const Points& sites, Points& prescribed) const;

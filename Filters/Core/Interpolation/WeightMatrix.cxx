@@ -106,13 +106,20 @@ void WeightMatrix::open(Index rows, Index columns, Index entries)
 
 void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor) const
 {
-  this->multiplyPadded(padded(sites), free, monitor);
+  this->multiplyPadded(padded(sites, monitor), free, monitor);
 }
 
-PaddedPoints WeightMatrix::padded(const Points& sites)
+PaddedPoints WeightMatrix::padded(const Points& sites, Monitor& monitor)
 {
-  PaddedPoints result = PaddedPoints::Zero(sites.rows(), 4);
-  result.leftCols<3>() = sites;
+  PaddedPoints result(sites.rows(), 4);
+  monitor.parallelFor(sites.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      for (Index s = first; s < last; ++s)
+      {
+        result.row(s) << sites.row(s), 0;
+      }
+    });
   return result;
 }
 

@@ -39,7 +39,7 @@ public:
   void multiply(const Points& sites, Points& free, Monitor& monitor) const;
   /// Sites with a fourth number, 0, which fill vector registers.
   using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-  static PaddedPoints padded(const Points& sites);
+  static PaddedPoints padded(const Points& sites, Monitor& monitor);
   /// As multiply(), for many products with the same sites.
   void multiplyPadded(const PaddedPoints& sites, Points& free, Monitor& monitor) const;
   /// Sets `sites` to W^T free. Rows are cut into at most 32 fixed blocks whose sums are added in

@@ -114,7 +114,7 @@ EvaluateReport RadialBasis::report(double residual) const
 
 EvaluateReport RadialBasis::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points values = this->sites_.average(prescribed)(this->order_, allColumns);
+  const Points values = this->sites_.average(prescribed, monitor)(this->order_, allColumns);
   monitor.check();
   const auto coefficients = this->interpolant_.solve(values.topRows(this->centres()));
   Points residuals = Points::Zero(values.rows(), 3), atOthers;

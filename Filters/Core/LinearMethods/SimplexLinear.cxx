@@ -153,11 +153,19 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport SimplexLinear::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Points displacement = withMeans(this->sites_.average(prescribed), this->means_, monitor);
+  const Points displacement =
+    withMeans(this->sites_.average(prescribed, monitor), this->means_, monitor);
   this->weights_.multiply(displacement, free, monitor);
   monitor.check();
 
-  const Points moved = this->delaunay_.sites() + displacement;
+  Points moved(displacement.rows(), 3);
+  monitor.parallelFor(moved.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      const Index count = last - first;
+      moved.middleRows(first, count) =
+        this->delaunay_.sites().middleRows(first, count) + displacement.middleRows(first, count);
+    });
   const Index folded = reproducibleSum(static_cast<Index>(this->used_.size()), monitor, Index(0),
     [&](Index i)
     {
@@ -165,8 +173,11 @@ EvaluateReport SimplexLinear::displace(
       return Index(!(Delaunay::sixVolumes(tetrahedron, moved) > 0));
     });
   EvaluateReport report;
+  // Three copies of the sites and means; a tetrahedron in use, its number and its four corners.
+  constexpr double Site = 3 * 2 * 24, Used = sizeof(int) + sizeof(Delaunay::Tetrahedron) + 4 * 24;
   report.bytesMoved =
-    static_cast<double>(this->weights_.memory()) + 48. * static_cast<double>(free.rows());
+    static_cast<double>(this->weights_.memory()) + 24. * static_cast<double>(free.rows()) +
+    Site * static_cast<double>(moved.rows()) + Used * static_cast<double>(this->used_.size());
   report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
     { "ExtrapolatedNodes", this->extrapolated_ }, { "AffineNodes", this->affine_ } };
   return report;

@@ -366,7 +366,7 @@ EvaluateReport SimplexNaturalNeighbor::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
   const WeightMatrix::PaddedPoints displacement =
-    WeightMatrix::padded(this->sites_.average(prescribed));
+    WeightMatrix::padded(this->sites_.average(prescribed, monitor), monitor);
   std::atomic<Index> barycentric{ this->barycentric_ };
   inStretches(this->blocks(), monitor,
     [&](Index first, Index last)

@@ -60,7 +60,7 @@ EvaluateReport WeightedResidual::report() const
 EvaluateReport WeightedResidual::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points residual = this->sites_.average(prescribed);
+  Points residual = this->sites_.average(prescribed, monitor);
   const AffineFit fit = this->fit_.fit(residual);
   warnIfInsideOut(fit, monitor);
   for (Index s = 0; s < residual.rows(); ++s)
