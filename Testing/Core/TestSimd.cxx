@@ -164,8 +164,9 @@ TEST(SimdDouble4, TheProcessorDoesNotShow)
   }
   std::vector<Case> portable = cases(), wide = portable;
   const auto n = static_cast<Index>(portable.size());
-  morph::detail::loopPortably<EvaluateCase>(0, n, portable);
-  morph::detail::loopWithAvx2<EvaluateCase>(0, n, wide);
+  morph::detail::Loop<EvaluateCase>::run(0, n, portable);
+  const morph::Index first = 0;
+  morph::detail::runWithAvx2<morph::detail::Loop<EvaluateCase>>(first, n, wide);
   EXPECT_EQ(std::memcmp(portable.data(), wide.data(), n * sizeof(Case)), 0);
 }
 #endif

@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Quality/CornerNodes.h"
+#include "Quality/FourCells.h"
 #include "Quality/PartialQuality.h"
 #include "Quality/PolyhedronQuality.h"
 #include "Quality/QuadraticJacobian.h"
@@ -22,15 +23,18 @@ using Vector = Eigen::Vector3d;
 
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// The edges at each corner, ordered to make the triple product positive. The entry is e + 1 for
-// edge e of the twelve in HexAxisEdges, or -(e + 1) if it ends at the corner.
-constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 }, { -5, 2, 11 },
-  { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
+// Sums are written out: Eigen's have another order where it uses vectors, and FourCells.cxx has to
+// have the same.
+
+double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Returns the length of an edge, correct also if its square underflows.
 double lengthOf(const Vector& edge)
 {
-  const double length = edge.norm();
+  const double length = std::sqrt(dot(edge, edge));
   return length > 1e-150 ? length : std::hypot(edge.x(), edge.y(), edge.z());
 }
 
@@ -44,7 +48,7 @@ double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, 
     collapsed = true;
     return 0;
   }
-  return (a / la).dot((b / lb).cross(c / lc));
+  return dot(a / la, (b / lb).cross(c / lc));
 }
 
 constexpr unsigned AllSamples = ~0u;
@@ -83,7 +87,7 @@ double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x
   }
   const double longest =
     std::max({ l01 * l02 * l03, l01 * l12 * l13, l02 * l12 * l23, l03 * l13 * l23 });
-  return std::sqrt(2.0) * e01.dot(e02.cross(e03)) / longest;
+  return std::sqrt(2.0) * dot(e01, e02.cross(e03)) / longest;
 }
 
 double hex(const Vector* x, unsigned samples, bool& collapsed)
@@ -274,6 +278,75 @@ int dimensionOf(const Mesh& mesh)
   return dimension;
 }
 
+/// Measures cells of one shape by fours.
+class Fours
+{
+public:
+  using Measure = bool (*)(const FourCells&, double (&)[SimdWidth]);
+
+  Fours(Shape shape, int corners, Measure measure)
+    : shape_(shape)
+    , corners_(corners)
+    , measure_(measure)
+  {
+  }
+
+  /// Adds cell c with its corners x, and measures if these are four.
+  void add(Index c, const Vector* x, std::vector<double>& values, std::vector<std::uint8_t>& flat)
+  {
+    for (int k = 0; k < this->corners_; ++k)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        this->cells_.x[k][j][this->count_] = x[k][j];
+      }
+    }
+    this->id_[this->count_++] = c;
+    if (this->count_ < SimdWidth)
+    {
+      return;
+    }
+    double four[SimdWidth];
+    if (!this->measure_(this->cells_, four))
+    {
+      this->finish(values, flat);
+      return;
+    }
+    for (int lane = 0; lane < SimdWidth; ++lane)
+    {
+      values[this->id_[lane]] = four[lane];
+    }
+    this->count_ = 0;
+  }
+
+  /// Measures those that are left, one by one.
+  void finish(std::vector<double>& values, std::vector<std::uint8_t>& flat)
+  {
+    for (int lane = 0; lane < this->count_; ++lane)
+    {
+      Vector x[8];
+      for (int k = 0; k < this->corners_; ++k)
+      {
+        const auto& corner = this->cells_.x[k];
+        x[k] = Vector(corner[0][lane], corner[1][lane], corner[2][lane]);
+      }
+      bool collapsed = false;
+      const Index c = this->id_[lane];
+      values[c] = morph::measure(this->shape_, x, this->corners_, AllSamples, collapsed);
+      flat[c] = collapsed;
+    }
+    this->count_ = 0;
+  }
+
+private:
+  Shape shape_;
+  int corners_;
+  Measure measure_;
+  FourCells cells_;
+  Index id_[SimdWidth];
+  int count_ = 0;
+};
+
 /// `chosen`: the cells to measure, ascending; null for all.
 Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
@@ -291,6 +364,7 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
     [&](Index first, Index last)
     {
       PolyhedronMeasure polyhedra;
+      Fours hexes(Shape::Hex, 8, measureHexes), tets(Shape::Tet, 4, measureTets);
       for (Index i = first; i < last; ++i)
       {
         const Index c = chosen ? (*chosen)[i] : i;
@@ -315,15 +389,24 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         {
           x[k].z() *= sign;
         }
+        const bool hasInside = !cornersOnly && isQuadraticVolume(*shape);
+        if (!hasInside && (shape->shape == Shape::Hex || shape->shape == Shape::Tet))
+        {
+          (shape->shape == Shape::Hex ? hexes : tets)
+            .add(c, x, quality.scaledJacobian, isCollapsed);
+          continue;
+        }
         bool collapsed = false;
         double value = measure(shape->shape, x, shape->numberOfCorners, AllSamples, collapsed);
-        if (!cornersOnly && isQuadraticVolume(*shape) && !collapsed)
+        if (hasInside && !collapsed)
         {
           value = measureInside(mesh.types[c], *shape, mesh, points, c, sign, value);
         }
         quality.scaledJacobian[c] = value;
         isCollapsed[c] = collapsed;
       }
+      hexes.finish(quality.scaledJacobian, isCollapsed);
+      tets.finish(quality.scaledJacobian, isCollapsed);
     });
   monitor.check();
 

@@ -66,7 +66,7 @@ template <template <Index> typename ColumnOf>
 struct DoubleProduct
 {
   template <typename Scalar>
-  static MORPH_SIMD_INLINE void run(Index, Index first, Index last, const int* start,
+  static MORPH_SIMD_INLINE void run(Index first, Index last, const int* start,
     const typename ColumnOf<1>::Stored* column, const float* rounded, const int* rest, double unit,
     const Scalar* x, MultiVectorRow* products)
   {
@@ -121,7 +121,7 @@ private:
 template <template <Index> typename ColumnOf>
 struct FloatProduct
 {
-  static MORPH_SIMD_INLINE void run(Index, Index first, Index last, const int* start,
+  static MORPH_SIMD_INLINE void run(Index first, Index last, const int* start,
     const typename ColumnOf<1>::Stored* column, const float* value, const float* x,
     Eigen::Vector4f* products)
   {
@@ -179,12 +179,12 @@ void doubleProducts(const MixedPrecisionMatrix& matrix, const Row* x, Index firs
   const auto* numbers = numbersOf(x);
   if (A.step)
   {
-    dispatchedFor<DoubleProduct<NarrowColumn>>(
-      0, 1, first, last, A.start, A.step, A.value, rest, unit, numbers, products);
+    dispatched<DoubleProduct<NarrowColumn>>(
+      first, last, A.start, A.step, A.value, rest, unit, numbers, products);
     return;
   }
-  dispatchedFor<DoubleProduct<WideColumn>>(
-    0, 1, first, last, A.start, A.column, A.value, rest, unit, numbers, products);
+  dispatched<DoubleProduct<WideColumn>>(
+    first, last, A.start, A.column, A.value, rest, unit, numbers, products);
 }
 }
 
@@ -194,12 +194,11 @@ void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first,
   const float* numbers = numbersOf(x);
   if (A.step)
   {
-    dispatchedFor<FloatProduct<NarrowColumn>>(
-      0, 1, first, last, A.start, A.step, A.value, numbers, products);
+    dispatched<FloatProduct<NarrowColumn>>(
+      first, last, A.start, A.step, A.value, numbers, products);
     return;
   }
-  dispatchedFor<FloatProduct<WideColumn>>(
-    0, 1, first, last, A.start, A.column, A.value, numbers, products);
+  dispatched<FloatProduct<WideColumn>>(first, last, A.start, A.column, A.value, numbers, products);
 }
 
 void rowProducts(const MixedPrecisionMatrix& A, const MultiVectorRow* x, Index first, Index last,

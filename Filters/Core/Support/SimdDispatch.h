@@ -7,40 +7,50 @@ namespace morph
 {
 namespace detail
 {
-template <typename Body, typename... Arguments>
-void loopPortably(Index first, Index last, Arguments&... arguments)
-{
-  for (Index i = first; i < last; ++i)
-  {
-    Body::run(i, arguments...);
-  }
-}
-
 #if defined(__x86_64__)
 template <typename Body, typename... Arguments>
-__attribute__((target("avx2"))) void loopWithAvx2(Index first, Index last, Arguments&... arguments)
+__attribute__((target("avx2"))) void runWithAvx2(Arguments&... arguments)
 {
-  for (Index i = first; i < last; ++i)
-  {
-    Body::run(i, arguments...);
-  }
+  Body::run(arguments...);
 }
 #endif
+
+/// Runs Body for each i.
+template <typename Body>
+struct Loop
+{
+  template <typename... Arguments>
+  static inline __attribute__((always_inline)) void run(
+    Index first, Index last, Arguments&... arguments)
+  {
+    for (Index i = first; i < last; ++i)
+    {
+      Body::run(i, arguments...);
+    }
+  }
+};
 }
 
-/// Calls Body::run(i, arguments...) for i in [first, last), compiled for this processor's widest
-/// registers. Body::run is a static function; it and all that it calls must be always inlined.
-/// Without fused multiply-add every version does the same operations, so results agree bit for bit.
+/// Calls Body::run(arguments...), compiled for this processor's widest registers. Body::run is a
+/// static function; it and all that it calls must be always inlined. Without fused multiply-add
+/// every version does the same operations, so results agree bit for bit.
 template <typename Body, typename... Arguments>
-void dispatchedFor(Index first, Index last, Arguments&... arguments)
+void dispatched(Arguments&... arguments)
 {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2"))
   {
-    detail::loopWithAvx2<Body>(first, last, arguments...);
+    detail::runWithAvx2<Body>(arguments...);
     return;
   }
 #endif
-  detail::loopPortably<Body>(first, last, arguments...);
+  Body::run(arguments...);
+}
+
+/// Calls Body::run(i, arguments...) for i in [first, last), as dispatched().
+template <typename Body, typename... Arguments>
+void dispatchedFor(Index first, Index last, Arguments&... arguments)
+{
+  dispatched<detail::Loop<Body>>(first, last, arguments...);
 }
 }

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/CellShape.h"
+#include "Meshes.h"
+#include "Quality/FourCells.h"
+#include "Quality/ScaledJacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace
+{
+using namespace morph;
+
+const std::uint32_t Seed = meshes::seed();
+
+/// Cells with nodes of their own, of all sizes: some valid, some inverted, some without an edge or
+/// with a coordinate that is not finite. Hexahedra and tetrahedra alternate in groups.
+Mesh cellsOfAllKinds(Index count)
+{
+  std::mt19937 random(Seed);
+  std::uniform_real_distribution<double> offset(-0.6, 0.6);
+  std::uniform_int_distribution<int> exponent(-170, 120), kind(0, 19), group(0, 6);
+  const Mesh hex = meshes::hexes(1, 1, 1);
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  std::vector<Eigen::RowVector3d> points;
+  std::uint8_t type = Hexahedron;
+  for (Index c = 0; c < count; ++c)
+  {
+    if (group(random) == 0)
+    {
+      type = type == Tetra ? Hexahedron : Tetra;
+    }
+    const int corners = type == Tetra ? 4 : 8;
+    const std::size_t first = points.size();
+    const double scale = kind(random) < 15 ? 1 : std::pow(10., exponent(random));
+    for (int k = 0; k < corners; ++k)
+    {
+      // The corners 0, 1, 3 and 4 of a box make a tetrahedron.
+      const int corner = type == Tetra ? (k < 2 ? k : k + 1) : k;
+      Eigen::RowVector3d x = hex.points.row(hex.cell(0)[corner]);
+      x += Eigen::RowVector3d::NullaryExpr([&] { return offset(random); });
+      mesh.connectivity.push_back(static_cast<Index>(points.size()));
+      points.push_back(scale * x);
+    }
+    switch (kind(random))
+    {
+      case 0:
+        points[first + 1] = points[first];
+        break;
+      case 1:
+        points[first + 2][1] = std::numeric_limits<double>::quiet_NaN();
+        break;
+      case 2:
+        points[first + 3][2] = -std::numeric_limits<double>::infinity();
+        break;
+      case 3:
+        points[first + 3][0] = 1e200; // its square overflows
+        break;
+      default:
+        break;
+    }
+    mesh.types.push_back(type);
+    mesh.offsets.push_back(static_cast<Index>(mesh.connectivity.size()));
+  }
+  mesh.points.resize(static_cast<Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    mesh.points.row(static_cast<Index>(i)) = points[i];
+  }
+  return mesh;
+}
+
+double oneByOne(const Mesh& mesh, Index c)
+{
+  double corners[8][3];
+  copyCorners(mesh, c, *cellShape(mesh.types[c]), mesh.points, corners[0]);
+  return scaledJacobian(mesh.types[c], corners);
+}
+
+bool sameBits(double a, double b)
+{
+  return std::memcmp(&a, &b, sizeof(a)) == 0 || (std::isnan(a) && std::isnan(b));
+}
+
+TEST(FourCells, AreMeasuredAsOneByOne)
+{
+  const Mesh mesh = cellsOfAllKinds(20001);
+  Index negative = 0, notMeasured = 0, zero = 0;
+  for (const int threads : { 1, 3 })
+  {
+    meshes::ThreadedMonitor monitor(threads);
+    const Quality quality = measureQuality(mesh, mesh.points, {}, {}, monitor);
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      const double value = quality.scaledJacobian[c];
+      ASSERT_TRUE(sameBits(value, oneByOne(mesh, c))) << "cell " << c << ", seed " << Seed;
+      negative += value < 0;
+      zero += value == 0;
+      notMeasured += std::isnan(value);
+    }
+  }
+  // All kinds were there.
+  EXPECT_GT(negative, 1000);
+  EXPECT_GT(zero, 1000);
+  EXPECT_GT(notMeasured, 1000);
+}
+
+TEST(FourCells, RefuseWhatNeedsCare)
+{
+  FourCells cells;
+  const Mesh hex = meshes::hexes(1, 1, 1);
+  for (int k = 0; k < 8; ++k)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int lane = 0; lane < SimdWidth; ++lane)
+      {
+        cells.x[k][j][lane] = (1 + lane) * hex.points(hex.cell(0)[k], j);
+      }
+    }
+  }
+  double values[SimdWidth];
+  ASSERT_TRUE(measureHexes(cells, values));
+  for (const double value : values)
+  {
+    EXPECT_EQ(value, 1);
+  }
+  for (const double wrong :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200 })
+  {
+    FourCells other = cells;
+    other.x[3][1][2] = wrong;
+    EXPECT_FALSE(measureHexes(other, values)) << wrong;
+    EXPECT_FALSE(measureTets(other, values)) << wrong;
+  }
+  for (int j = 0; j < 3; ++j)
+  {
+    cells.x[2][j][1] = cells.x[3][j][1];
+  }
+  EXPECT_FALSE(measureHexes(cells, values));
+  EXPECT_FALSE(measureTets(cells, values));
+}
+}
