@@ -84,7 +84,7 @@ void Run::bandwidth(const Problem& problem, const MethodTimes& times, double wor
   const auto monitor = makeMonitor(this->cores_);
   const double large = this->beyondCaches();
   const double warm = median(times.warm);
-  this->add(problem, "bytes moved by a warm step, as the solver counts", times.bytesMoved, "B");
+  this->add(problem, "bytes moved by a warm step, estimated", times.bytesMoved, "B");
   for (const bool memory : { true, false })
   {
     const double bytes = memory ? large : workingSet;

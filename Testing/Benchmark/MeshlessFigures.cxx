@@ -72,7 +72,7 @@ void Run::addStreaming(const Problem& problem, const std::string& name, const Me
     this->add(
       problem, name + ": a step on the paper's canister, 136,462 nodes (its Table 4)", paper, "s");
   }
-  this->add(problem, name + ": bytes of weights and coordinates", times.bytesMoved, "B");
+  this->add(problem, name + ": bytes moved by a warm step, estimated", times.bytesMoved, "B");
   this->add(problem, name + ": warm / one stream of them through memory",
     median(times.warm) * bandwidth / times.bytesMoved, "", Target::atMost(3));
 }

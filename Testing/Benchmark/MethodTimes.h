@@ -20,7 +20,7 @@ struct MethodTimes
   /// an evaluate after that: the median of several, as when a boundary is dragged
   std::vector<double> warm;
   int iterations = 0;
-  double bytesMoved = 0; ///< by the iterations of one warm evaluate, as the solver counts them
+  double bytesMoved = 0; ///< by one warm evaluate, as the method estimates
 };
 
 /// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated

@@ -269,6 +269,30 @@ TEST(CosphericalStars, FlatTetrahedraInsideDoNotPartTheirNeighbors)
   }
 }
 
+TEST(CosphericalStars, ThreadsDoNotShow)
+{
+  // A lattice with enough sites, tetrahedra and cells for several threads, and turned, as rounding
+  // then has a say.
+  std::mt19937 generator(meshes::seed());
+  const Points sites = meshes::hexes(17, 17, 17).points * rotation(generator);
+  const Star one(sites);
+  Delaunay delaunay;
+  meshes::ThreadedMonitor monitor(3);
+  delaunay.build(sites, monitor);
+  const Adjacency means = starCosphericalCells(delaunay, monitor);
+  EXPECT_GT(one.numberOfMeans(), 4096);
+  EXPECT_EQ(means.offsets, one.means.offsets);
+  EXPECT_EQ(means.values, one.means.values);
+  EXPECT_TRUE(delaunay.sites() == one.delaunay.sites());
+  ASSERT_EQ(delaunay.tetrahedra().size(), one.delaunay.tetrahedra().size());
+  for (std::size_t t = 0; t < delaunay.tetrahedra().size(); ++t)
+  {
+    const auto &own = delaunay.tetrahedra()[t], &other = one.delaunay.tetrahedra()[t];
+    ASSERT_EQ(own.sites, other.sites);
+    ASSERT_EQ(own.neighbors, other.neighbors);
+  }
+}
+
 TEST(CosphericalStars, SimplexLinearFollowsAnyRotation)
 {
   std::mt19937 generator(meshes::seed());

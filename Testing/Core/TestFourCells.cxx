@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -83,6 +84,27 @@ double oneByOne(const Mesh& mesh, Index c)
   return scaledJacobian(mesh.types[c], corners);
 }
 
+/// Whether two corners on an edge are in the same place.
+bool isCollapsed(const Mesh& mesh, Index c)
+{
+  const auto areOne = [&](int a, int b)
+  { return mesh.points.row(mesh.cell(c)[a]) == mesh.points.row(mesh.cell(c)[b]); };
+  if (mesh.types[c] == Tetra)
+  {
+    return areOne(0, 1) || areOne(0, 2) || areOne(0, 3) || areOne(1, 2) || areOne(1, 3) ||
+           areOne(2, 3);
+  }
+  bool any = false;
+  for (const auto& edges : HexAxisEdges)
+  {
+    for (const int(&ends)[2] : edges)
+    {
+      any = any || areOne(ends[0], ends[1]);
+    }
+  }
+  return any;
+}
+
 bool sameBits(double a, double b)
 {
   return std::memcmp(&a, &b, sizeof(a)) == 0 || (std::isnan(a) && std::isnan(b));
@@ -91,24 +113,49 @@ bool sameBits(double a, double b)
 TEST(FourCells, AreMeasuredAsOneByOne)
 {
   const Mesh mesh = cellsOfAllKinds(20001);
-  Index negative = 0, notMeasured = 0, zero = 0;
   for (const int threads : { 1, 3 })
   {
     meshes::ThreadedMonitor monitor(threads);
     const Quality quality = measureQuality(mesh, mesh.points, {}, {}, monitor);
+    Index inverted = 0, collapsed = 0, notMeasured = 0;
     for (Index c = 0; c < mesh.numberOfCells(); ++c)
     {
       const double value = quality.scaledJacobian[c];
       ASSERT_TRUE(sameBits(value, oneByOne(mesh, c))) << "cell " << c << ", seed " << Seed;
-      negative += value < 0;
-      zero += value == 0;
+      const bool isFlat = !std::isnan(value) && isCollapsed(mesh, c);
+      inverted += value <= 0 && !isFlat;
+      collapsed += isFlat;
       notMeasured += std::isnan(value);
     }
+    EXPECT_EQ(quality.inverted, inverted);
+    EXPECT_EQ(quality.degenerate, collapsed);
+    EXPECT_EQ(quality.measured, mesh.numberOfCells() - notMeasured);
+    // All kinds were there.
+    EXPECT_GT(inverted, 1000);
+    EXPECT_GT(collapsed, 300);
+    EXPECT_GT(notMeasured, 1000);
   }
-  // All kinds were there.
-  EXPECT_GT(negative, 1000);
-  EXPECT_GT(zero, 1000);
-  EXPECT_GT(notMeasured, 1000);
+}
+
+TEST(FourCells, HaveTheSignOfZero)
+{
+  // Two corners in the middle of the diagonal beside them: flat corners with edges of all lengths.
+  Mesh mesh = meshes::hexes(8, 1, 1);
+  for (Index c = 0; c < mesh.numberOfCells(); c += 2)
+  {
+    const Index* n = mesh.cell(c);
+    mesh.points.row(n[1]) = (mesh.points.row(n[0]) + mesh.points.row(n[2])) / 2;
+    mesh.points.row(n[5]) = (mesh.points.row(n[4]) + mesh.points.row(n[6])) / 2;
+  }
+  Monitor monitor;
+  const Quality quality = measureQuality(mesh, mesh.points, {}, {}, monitor);
+  Index zeros = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    zeros += quality.scaledJacobian[c] == 0;
+    EXPECT_TRUE(sameBits(quality.scaledJacobian[c], oneByOne(mesh, c))) << "cell " << c;
+  }
+  EXPECT_GT(zeros, 0);
 }
 
 TEST(FourCells, RefuseWhatNeedsCare)
@@ -126,6 +173,7 @@ TEST(FourCells, RefuseWhatNeedsCare)
     }
   }
   double values[SimdWidth];
+  ASSERT_TRUE(measureTets(cells, values));
   ASSERT_TRUE(measureHexes(cells, values));
   for (const double value : values)
   {

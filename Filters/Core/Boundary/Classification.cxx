@@ -5,6 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
+#include "Support/FirstTouch.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -69,7 +70,7 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
   }
 }
 
-/// Sorts the values and adds those that are missing in `to`, which ascends.
+/// Adds to `to`, which ascends, the values that it lacks.
 void unite(std::vector<Index> values, std::vector<Index>& to)
 {
   std::sort(values.begin(), values.end());
@@ -573,17 +574,21 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
         placeInside(node, parts.ofNode[node]);
       }
     });
-  const auto hasOthers = [&mesh](Index c) // nodes between its corners
+  const auto hasNodesBetween = [&mesh](Index c)
   {
     const CellShape* shape = cellShape(mesh.types[c]);
     return !shape || shape->numberOfCorners != mesh.cellSize(c);
   };
   const Index cells = mesh.numberOfCells();
-  const bool any =
-    reproducibleSum(cells, monitor, Index(0), [&](Index c) { return Index(hasOthers(c)); }) > 0;
-  for (Index c = 0; any && c < cells; ++c)
+  const Index withNodesBetween =
+    reproducibleSum(cells, monitor, Index(0), [&](Index c) { return Index(hasNodesBetween(c)); });
+  for (Index c = 0; withNodesBetween > 0 && c < cells; ++c)
   {
-    for (Index k = 0; hasOthers(c) && k < mesh.cellSize(c); ++k)
+    if (!hasNodesBetween(c))
+    {
+      continue;
+    }
+    for (Index k = 0; k < mesh.cellSize(c); ++k)
     {
       placeInside(mesh.cell(c)[k], parts.ofCell[c]);
     }

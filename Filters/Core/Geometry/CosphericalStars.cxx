@@ -4,12 +4,14 @@
 #include "Geometry/CosphericalCells.h"
 #include "Geometry/MeanOfRows.h"
 #include "Support/Buckets.h"
+#include "Support/FirstTouch.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -43,7 +45,20 @@ struct Star
   std::vector<int> corners; ///< ascending
   int mean = -1;
   std::vector<Polygon> polygons;
+  std::vector<int> byCorners; ///< the polygons' numbers, sorted by their corners
   std::vector<Triangle> triangles;
+
+  /// Returns the polygon with these corners, or null.
+  const Polygon* find(const std::vector<int>& polygonCorners) const
+  {
+    const auto place =
+      std::lower_bound(this->byCorners.begin(), this->byCorners.end(), polygonCorners,
+        [this](int number, const std::vector<int>& value)
+        { return this->polygons[number].corners < value; });
+    const bool isThere =
+      place != this->byCorners.end() && this->polygons[*place].corners == polygonCorners;
+    return isThere ? &this->polygons[*place] : nullptr;
+  }
 };
 
 /// An edge of an outer face of a cell.
@@ -113,7 +128,8 @@ Star::Polygon polygonOf(const std::vector<Face>& faces, const std::vector<int>& 
   return polygon;
 }
 
-/// Returns the faces that make one polygon, for each polygon or single triangle.
+/// Returns the faces that make one polygon or are a triangle by themselves, at the place of the
+/// first of them. Lists at other places are empty.
 std::vector<std::vector<int>> partsOf(
   const Points& sites, const std::vector<Face>& faces, const std::vector<Edge>& edges)
 {
@@ -126,7 +142,7 @@ std::vector<std::vector<int>> partsOf(
       groups.join(edges[e].face, edges[e + 1].face);
     }
   }
-  std::vector<std::vector<int>> parts(faces.size()); // a root is its part's first face
+  std::vector<std::vector<int>> parts(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     parts[groups.root(static_cast<int>(f))].push_back(static_cast<int>(f));
@@ -154,6 +170,10 @@ Star starOf(const Points& sites, const CosphericalCells& cells, Index cell)
       star.polygons.push_back(polygonOf(faces, part));
     }
   }
+  star.byCorners.resize(star.polygons.size());
+  std::iota(star.byCorners.begin(), star.byCorners.end(), 0);
+  std::sort(star.byCorners.begin(), star.byCorners.end(),
+    [&](int a, int b) { return star.polygons[a].corners < star.polygons[b].corners; });
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
     const int own = polygon[edges[e].face];
@@ -202,10 +222,8 @@ Adjacency numberMeans(Index sites, std::vector<Star>& stars)
     {
       if (polygon.across >= 0 && polygon.across < static_cast<int>(cell))
       {
-        const std::vector<Star::Polygon>& others = stars[polygon.across].polygons;
-        const auto same = std::find_if(others.begin(), others.end(),
-          [&](const Star::Polygon& other) { return other.corners == polygon.corners; });
-        polygon.mean = same == others.end() ? -1 : same->mean;
+        const Star::Polygon* same = stars[polygon.across].find(polygon.corners);
+        polygon.mean = same ? same->mean : -1;
       }
       if (polygon.mean < 0)
       {
@@ -275,10 +293,10 @@ Corners sortedFace(const Tetrahedron& tetrahedron, int k)
   return corners;
 }
 
-/// Links the tetrahedra on both sides of each face that has no neighbor. `sites`: with the means.
+/// Links the tetrahedra on both sides of each face that has no neighbor. `sites`: without the means.
 void link(std::vector<Tetrahedron>& tetrahedra, Index sites, Monitor& monitor)
 {
-  // Faces by their last site: means follow the sites, and have fewer faces than most sites.
+  // Faces by their first site. Each has one that is no mean, and a mean may have very many faces.
   const Adjacency open = sortIntoBuckets(static_cast<Index>(tetrahedra.size()), sites, monitor,
     [&](Index first, Index last, const auto& add)
     {
@@ -289,7 +307,7 @@ void link(std::vector<Tetrahedron>& tetrahedra, Index sites, Monitor& monitor)
           if (tetrahedra[t].neighbors[k] == Delaunay::Outside)
           {
             const Corners corners = tetrahedra[t].face(k);
-            add(*std::max_element(corners.begin(), corners.end()), 4 * t + k);
+            add(*std::min_element(corners.begin(), corners.end()), 4 * t + k);
           }
         }
       }
@@ -333,7 +351,7 @@ Adjacency starCosphericalCells(Delaunay& delaunay, Monitor& monitor)
   Points sites = withMeans(delaunay.sites(), means, monitor);
   std::vector<Tetrahedron> tetrahedra = assemble(delaunay.tetrahedra(), cells, stars, monitor);
   monitor.check();
-  link(tetrahedra, sites.rows(), monitor);
+  link(tetrahedra, delaunay.sites().rows(), monitor);
   delaunay.replace(std::move(sites), std::move(tetrahedra));
   return means;
 }

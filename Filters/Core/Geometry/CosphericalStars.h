@@ -19,6 +19,7 @@ namespace morph
 /// `delaunay`: its tetrahedra are replaced, and the means follow its sites, as further ones.
 /// Returns the sites of each mean, ascending. Cost: 2 microseconds a tetrahedron.
 Adjacency starCosphericalCells(Delaunay& delaunay, Monitor& monitor);
-/// Returns the rows of `values`, one a site, and then the mean of each mean's rows.
+
+/// Returns `values`, one row a site, followed by their means. `means`: from starCosphericalCells().
 Points withMeans(const Points& values, const Adjacency& means, Monitor& monitor);
 }

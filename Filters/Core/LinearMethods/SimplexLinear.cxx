@@ -20,11 +20,12 @@ namespace
 {
 constexpr Index Grain = 4096;
 
-/// Returns the tetrahedra with nodes in them, ascending. `far`: rows that do not count.
+/// Returns the tetrahedra with nodes in them, ascending, of `count` in all. `far`: rows that do not
+/// count, ascending.
 std::vector<int> usedTetrahedra(
-  const PointLocation& enclosing, const std::vector<Index>& far, std::size_t tetrahedra)
+  const PointLocation& enclosing, const std::vector<Index>& far, std::size_t count)
 {
-  std::vector<std::uint8_t> isUsed(tetrahedra, 0);
+  std::vector<std::uint8_t> isUsed(count, 0);
   auto nextFar = far.begin();
   for (std::size_t row = 0; row < enclosing.tetrahedron.size(); ++row)
   {
@@ -36,7 +37,7 @@ std::vector<int> usedTetrahedra(
     isUsed[enclosing.tetrahedron[row]] = 1;
   }
   std::vector<int> used;
-  for (std::size_t t = 0; t < tetrahedra; ++t)
+  for (std::size_t t = 0; t < count; ++t)
   {
     if (isUsed[t])
     {
@@ -173,11 +174,14 @@ EvaluateReport SimplexLinear::displace(
       return Index(!(Delaunay::sixVolumes(tetrahedron, moved) > 0));
     });
   EvaluateReport report;
-  // Three copies of the sites and means; a tetrahedron in use, its number and its four corners.
-  constexpr double Site = 3 * 2 * 24, Used = sizeof(int) + sizeof(Delaunay::Tetrahedron) + 4 * 24;
+  // Sites are averaged. With the means they are copied, padded, and added to their displacements.
+  // A tetrahedron in use is read with its number and its four corners.
+  constexpr double Averaged = 48, Site = 48 + 56 + 72,
+                   Used = sizeof(int) + sizeof(Delaunay::Tetrahedron) + 4 * 24;
   report.bytesMoved =
     static_cast<double>(this->weights_.memory()) + 24. * static_cast<double>(free.rows()) +
-    Site * static_cast<double>(moved.rows()) + Used * static_cast<double>(this->used_.size());
+    Averaged * static_cast<double>(this->sites_.size()) + Site * static_cast<double>(moved.rows()) +
+    Used * static_cast<double>(this->used_.size());
   report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
     { "ExtrapolatedNodes", this->extrapolated_ }, { "AffineNodes", this->affine_ } };
   return report;

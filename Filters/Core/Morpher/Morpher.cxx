@@ -238,8 +238,10 @@ EvaluateReport Morpher::evaluate(
     moved.swap(fresh);
   }
   // A free node's displacement is read to check it. Then it is read again, with the node's number
-  // and its undeformed place, and the place is written.
-  report.bytesMoved += 104. * static_cast<double>(freeDisplacement.rows());
+  // and its undeformed place, and the place is written. A prescribed place becomes a displacement,
+  // and is copied.
+  report.bytesMoved += 104. * static_cast<double>(freeDisplacement.rows()) +
+                       136. * static_cast<double>(displacement.rows());
   monitor.progress(1);
   return report;
 }

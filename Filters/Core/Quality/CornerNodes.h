@@ -9,7 +9,7 @@ inline constexpr int TetCornerNodes[1][4] = { { 0, 1, 2, 3 } };
 inline constexpr int HexCornerNodes[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 },
   { 3, 0, 2, 7 }, { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
 /// The edges at each corner, in that order. The entry is e + 1 for edge e of the twelve in
-/// HexAxisEdges, or -(e + 1) if it ends at the corner.
+/// HexAxisEdges (Mesh/CellShape.h), or -(e + 1) if it ends at the corner.
 inline constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 },
   { -5, 2, 11 }, { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
 inline constexpr int WedgeCornerNodes[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 },

@@ -115,15 +115,14 @@ struct Hexes
     }
     for (const int(&at)[3] : HexCornerEdges)
     {
-      const Vector4* e[3];
-      double sign = 1;
+      Vector4 outgoing[3];
       for (int k = 0; k < 3; ++k)
       {
         const int number = (at[k] > 0 ? at[k] : -at[k]) - 1;
-        e[k] = &edge[number / 4][number % 4];
-        sign = at[k] > 0 ? sign : -sign;
+        const Vector4& along = edge[number / 4][number % 4];
+        outgoing[k] = at[k] > 0 ? along : Vector4{ -along.x, -along.y, -along.z };
       }
-      minimum = least(minimum, sign * cornerDeterminant(*e[0], *e[1], *e[2]));
+      minimum = least(minimum, cornerDeterminant(outgoing[0], outgoing[1], outgoing[2]));
     }
     std::memcpy(scaledJacobian, &minimum, sizeof(minimum));
     isGood = !any(~good);

@@ -23,8 +23,8 @@ using Vector = Eigen::Vector3d;
 
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// Sums are written out: Eigen's have another order where it uses vectors, and FourCells.cxx has to
-// have the same.
+// Sums are written out, as the order of Eigen's depends on whether it uses vectors. FourCells.cxx
+// has the same order.
 
 double dot(const Vector& a, const Vector& b)
 {
