@@ -293,7 +293,7 @@ Corners sortedFace(const Tetrahedron& tetrahedron, int k)
   return corners;
 }
 
-/// Links the tetrahedra on both sides of each face that has no neighbor. `sites`: without the means.
+/// Links the tetrahedra on both sides of each face without a neighbor. `sites`: without the means.
 void link(std::vector<Tetrahedron>& tetrahedra, Index sites, Monitor& monitor)
 {
   // Faces by their first site. Each has one that is no mean, and a mean may have very many faces.
