@@ -306,8 +306,7 @@ void link(std::vector<Tetrahedron>& tetrahedra, Index sites, Monitor& monitor)
         {
           if (tetrahedra[t].neighbors[k] == Delaunay::Outside)
           {
-            const Corners corners = tetrahedra[t].face(k);
-            add(*std::min_element(corners.begin(), corners.end()), 4 * t + k);
+            add(sortedFace(tetrahedra[t], k).front(), 4 * t + k);
           }
         }
       }

@@ -2,8 +2,8 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
+#include "Quality/CellsByFours.h"
 #include "Quality/CornerNodes.h"
-#include "Quality/FourCells.h"
 #include "Quality/PartialQuality.h"
 #include "Quality/PolyhedronQuality.h"
 #include "Quality/QuadraticJacobian.h"
@@ -278,75 +278,6 @@ int dimensionOf(const Mesh& mesh)
   return dimension;
 }
 
-/// Measures cells of one shape by fours.
-class Fours
-{
-public:
-  using Measure = bool (*)(const FourCells&, double (&)[SimdWidth]);
-
-  Fours(Shape shape, int corners, Measure measure)
-    : shape_(shape)
-    , corners_(corners)
-    , measure_(measure)
-  {
-  }
-
-  /// Adds cell c with its corners x, and measures if these are four.
-  void add(Index c, const Vector* x, std::vector<double>& values, std::vector<std::uint8_t>& flat)
-  {
-    for (int k = 0; k < this->corners_; ++k)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        this->cells_.x[k][j][this->count_] = x[k][j];
-      }
-    }
-    this->id_[this->count_++] = c;
-    if (this->count_ < SimdWidth)
-    {
-      return;
-    }
-    double four[SimdWidth];
-    if (!this->measure_(this->cells_, four))
-    {
-      this->finish(values, flat);
-      return;
-    }
-    for (int lane = 0; lane < SimdWidth; ++lane)
-    {
-      values[this->id_[lane]] = four[lane];
-    }
-    this->count_ = 0;
-  }
-
-  /// Measures those that are left, one by one.
-  void finish(std::vector<double>& values, std::vector<std::uint8_t>& flat)
-  {
-    for (int lane = 0; lane < this->count_; ++lane)
-    {
-      Vector x[8];
-      for (int k = 0; k < this->corners_; ++k)
-      {
-        const auto& corner = this->cells_.x[k];
-        x[k] = Vector(corner[0][lane], corner[1][lane], corner[2][lane]);
-      }
-      bool collapsed = false;
-      const Index c = this->id_[lane];
-      values[c] = morph::measure(this->shape_, x, this->corners_, AllSamples, collapsed);
-      flat[c] = collapsed;
-    }
-    this->count_ = 0;
-  }
-
-private:
-  Shape shape_;
-  int corners_;
-  Measure measure_;
-  FourCells cells_;
-  Index id_[SimdWidth];
-  int count_ = 0;
-};
-
 /// `chosen`: the cells to measure, ascending; null for all.
 Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
@@ -364,7 +295,15 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
     [&](Index first, Index last)
     {
       PolyhedronMeasure polyhedra;
-      Fours hexes(Shape::Hex, 8, measureHexes), tets(Shape::Tet, 4, measureTets);
+      const auto measureOne = [&](Index c, Shape shape, const Vector* x, int corners)
+      {
+        bool collapsed = false;
+        quality.scaledJacobian[c] = measure(shape, x, corners, AllSamples, collapsed);
+        isCollapsed[c] = collapsed;
+      };
+      std::vector<double>& values = quality.scaledJacobian;
+      CellsByFours hexes(Shape::Hex, 8, measureHexes, values, measureOne),
+        tets(Shape::Tet, 4, measureTets, values, measureOne);
       for (Index i = first; i < last; ++i)
       {
         const Index c = chosen ? (*chosen)[i] : i;
@@ -392,21 +331,17 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         const bool hasInside = !cornersOnly && isQuadraticVolume(*shape);
         if (!hasInside && (shape->shape == Shape::Hex || shape->shape == Shape::Tet))
         {
-          (shape->shape == Shape::Hex ? hexes : tets)
-            .add(c, x, quality.scaledJacobian, isCollapsed);
+          (shape->shape == Shape::Hex ? hexes : tets).add(c, x);
           continue;
         }
-        bool collapsed = false;
-        double value = measure(shape->shape, x, shape->numberOfCorners, AllSamples, collapsed);
-        if (hasInside && !collapsed)
+        measureOne(c, shape->shape, x, shape->numberOfCorners);
+        if (hasInside && !isCollapsed[c])
         {
-          value = measureInside(mesh.types[c], *shape, mesh, points, c, sign, value);
+          values[c] = measureInside(mesh.types[c], *shape, mesh, points, c, sign, values[c]);
         }
-        quality.scaledJacobian[c] = value;
-        isCollapsed[c] = collapsed;
       }
-      hexes.finish(quality.scaledJacobian, isCollapsed);
-      tets.finish(quality.scaledJacobian, isCollapsed);
+      hexes.finish();
+      tets.finish();
     });
   monitor.check();
 
