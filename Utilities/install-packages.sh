@@ -9,7 +9,7 @@ Installs the Debian packages that MeshMorphing is built and tested with, as root
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
                 xdotool
-  --developer   also what format.sh, lint.sh, same-bits.sh, check-documentation.sh and
+  --developer   also what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh needs (mkdocs, doxygen)
   --other-debian  also what other-debian.sh needs (mmdebstrap)

@@ -94,10 +94,14 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->coupling_ = rows.coupling.middleCols(0, held);
   this->parts_ =
     AffineParts(mesh, this->ownFree(), rows.interior, rows.coupling, prescribed, ghosts);
-  const CsrMatrix others = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  LinearEquations equations;
+  equations.ghosts = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  equations.matrix.swap(rows.interior);
+  equations.ghostNumbers = std::move(ghostNumbers);
   monitor.progress(0.5);
   ranks.together([&] { monitor.check(); });
-  this->solver_.prepare(ranks, this->kind_, rows.interior, others, ghostNumbers);
+  this->solver_ = std::make_unique<HypreSolver>(ranks, this->kind_);
+  this->solver_->prepare(std::move(equations), monitor);
 }
 
 EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor) const
@@ -151,7 +155,8 @@ EvaluateReport SystemMethod::displace(
   {
     free.setZero();
   }
-  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
+  const SolveReport solved = 
+    this->solver_->solve(rhs, free, this->tolerance_, MaxIterations, monitor);
   if (!this->isUniform_)
   {
     free += fitted;
@@ -167,12 +172,13 @@ EvaluateReport SystemMethod::displaceTranspose(
   const Ranks& ranks = mesh.ranks();
   if (this->kind_ == HypreSolver::Kind::General && !this->transposed_)
   {
-    this->transposed_ = this->solver_.transposed(ranks);
+    this->transposed_ = this->solver_->transposed(monitor);
   }
-  const HypreSolver& solver = this->transposed_ ? *this->transposed_ : this->solver_;
+  const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
   ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved = solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
+  const SolveReport solved = 
+    solver.solve(free, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
@@ -211,8 +217,8 @@ SystemMethod::Rows FemWarp::assemble(
     [&]
     {
       system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
-      joinRows(std::move(system.interior), rows.interior, monitor);
-      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
+      rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
+      rows.coupling.swap(system.coupling);
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -257,8 +263,8 @@ SystemMethod::Rows LogBarrierWarp::assemble(
     {
       system =
         logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
-      joinRows(std::move(system.interior), rows.interior, monitor);
-      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
+      rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
+      rows.coupling.swap(system.coupling);
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
@@ -282,7 +288,7 @@ SystemMethod::Rows LogBarrierWarp::assemble(
     system.stiffness };
   ranks.sum(counts, 4);
   this->counts_ = { { "OutsideHullNodes", counts[0] }, { "TwoRingNodes", counts[1] },
-    { "AffineNodes", counts[2] }, { "StiffnessNodes", counts[3] }, { "FallBackIterations", 0 } };
+    { "AffineNodes", counts[2] }, { "StiffnessNodes", counts[3] } };
   if (counts[0] > 0 && ranks.rank() == 0)
   {
     monitor.warn("Free nodes outside the hull of their neighbors: node ids " + listIds(outside) +

@@ -21,7 +21,7 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
-  const HypreSolver& solver() const { return this->solver_; }
+  const HypreSolver& solver() const { return *this->solver_; }
   /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
   const CellStiffness& stiffness() const { return this->stiffness_; }
@@ -60,7 +60,7 @@ private:
   bool isUniform_ = true;
   CsrMatrix coupling_; ///< #ownFree x #prescribed
   AffineParts parts_;
-  HypreSolver solver_;
+  std::unique_ptr<HypreSolver> solver_;
   mutable std::unique_ptr<HypreSolver> transposed_; ///< of a General solver, once it is asked for
 };
 

@@ -9,7 +9,6 @@
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/NodeWeights.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 
 #include <algorithm>
 #include <utility>
@@ -95,9 +94,7 @@ void Run::weights(const Problem& problem)
     rows.push_back(rowsWatch.seconds());
 
     const ThreadStopwatch systemWatch;
-    morph::LogBarrierSystem made = morph::logBarrierSystem(
-      problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
-    const morph::MixedPrecisionMatrix joined(std::move(made.interior), *monitor);
+    morph::logBarrierSystem(problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
     system.push_back(systemWatch.seconds());
 
     // The weights without the search for neighbors, ours and Eigen's, on the same numbers.

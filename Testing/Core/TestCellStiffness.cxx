@@ -8,7 +8,6 @@
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
 #include "Quality/MovableQuality.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Dense>
@@ -182,7 +181,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
   uniform.prepare(mesh, partition, monitor);
   soft.prepare(mesh, partition, monitor);
   ASSERT_EQ(uniform.rows(), soft.rows());
-  Eigen::MatrixXd expected = uniform.solver().matrix().toCsr();
+  Eigen::MatrixXd expected = uniform.solver().matrix();
   double corners[8][3], K[triangleSize(8)];
   copyCorners(mesh, cell, *cellShape(mesh.types[cell]), mesh.points, corners[0]);
   elementStiffness(Shape::Hex, corners, K);
@@ -198,7 +197,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
       expected(row(a), row(b)) -= 0.75 * K[triangleIndex(8, a, b)];
     }
   }
-  const Eigen::MatrixXd found = soft.solver().matrix().toCsr();
+  const Eigen::MatrixXd found = soft.solver().matrix();
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(expected.ldlt().vectorD().minCoeff(), 0);
 }

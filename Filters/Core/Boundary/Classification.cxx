@@ -5,7 +5,6 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
-#include "Support/FirstTouch.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -96,9 +95,9 @@ public:
   {
     validate(static_cast<Index>(this->points_.rows()), this->faces_, this->options_);
     const Index nodes = static_cast<Index>(this->points_.rows());
-    this->result_.dimension = largeVector<std::int8_t>(nodes, -1, monitor);
-    this->result_.entity = largeVector<Index>(nodes, -1, monitor);
-    this->result_.parameter = largeVector<double>(nodes, NoParameter, monitor);
+    this->result_.dimension = std::vector<std::int8_t>(nodes, -1);
+    this->result_.entity = std::vector<Index>(nodes, -1);
+    this->result_.parameter = std::vector<double>(nodes, NoParameter);
     this->result_.edges = surfaceEdges(this->points_, this->faces_, monitor);
     monitor.check();
     monitor.progress(0.4);

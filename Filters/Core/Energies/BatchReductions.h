@@ -4,7 +4,7 @@
 #include "Energies/CellBatches.h"
 #include "Mesh/GatherMap.h"
 #include "Support/Monitor.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <vector>

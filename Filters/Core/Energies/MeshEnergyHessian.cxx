@@ -2,10 +2,9 @@
 #include "Energies/CellBatchKernel.h"
 #include "Energies/MeshEnergy.h"
 #include "Support/Error.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <string>
 
@@ -54,17 +53,11 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
   Index e = 0;
   for (; e + SimdWidth <= count; e += SimdWidth)
   {
-    const SimdFloat4 *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
-                     AB = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7),
-                     cd = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5),
-                     CD = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7),
-                     cell[] = { __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
-                       __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-                       __builtin_shufflevector(AB, CD, 0, 1, 4, 5),
-                       __builtin_shufflevector(AB, CD, 2, 3, 6, 7) };
+    SimdFloat4 cell[SimdWidth];
+    transpose(entries + e, cell);
     for (Index lane = 0; lane < SimdWidth; ++lane)
     {
-      std::memcpy(to + lane * count + e, &cell[lane], sizeof(SimdFloat4));
+      store(cell[lane], to + lane * count + e);
     }
   }
   for (; e < count; ++e)
@@ -106,7 +99,7 @@ struct BatchHessian
       {
         for (Index i = 0; i < 3; ++i)
         {
-          entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], SimdFloat4);
+          entries[9 * k + 3 * j + i] = narrowed(sum[k][j][i]);
         }
       }
     }
@@ -133,11 +126,11 @@ private:
     {
       for (int i = 0; i < 3; ++i)
       {
-        most = block[a][a][i][i] > most ? block[a][a][i][i] : most;
+        most = select(block[a][a][i][i] > most, block[a][a][i][i], most);
       }
     }
     const SimdDouble4 weight =
-      target.weight * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
+      target.weight * select(most > Largest, Largest / most, SimdDouble4{} + 1.);
 
     // A translation changes nothing: the blocks of corner 0 follow from the others.
     SimdMatrix first = {};

@@ -61,7 +61,7 @@ MORPH_SIMD_INLINE void exclude(
   const SimdDouble4& signedVolume, const SimdDouble4& unit, SimdDouble4& power)
 {
   const SimdDouble4 zero = {}, infinity = zero + std::numeric_limits<double>::infinity();
-  power = signedVolume > 0. ? power : unit == 0. ? zero : infinity;
+  power = select(signedVolume > 0., power, select(unit == 0., zero, infinity));
 }
 
 /// One corner of each cell.
@@ -87,7 +87,7 @@ struct Corner
     const SimdDouble4 one = SimdDouble4{} + 1.;
     const SimdDouble4 product = squares[0] * squares[1] * squares[2];
     const SimdDouble4 both = determinant * product;
-    const SimdDouble4 inverse = 1. / (both == 0. ? one : both);
+    const SimdDouble4 inverse = 1. / select(both == 0., one, both);
     this->byDeterminant = inverse * product;
     const SimdDouble4 ratio = unit * this->byDeterminant, byProduct = inverse * determinant;
     this->ofAngles = ratio * ratio * product;
@@ -131,7 +131,7 @@ struct Tetrahedron
     SimdDouble4 determinant;
     dot(this->edges[0], normals[0], determinant);
     const SimdDouble4 one = SimdDouble4{} + 1.;
-    this->byDeterminant = 1. / (determinant == 0. ? one : determinant);
+    this->byDeterminant = 1. / select(determinant == 0., one, determinant);
     const SimdDouble4 ratio = unit * this->byDeterminant, square = ratio * ratio;
     const SimdDouble4* l = this->squares;
     this->power[0] = square * (l[0] * l[1] * l[2]);
@@ -243,7 +243,7 @@ struct WorstCornerNorm::Sum
     for (const SimdDouble4& power : powers)
     {
       sum += power;
-      most = power > most ? power : most;
+      most = select(power > most, power, most);
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
     {
@@ -313,7 +313,7 @@ private:
     for (int k = 0; k < 3; ++k)
     {
       const SimdDouble4 both = own.squares[k] * own.squares[k + 3];
-      const SimdDouble4 inverse = mean / (both == 0. ? one : both);
+      const SimdDouble4 inverse = mean / select(both == 0., one, both);
       const SimdDouble4 byLength[2] = { inverse * own.squares[k + 3], inverse * own.squares[k] };
       for (int side = 0; side < 2; ++side)
       {
@@ -343,7 +343,7 @@ private:
     const Corner own(x, corner, scales, squarings);
     value.add(own.power);
     const SimdDouble4 one = SimdDouble4{} + 1.;
-    const SimdDouble4 factor = mean * own.power[0] / (own.all == 0. ? one : own.all);
+    const SimdDouble4 factor = mean * own.power[0] / select(own.all == 0., one, own.all);
     const SimdDouble4 byDeterminant = factor * own.ofAngles * own.byDeterminant;
     SimdVector all = {};
     for (int k = 0; k < 3; ++k)

@@ -4,7 +4,6 @@
 #include "Geometry/CosphericalCells.h"
 #include "Geometry/MeanOfRows.h"
 #include "Support/Buckets.h"
-#include "Support/FirstTouch.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -255,7 +254,7 @@ std::vector<Tetrahedron> assemble(const std::vector<Tetrahedron>& old,
     first.push_back(first.back() + static_cast<Index>(star.triangles.size()));
   }
   std::vector<Tetrahedron> all;
-  resizeLarge(all, first.back(), monitor);
+  all.resize(first.back());
   for (std::size_t t = 0; t < old.size(); ++t)
   {
     if (place[t] != None)

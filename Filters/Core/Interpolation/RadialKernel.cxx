@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/RadialKernel.h"
 
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <limits>
@@ -42,7 +41,7 @@ struct WendlandC2
   MORPH_SIMD_INLINE Real operator()(const Real& square) const
   {
     const Real q = squareRoot(square) * this->inverseRadius;
-    const Real inside = positivePart(1. - q), fourth = inside * inside * inside * inside;
+    const Real left = 1. - q, inside = select(left > 0., left, Real{}), fourth = inside * inside * inside * inside;
     return fourth * (4. * q + 1.);
   }
 };

@@ -2,8 +2,7 @@
 #include "Interpolation/WeightMatrix.h"
 
 #include "Support/Error.h"
-#include "Support/Prefetch.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,24 +21,20 @@ constexpr Index MostEntries = Index(1) << 36; // 800 GB: not even requested
 using PaddedPoints = WeightMatrix::PaddedPoints;
 
 /// Four numbers a site fill vector registers; three do not.
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-
-inline __attribute__((always_inline)) const Four& site(const double* sites, std::int32_t column)
+MORPH_SIMD_INLINE SimdDouble4 site(const double* sites, std::int32_t column)
 {
-  return *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column));
+  return load(sites + SimdWidth * static_cast<Index>(column));
 }
 
 /// Computes the weighted sum of `n` sites, three numbers each. Four partial sums hide the latency
 /// of an addition.
-inline __attribute__((always_inline)) void weightedSum(
+MORPH_SIMD_INLINE void weightedSum(
   const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
 {
-  Four first = { 0, 0, 0, 0 }, second = first, third = first, fourth = first;
+  SimdDouble4 first = {}, second = first, third = first, fourth = first;
   Index e = 0;
   for (; n - e > 3; e += 4)
   {
-    prefetchAhead(weight, e);
-    prefetchAhead(column, e);
     first += weight[e] * site(sites, column[e]);
     second += weight[e + 1] * site(sites, column[e + 1]);
     third += weight[e + 2] * site(sites, column[e + 2]);
@@ -57,7 +52,7 @@ inline __attribute__((always_inline)) void weightedSum(
 
 struct MultiplyRow
 {
-  static inline __attribute__((always_inline)) void run(
+  static MORPH_SIMD_INLINE void run(
     Index row, const WeightMatrix& matrix, const PaddedPoints& sites, Points& free)
   {
     weightedSum(matrix.column(row), matrix.weight(row), matrix.entries(row), sites.data(),

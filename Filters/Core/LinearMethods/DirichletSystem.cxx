@@ -2,9 +2,7 @@
 #include "LinearMethods/DirichletSystem.h"
 
 #include "Mesh/UnknownOrdering.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -178,7 +176,7 @@ std::size_t AffineGuess::memory() const
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
-  resizeLarge(x, rows.size());
+  x.resize(rows.size());
   monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
     [&](Index first, Index last)
     {
@@ -230,7 +228,7 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
 }
 
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)
 {
   const auto count = static_cast<Index>(rows.size());
@@ -252,7 +250,10 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
             sum += term;
             size += term.abs();
           };
-          interior.forRow(i, [&](int column, int k) { add(interior.value(k), rows[column]); });
+          for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
+          {
+            add(entry.value(), rows[entry.col()]);
+          }
           for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
           {
             add(entry.value(), partition.prescribed[entry.col()]);

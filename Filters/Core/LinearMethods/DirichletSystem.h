@@ -89,7 +89,6 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
 struct DirichletEquations;
-class MixedPrecisionMatrix;
 
 /// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
 class AffineResidual
@@ -111,8 +110,8 @@ struct DirichletEquations
   const Points& points; ///< undeformed
   const NodePartition& partition;
   const std::vector<Index>& rows;
-  const MixedPrecisionMatrix& interior; ///< A_I
-  const CsrMatrix& coupling;            ///< A_B
+  const CsrMatrix& interior; ///< A_I
+  const CsrMatrix& coupling; ///< A_B
   const AffineGuess& guess;
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
@@ -127,7 +126,7 @@ struct DirichletEquations
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
 /// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor);
 
 /// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,

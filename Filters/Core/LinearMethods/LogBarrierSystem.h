@@ -3,7 +3,6 @@
 
 #include "LinearMethods/NodeWeights.h"
 #include "Mesh/Mesh.h"
-#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 
@@ -14,8 +13,8 @@ namespace morph
 /// The equations of LBWARP, (I - W_I) U_I - W_B U_B = 0; their rows sum to zero.
 struct LogBarrierSystem
 {
-  ChunkedMatrix interior; ///< I - W_I, #rows x #rows
-  CsrMatrix coupling;     ///< -W_B, #rows x #prescribed
+  CsrMatrix interior; ///< I - W_I, #rows x #rows
+  CsrMatrix coupling; ///< -W_B, #rows x #prescribed
 
   /// nodes without log-barrier weights among their neighbors, in the order of the rows
   std::vector<Index> outside;

@@ -71,8 +71,8 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  /// The report counts OutsideHullNodes, the TwoRingNodes, AffineNodes and StiffnessNodes among
-  /// them, and the solver's FallBackIterations.
+  /// The report counts OutsideHullNodes, and the TwoRingNodes, AffineNodes and StiffnessNodes among
+  /// them.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceFields(
     const FourFields& prescribed, FourFields& free, Monitor& monitor) const override;
@@ -82,7 +82,7 @@ protected:
 private:
   /// Sets `x` to the displacements of the rows.
   EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
-  EvaluateReport report(const GeneralSolver::Report& solved, Monitor& monitor) const;
+  EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
   OutsideHull outsideHull_ = OutsideHull::Error;

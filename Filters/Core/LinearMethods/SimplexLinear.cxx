@@ -174,14 +174,6 @@ EvaluateReport SimplexLinear::displace(
       return Index(!(Delaunay::sixVolumes(tetrahedron, moved) > 0));
     });
   EvaluateReport report;
-  // Sites are averaged. With the means they are copied, padded, and added to their displacements.
-  // A tetrahedron in use is read with its number and its four corners.
-  constexpr double Averaged = 48, Site = 48 + 56 + 72,
-                   Used = sizeof(int) + sizeof(Delaunay::Tetrahedron) + 4 * 24;
-  report.bytesMoved =
-    static_cast<double>(this->weights_.memory()) + 24. * static_cast<double>(free.rows()) +
-    Averaged * static_cast<double>(this->sites_.size()) + Site * static_cast<double>(moved.rows()) +
-    Used * static_cast<double>(this->used_.size());
   report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
     { "ExtrapolatedNodes", this->extrapolated_ }, { "AffineNodes", this->affine_ } };
   return report;

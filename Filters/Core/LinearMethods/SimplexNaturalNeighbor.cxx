@@ -384,11 +384,6 @@ EvaluateReport SimplexNaturalNeighbor::displace(
         });
     });
   EvaluateReport report;
-  report.bytesMoved = 72. * static_cast<double>(free.rows());
-  for (const WeightMatrix& weights : this->stored_)
-  {
-    report.bytesMoved += static_cast<double>(weights.memory());
-  }
   report.statistics = { { "BarycentricNodes", barycentric },
     { "ExtrapolatedNodes", static_cast<Index>(this->enclosing_.extrapolated.size()) },
     { "WeightsStored", this->stored_.empty() ? 0 : 1 } };

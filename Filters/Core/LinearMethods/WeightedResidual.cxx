@@ -52,8 +52,6 @@ void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport WeightedResidual::report() const
 {
   EvaluateReport report;
-  report.bytesMoved = static_cast<double>(this->weights_.memory()) +
-                      sizeof(double) * static_cast<double>(4 * this->freePlaces_.size());
   return report;
 }
 

@@ -4,7 +4,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
-#include "Support/FirstTouch.h"
 
 namespace morph
 {
@@ -29,7 +28,7 @@ ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
   const std::vector<std::uint8_t>& skip, Monitor& monitor)
 {
   constexpr Index Grain = 4096;
-  auto volume = largeVector<double>(mesh.numberOfCells(), 0., monitor);
+  std::vector<double> volume(mesh.numberOfCells(), 0.);
   monitor.parallelFor(mesh.numberOfCells(), Grain,
     [&](Index first, Index last)
     {

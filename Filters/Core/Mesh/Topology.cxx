@@ -8,7 +8,6 @@
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
 #include "Support/Buckets.h"
-#include "Support/FirstTouch.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -357,7 +356,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
 
   // Each cell gets its root, and the roots numbers in the order of their first cell.
   ConnectedComponents result;
-  resizeLarge(result.ofCell, cells);
+  result.ofCell.resize(cells);
   monitor.parallelFor(cells, Grain,
     [&](Index first, Index last)
     {
@@ -366,7 +365,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
         result.ofCell[c] = volumeShape(mesh, c) ? bodies.root(mesh.cell(c)[0]) : None;
       }
     });
-  auto number = largeVector<Index>(nodes, None, monitor);
+  std::vector<Index> number(nodes, None);
   for (const Index root : result.ofCell)
   {
     if (root != None && number[root] == None)
@@ -382,7 +381,7 @@ ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
         result.ofCell[c] = result.ofCell[c] == None ? None : number[result.ofCell[c]];
       }
     });
-  resizeLarge(result.ofNode, nodes);
+  result.ofNode.resize(nodes);
   monitor.parallelFor(nodes, Grain,
     [&](Index first, Index last)
     {

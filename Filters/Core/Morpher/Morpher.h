@@ -27,7 +27,6 @@ struct EvaluateReport
 {
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
   double relativeResidual = 0; ///< maximum over the three coordinates, 0 for direct formulas
-  double bytesMoved = 0;       ///< estimated memory traffic, for benchmarks
   /// the same names always for a method; empty where no node is free
   std::vector<Statistic> statistics;
 };

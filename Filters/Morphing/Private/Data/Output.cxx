@@ -3,7 +3,6 @@
 
 #include "Private/Data/DataCheck.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDoubleArray.h>
@@ -47,8 +46,6 @@ struct Written
       array->SetName(name);
       array->SetNumberOfComponents(3);
       array->SetNumberOfTuples(moved.rows());
-      morph::adviseHugePages(
-        array->GetPointer(0), array->GetNumberOfValues() * sizeof(*array->GetPointer(0)));
       return array;
     };
     Written written = { make("Points"), make("MorphDisplacement") };
