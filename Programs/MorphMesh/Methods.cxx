@@ -130,10 +130,8 @@ const std::vector<Method>& methods()
           setter<Smoothing>([](Smoothing* f, double v) { f->SetStopMove(v); }) } } },
     { "WeightedResidual", make<Residual>,
       { { "NumberOfNeighbors", {}, 1, VTK_INT_MAX,
-          setter<Residual>(
-            [](Residual* f, double v) { f->SetNumberOfNeighbors(static_cast<int>(v)); }) },
-        { "AdaptiveNeighbors", { "Off", "On" }, 0, 1,
-          setter<Residual>([](Residual* f, double v) { f->SetAdaptiveNeighbors(v != 0); }) } } },
+        setter<Residual>(
+          [](Residual* f, double v) { f->SetNumberOfNeighbors(static_cast<int>(v)); }) } } },
   };
   return all;
 }

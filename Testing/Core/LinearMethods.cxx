@@ -86,14 +86,6 @@ const std::vector<LinearMethod>& linearMethods()
     { "SimplexLinear", [] { return std::make_unique<SimplexLinear>(); } },
     { "SimplexSibson", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
     { "WeightedResidual", [] { return std::make_unique<WeightedResidual>(); } },
-    { "WeightedResidualAdaptive",
-      []
-      {
-        auto method = std::make_unique<WeightedResidual>();
-        method->setNumberOfNeighbors(20);
-        method->setAdaptiveNeighbors(true);
-        return method;
-      } },
   };
   return methods;
 }

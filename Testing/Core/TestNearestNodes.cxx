@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
-#include "Geometry/ConvexHullTest.h"
 #include "Geometry/NearestNodes.h"
 #include "Geometry/SpatialOrder.h"
 #include "Mesh/Topology.h"
@@ -80,34 +79,6 @@ void expectNearest(const Points& nodes, const Points& x, const std::vector<Index
   }
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), Index(0)), n) << what;
 }
-
-/// Whether x is in the hull of points in general position: no plane through x and two points has
-/// all others on one side.
-bool insideByAllPlanes(const Eigen::RowVector3d& x, const Points& points)
-{
-  const Points d = points.rowwise() - x;
-  for (Index i = 0; i < d.rows(); ++i)
-  {
-    for (Index j = 0; j < i; ++j)
-    {
-      const Eigen::Vector3d normal =
-        Eigen::Vector3d(d.row(i).transpose()).cross(Eigen::Vector3d(d.row(j).transpose()));
-      int above = 0, below = 0;
-      for (Index k = 0; k < d.rows(); ++k)
-      {
-        if (k != i && k != j)
-        {
-          ++(d.row(k).dot(normal) > 0 ? above : below);
-        }
-      }
-      if (above == 0 || below == 0)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
 }
 
 TEST(NearestNodes, AgreesWithSortingAllDistances)
@@ -177,56 +148,4 @@ TEST(NearestNodes, GradedSetsFarFromTheOriginAreExactToo)
   nodes.array() += 1e7;
   x.array() += 1e7;
   expectNearest(nodes, x, spatialOrder(x, allIds(500)), 25, "graded and far off");
-}
-
-TEST(ConvexHullTest, AgreesWithTryingAllPlanes)
-{
-  std::mt19937 random(meshes::seed());
-  int inside = 0;
-  for (int round = 0; round < 300; ++round)
-  {
-    const Points points = randomPoints(4 + round % 12, random);
-    const Eigen::RowVector3d x = .6 * randomPoints(1, random);
-    const bool expected = insideByAllPlanes(x, points);
-    inside += expected ? 1 : 0;
-    EXPECT_EQ(insideConvexHull(x, points), expected) << "round " << round;
-  }
-  EXPECT_GT(inside, 50);
-  EXPECT_LT(inside, 250);
-}
-
-TEST(ConvexHullTest, TheHullItselfCountsAsInside)
-{
-  const Points cube = meshes::hexes(2, 2, 2).points;
-  EXPECT_TRUE(insideConvexHull({ 1, 1, 1.5 }, cube));
-  EXPECT_TRUE(insideConvexHull({ 1.3, .4, 2 }, cube)); // on a face
-  EXPECT_TRUE(insideConvexHull({ 0, .7, 2 }, cube));   // on an edge
-  EXPECT_TRUE(insideConvexHull({ 2, 2, 2 }, cube));    // a corner
-  EXPECT_FALSE(insideConvexHull({ 1.3, .4, 2 + 1e-5 }, cube));
-  EXPECT_FALSE(insideConvexHull({ 0, -1e-5, 2 }, cube));
-
-  Points plane = cube;
-  plane.col(2).setConstant(.3);
-  EXPECT_TRUE(insideConvexHull({ .9, 1.1, .3 }, plane));
-  EXPECT_FALSE(insideConvexHull({ .9, 1.1, .31 }, plane));
-  EXPECT_FALSE(insideConvexHull({ 2.1, 1.1, .3 }, plane));
-  Points line = plane;
-  line.col(0).setConstant(.2);
-  EXPECT_TRUE(insideConvexHull({ .2, 1.7, .3 }, line));
-  EXPECT_FALSE(insideConvexHull({ .2, 2.7, .3 }, line));
-  EXPECT_FALSE(insideConvexHull({ .1, 1.7, .3 }, line));
-  EXPECT_FALSE(insideConvexHull({ 0, 0, 0 }, Points(0, 3)));
-}
-
-TEST(ConvexHullTest, TurningAndScalingDoNotMatter)
-{
-  std::mt19937 random(meshes::seed());
-  const Eigen::Matrix3d turn =
-    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  for (int round = 0; round < 100; ++round)
-  {
-    const Points points = randomPoints(12, random);
-    const Eigen::RowVector3d x = .6 * randomPoints(1, random);
-    EXPECT_EQ(insideConvexHull(x, points), insideConvexHull(1e6 * x * turn, 1e6 * points * turn));
-  }
 }

@@ -92,9 +92,7 @@ const std::vector<MorphFilter>& morphFilters()
           on<Natural, vtkIdType>([](Natural* f) { return f->GetWeightsStored(); }) } } },
     { "WeightedResidual", make<Residual>,
       { { "NumberOfNeighbors", on<Residual, void>([](Residual* f) { f->SetNumberOfNeighbors(7); }),
-          true },
-        { "AdaptiveNeighbors", on<Residual, void>([](Residual* f) { f->AdaptiveNeighborsOn(); }),
-          true } },
+        true } },
       {} },
   };
   return filters;

@@ -211,9 +211,7 @@ const std::vector<Filter>& filters()
           whole<vtkLBWarpMorph>("OutsideHull", &vtkLBWarpMorph::SetOutsideHull, 0, 0, 1) }) },
     { "WeightedResidualMorph", 3, true, true, maker<vtkWeightedResidualMorph>(),
       joined(ofMorph(), { whole<vtkWeightedResidualMorph>("NumberOfNeighbors",
-                            &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100),
-                          flag<vtkWeightedResidualMorph>("AdaptiveNeighbors",
-                            &vtkWeightedResidualMorph::SetAdaptiveNeighbors, false) }) },
+                          &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100) }) },
     { "RadialBasisMorph", 3, true, true, maker<vtkRadialBasisMorph>(),
       joined(
         ofMorph(), { whole<vtkRadialBasisMorph>("Kernel", &vtkRadialBasisMorph::SetKernel, 0, 0, 2),

@@ -68,8 +68,8 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
     }
   }
   monitor.check();
-  this->weights_ = inverseDistanceWeights(
-    this->sites_, places(this->reached_, allColumns), Neighborhood{ Neighbors, false }, monitor);
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, places(this->reached_, allColumns), Neighbors, monitor);
 }
 
 Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const

@@ -138,8 +138,7 @@ void SurfaceResidual::prepare(
   std::iota(rows.begin(), rows.end(), Index(0));
   this->sites_ = InterpolationSites(prescribed, rows);
   this->fit_ = AffineLeastSquares(this->sites_.coordinates());
-  this->weights_ =
-    inverseDistanceWeights(this->sites_, points, { this->numberOfNeighbors_ }, monitor);
+  this->weights_ = inverseDistanceWeights(this->sites_, points, this->numberOfNeighbors_, monitor);
   this->prepared_ = true;
 }
 

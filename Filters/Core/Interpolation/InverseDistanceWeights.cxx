@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/InverseDistanceWeights.h"
 
-#include "Geometry/ConvexHullTest.h"
 #include "Geometry/NearestNodes.h"
 #include "Geometry/SpatialOrder.h"
 #include "Support/Error.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <numeric>
 #include <sstream>
-#include <utility>
+#include <vector>
 
 namespace morph
 {
@@ -19,80 +17,6 @@ namespace
 {
 constexpr Index Grain = 256;
 constexpr Index Batch = 64 * Grain; // places between two calls of the monitor
-
-/// Places with the same number of neighbors, in the order of a space-filling curve.
-struct Group
-{
-  Index neighbors;
-  std::vector<Index> rows;
-};
-
-/// Searches a group's neighbors in several threads, which call visit(row, neighbors). `from`, `to`:
-/// progress.
-void searchGroup(const NearestNodes& nearest, const Points& places, const Group& group, double from,
-  double to, Monitor& monitor, const NearestNodes::Visit& visit)
-{
-  const Index n = static_cast<Index>(group.rows.size());
-  for (Index begin = 0; begin < n; begin += Batch)
-  {
-    monitor.check();
-    monitor.progress(from + (to - from) * static_cast<double>(begin) / static_cast<double>(n));
-    monitor.parallelFor(std::min(Batch, n - begin), Grain,
-      [&](Index first, Index last)
-      { nearest.search(places, group.rows, begin + first, begin + last, group.neighbors, visit); });
-  }
-}
-
-/// Whether the neighbors of a place surround it, or a single one decides.
-bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& x,
-  const NearestNodes::Neighbors& neighbors)
-{
-  const double* d = neighbors.squaredDistances;
-  if (*std::min_element(d, d + neighbors.count) <= prescribed.tolerance() * prescribed.tolerance())
-  {
-    return true;
-  }
-  const Points& sites = prescribed.coordinates();
-  Points around(neighbors.count, 3);
-  for (Index i = 0; i < neighbors.count; ++i)
-  {
-    around.row(i) = sites.row(neighbors.nodes[i]);
-  }
-  return insideConvexHull(x, around);
-}
-
-/// Moves places that their neighbors do not surround to groups of twice as many neighbors,
-/// repeatedly.
-std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationSites& sites,
-  const Points& places, Group all, Monitor& monitor)
-{
-  std::vector<Group> groups;
-  std::vector<std::uint8_t> done(places.rows(), 0);
-  Group pending = std::move(all);
-  while (!pending.rows.empty())
-  {
-    if (pending.neighbors < sites.size())
-    {
-      searchGroup(nearest, places, pending, .1, .5, monitor,
-        [&](Index row, const NearestNodes::Neighbors& neighbors)
-        { done[row] = surrounded(sites, places.row(row), neighbors) ? 1 : 0; });
-    }
-    else
-    {
-      std::fill(done.begin(), done.end(), std::uint8_t(1));
-    }
-    Group rest{ std::min(2 * pending.neighbors, sites.size()), {} };
-    const auto isDone = [&](Index row) { return done[row] != 0; };
-    std::copy_if(pending.rows.begin(), pending.rows.end(), std::back_inserter(rest.rows),
-      [&](Index row) { return !isDone(row); });
-    pending.rows.erase(std::remove_if(pending.rows.begin(), pending.rows.end(),
-                         [&](Index row) { return !isDone(row); }),
-      pending.rows.end());
-    groups.push_back(std::move(pending));
-    pending = std::move(rest);
-  }
-  return groups;
-}
 
 void writeRow(
   const NearestNodes::Neighbors& neighbors, double tolerance, std::int32_t* column, double* weight)
@@ -134,50 +58,32 @@ void requireModerate(const Points& places)
 }
 }
 
-WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
-  const Neighborhood& neighborhood, Monitor& monitor)
+WeightMatrix inverseDistanceWeights(
+  const InterpolationSites& sites, const Points& places, Index neighbors, Monitor& monitor)
 {
   requireModerate(sites.coordinates());
   requireModerate(places);
   const Index n = places.rows();
   std::vector<Index> ids(n);
   std::iota(ids.begin(), ids.end(), Index(0));
-  Group all{ std::min(neighborhood.count, sites.size()), spatialOrder(places, ids) };
+  const std::vector<Index> order = spatialOrder(places, ids);
   const NearestNodes nearest(sites.coordinates());
   monitor.check();
   monitor.progress(.1);
 
-  std::vector<Group> groups;
-  if (neighborhood.grows)
-  {
-    groups = grownGroups(nearest, sites, places, std::move(all), monitor);
-  }
-  else
-  {
-    groups.push_back(std::move(all));
-  }
-  std::vector<Index> offsets(n + 1, 0);
-  for (const Group& group : groups)
-  {
-    for (Index row : group.rows)
-    {
-      offsets[row + 1] = group.neighbors;
-    }
-  }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   WeightMatrix weights;
-  weights.open(sites.size(), std::move(offsets));
-
-  double progress = neighborhood.grows ? .5 : .1;
-  const double left = (1 - progress) / static_cast<double>(std::max<Index>(1, weights.entries()));
-  for (const Group& group : groups)
+  weights.open(n, sites.size(), std::min(neighbors, sites.size()));
+  for (Index begin = 0; begin < n; begin += Batch)
   {
-    const double next = progress + left * static_cast<double>(group.neighbors) *
-                                     static_cast<double>(group.rows.size());
-    searchGroup(nearest, places, group, progress, next, monitor,
-      [&](Index row, const NearestNodes::Neighbors& neighbors)
-      { writeRow(neighbors, sites.tolerance(), weights.column(row), weights.weight(row)); });
-    progress = next;
+    monitor.check();
+    monitor.progress(.1 + .9 * static_cast<double>(begin) / static_cast<double>(n));
+    monitor.parallelFor(std::min(Batch, n - begin), Grain,
+      [&](Index first, Index last)
+      {
+        nearest.search(places, order, begin + first, begin + last, neighbors,
+          [&](Index row, const NearestNodes::Neighbors& found)
+          { writeRow(found, sites.tolerance(), weights.column(row), weights.weight(row)); });
+      });
   }
   return weights;
 }

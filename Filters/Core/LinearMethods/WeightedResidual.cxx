@@ -45,8 +45,8 @@ void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
   this->freePlaces_ = rest.points(this->partition().free, allColumns);
   monitor.check();
 
-  this->weights_ = inverseDistanceWeights(this->sites_, this->freePlaces_,
-    { this->numberOfNeighbors_, this->adaptiveNeighbors_ }, monitor);
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, this->freePlaces_, this->numberOfNeighbors_, monitor);
 }
 
 EvaluateReport WeightedResidual::report() const

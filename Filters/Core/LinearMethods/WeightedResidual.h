@@ -38,14 +38,6 @@ public:
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
-  /// Doubles a node's number of neighbors until they surround it or all prescribed nodes are used.
-  /// They surround it if their convex hull contains it (insideConvexHull()). A node in the middle
-  /// then depends on the walls on all sides. Default off, as in the paper. Neighborhoods become a
-  /// share of all prescribed nodes, so memory and time grow: on a cube of 50^3 cells from 80 to
-  /// 1,100 neighbors, 1.6 GB, and 20 times the time of prepare().
-  void setAdaptiveNeighbors(bool on) { this->adaptiveNeighbors_ = on; }
-  bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
-
   /// Returns the sites of the weights' columns.
   const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
@@ -64,7 +56,6 @@ private:
   EvaluateReport report() const;
 
   Index numberOfNeighbors_ = 80;
-  bool adaptiveNeighbors_ = false;
   InterpolationSites sites_;
   AffineLeastSquares fit_;
   Points freePlaces_; ///< #free x 3
