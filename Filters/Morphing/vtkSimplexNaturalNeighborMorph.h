@@ -12,7 +12,7 @@
  *
  * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors. Weights are
  * kept where they fit into MemoryLimit; otherwise they are recomputed for each motion, and a
- * warning is raised. Coarsening bounds the number of neighbors.
+ * warning is raised.
  *
  * It is an error if all prescribed nodes lie in one plane.
  *
@@ -70,18 +70,6 @@ public:
 
   ///@{
   /**
-   * The spacing of the boundary nodes that a node follows, over its distance from the nearest one.
-   * 0: all of them. Otherwise nodes far from the boundary follow a subset of it, which bounds the
-   * number of their neighbors on large meshes. Affine motions stay exact. A motion of single
-   * boundary nodes reaches only the nodes near them, and a rotated mesh may get another subset.
-   * Changing it prepares again. Default 0, range [0, 1]; 1 is the fastest, 0.5 is nearer to 0.
-   */
-  virtual void SetCoarsening(double value);
-  vtkGetMacro(Coarsening, double);
-  ///@}
-
-  ///@{
-  /**
    * As of the last execution: nodes that took the coordinates of vtkSimplexLinearMorph because they
    * lie on or outside the prescribed nodes' convex hull, or because rounding spoilt their own;
    * nodes outside the hull by more than rounding, which are extrapolated; and whether the weights
@@ -105,7 +93,6 @@ private:
 
   int Coordinates = COORDINATES_SIBSON;
   double MemoryLimit = 4000;
-  double Coarsening = 0;
 };
 
 #endif

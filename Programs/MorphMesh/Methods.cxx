@@ -113,8 +113,6 @@ const std::vector<Method>& methods()
     { "SimplexNaturalNeighbor", make<Natural>,
       { { "Coordinates", { "Sibson", "Laplace" }, 0, 1,
           setter<Natural>([](Natural* f, double v) { f->SetCoordinates(static_cast<int>(v)); }) },
-        { "Coarsening", {}, 0, 1,
-          setter<Natural>([](Natural* f, double v) { f->SetCoarsening(v); }) },
         { "MemoryLimit", {}, 0, 1e12,
           setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
     { "Smoothing", make<Smoothing>,

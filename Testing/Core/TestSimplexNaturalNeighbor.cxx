@@ -11,8 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iostream>
 
 using namespace morph;
 using motions::difference;
@@ -199,69 +197,4 @@ TEST(SimplexNaturalNeighbor, NoNodeInsideFallsBack)
       method.evaluate(targets(mesh, partition, motions::affine), moved, monitor);
     EXPECT_EQ(count(report, "BarycentricNodes"), 0) << name;
   }
-}
-
-TEST(SimplexNaturalNeighbor, CoarseningBoundsTheNeighborsAndKeepsAffineMotions)
-{
-  Mesh mesh = meshes::hexes(20, 20, 20);
-  meshes::jitterInterior(mesh, .2, meshes::seed());
-  const NodePartition partition = outerPartition(mesh);
-  const double size = meshes::size(mesh.points);
-  const Points target = targets(mesh, partition, twistOf(20));
-  std::vector<std::size_t> entries;
-  std::vector<double> differences;
-  Points all;
-  for (const double coarsening : { 0., 0.5, 1. })
-  {
-    meshes::ThreadedMonitor monitor(3);
-    SimplexNaturalNeighbor method;
-    method.setCoarsening(coarsening);
-    method.prepare(mesh, partition, monitor);
-    Points moved;
-    method.evaluate(targets(mesh, partition, motions::affine), moved, monitor);
-    EXPECT_LT(difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-10 * size);
-    method.evaluate(target, moved, monitor);
-    if (coarsening == 0)
-    {
-      all = moved;
-    }
-    differences.push_back(difference(moved, all) / size);
-    entries.push_back(0);
-    method.forEachNode(
-      [&](Index, const std::vector<std::int32_t>& ids, const std::vector<double>& weights)
-      {
-        entries.back() += ids.size();
-        double sum = 0;
-        for (const double weight : weights)
-        {
-          EXPECT_GE(weight, -1e-12);
-          sum += weight;
-        }
-        EXPECT_NEAR(sum, 1, 1e-12);
-        EXPECT_TRUE(
-          std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end());
-      });
-    // One thread, and weights that are not kept, give the same bits.
-    Monitor serial;
-    SimplexNaturalNeighbor anew;
-    anew.setCoarsening(coarsening);
-    anew.setMemoryLimit(100);
-    anew.prepare(mesh, partition, serial);
-    Points again;
-    anew.evaluate(target, again, serial);
-    EXPECT_TRUE(motions::identical(again, moved)) << coarsening;
-    // The adjoint is that of the same weights.
-    const Points u = Points::Random(target.rows(), 3), g = Points::Random(mesh.points.rows(), 3);
-    Points y, sum;
-    method.evaluate(meshes::rows(mesh.points, partition.prescribed) + u, y, monitor);
-    method.applyTranspose(g, sum, monitor);
-    EXPECT_NEAR((y - mesh.points).cwiseProduct(g).sum(), sum.cwiseProduct(u).sum(), 1e-7);
-  }
-  std::cout << "entries " << entries[0] << " " << entries[1] << " " << entries[2]
-            << ", differences of the size " << differences[1] << " " << differences[2] << std::endl;
-  EXPECT_LT(entries[2], entries[1]);
-  EXPECT_LT(entries[1], entries[0]);
-  EXPECT_LT(2 * entries[2], entries[0]);
-  EXPECT_LT(differences[1], 0.01);
-  EXPECT_LT(differences[2], 0.03);
 }

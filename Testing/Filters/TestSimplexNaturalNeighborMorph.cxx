@@ -43,22 +43,6 @@ TEST(SimplexNaturalNeighborMorph, CoordinatesDiffer)
   EXPECT_LT(difference, 0.5);
 }
 
-TEST(SimplexNaturalNeighborMorph, CoarseningIsOffAtFirstAndPreparesAgain)
-{
-  auto grid = grids::hexes(12);
-  vtkNew<vtkSimplexNaturalNeighborMorph> filter;
-  EXPECT_EQ(filter->GetCoarsening(), 0);
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  filter->Update();
-  const morph::Points all = grids::points(filter->GetOutput());
-  filter->SetCoarsening(1);
-  filter->Update();
-  const double difference = (grids::points(filter->GetOutput()) - all).cwiseAbs().maxCoeff();
-  EXPECT_GT(difference, 1e-6);
-  EXPECT_LT(difference, 0.05 * all.cwiseAbs().maxCoeff());
-}
-
 TEST(SimplexNaturalNeighborMorph, IntegersAreClamped)
 {
   vtkNew<vtkSimplexNaturalNeighborMorph> filter;
