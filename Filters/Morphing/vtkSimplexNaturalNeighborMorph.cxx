@@ -17,9 +17,7 @@ vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
 {
-  using Kind = morph::SimplexNaturalNeighbor::Coordinates;
   auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
-  morpher->setCoordinates(this->Coordinates == COORDINATES_LAPLACE ? Kind::Laplace : Kind::Sibson);
   morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->MemoryLimit));
   return morpher;
 }
@@ -28,13 +26,12 @@ std::string vtkSimplexNaturalNeighborMorph::PrepareOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->Coordinates << " " << this->MemoryLimit;
+  text << this->MemoryLimit;
   return text.str();
 }
 
 void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

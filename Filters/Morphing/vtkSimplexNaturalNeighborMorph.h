@@ -4,8 +4,8 @@
  * @brief   morphs a mesh by natural-neighbor interpolation between its boundary nodes
  *
  * Each interior node follows its natural neighbors among the prescribed nodes: the nodes whose
- * Voronoi cells its own would border on. Weights are Sibson's or Laplace's coordinates (equation
- * (8) of Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells
+ * Voronoi cells its own would border on. Weights are Sibson's coordinates (equation (8) of
+ * Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells
  * are not used. The coordinates depend on the Voronoi diagram, which is unique: structured meshes
  * move symmetrically, and rotating a mesh changes nothing. They vary smoothly with the node's
  * position. In quality the method is near vtkSimplexLinearMorph, at many times the cost.
@@ -36,28 +36,6 @@ public:
   static vtkSimplexNaturalNeighborMorph* New();
   vtkTypeMacro(vtkSimplexNaturalNeighborMorph, vtkMorphAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum CoordinatesType
-  {
-    COORDINATES_SIBSON = 0,
-    COORDINATES_LAPLACE = 1,
-    // The old names, until version 0.2.
-    SIBSON = COORDINATES_SIBSON,
-    LAPLACE = COORDINATES_LAPLACE
-  };
-
-  ///@{
-  /**
-   * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
-   * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
-   * neighbor's distance; somewhat less smooth. Changing it prepares again. Default
-   * COORDINATES_SIBSON.
-   */
-  vtkSetClampMacro(Coordinates, int, COORDINATES_SIBSON, COORDINATES_LAPLACE);
-  vtkGetMacro(Coordinates, int);
-  void SetCoordinatesToSibson() { this->SetCoordinates(COORDINATES_SIBSON); }
-  void SetCoordinatesToLaplace() { this->SetCoordinates(COORDINATES_LAPLACE); }
-  ///@}
 
   ///@{
   /**
@@ -91,7 +69,6 @@ private:
   vtkSimplexNaturalNeighborMorph(const vtkSimplexNaturalNeighborMorph&) = delete;
   void operator=(const vtkSimplexNaturalNeighborMorph&) = delete;
 
-  int Coordinates = COORDINATES_SIBSON;
   double MemoryLimit = 4000;
 };
 

@@ -111,10 +111,8 @@ const std::vector<Method>& methods()
             [](Radial* f, double v) { f->SetNumberOfCenters(static_cast<int>(v)); }) } } },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, {} },
     { "SimplexNaturalNeighbor", make<Natural>,
-      { { "Coordinates", { "Sibson", "Laplace" }, 0, 1,
-          setter<Natural>([](Natural* f, double v) { f->SetCoordinates(static_cast<int>(v)); }) },
-        { "MemoryLimit", {}, 0, 1e12,
-          setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
+      { { "MemoryLimit", {}, 0, 1e12,
+        setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
     { "Smoothing", make<Smoothing>,
       { { "TargetShape", { "Initial", "Ideal" }, 0, 1,
           setter<Smoothing>(

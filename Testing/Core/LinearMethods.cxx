@@ -76,15 +76,8 @@ const std::vector<LinearMethod>& linearMethods()
         method->setKernel(RadialKernel::Kind::ThinPlate);
         return method;
       } },
-    { "SimplexLaplace",
-      []
-      {
-        auto method = std::make_unique<SimplexNaturalNeighbor>();
-        method->setCoordinates(SimplexNaturalNeighbor::Coordinates::Laplace);
-        return method;
-      } },
     { "SimplexLinear", [] { return std::make_unique<SimplexLinear>(); } },
-    { "SimplexSibson", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
+    { "SimplexNaturalNeighbor", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
     { "WeightedResidual", [] { return std::make_unique<WeightedResidual>(); } },
   };
   return methods;

@@ -18,7 +18,6 @@ using motions::jittered;
 using motions::outerPartition;
 using motions::targets;
 using Row = Eigen::RowVector3d;
-using Kind = SimplexNaturalNeighbor::Coordinates;
 
 namespace
 {
@@ -27,11 +26,10 @@ motions::Map twistOf(double size)
   return [=](const Row& x) { return motions::twist(x, size, size, 1.2); };
 }
 
-Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target, Kind kind)
+Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target)
 {
   Monitor monitor;
   SimplexNaturalNeighbor method;
-  method.setCoordinates(kind);
   method.prepare(mesh, partition, monitor);
   Points moved;
   method.evaluate(target, moved, monitor);
@@ -58,12 +56,9 @@ TEST(SimplexNaturalNeighbor, TurningALatticeChangesNothing)
     const Points target = targets(mesh, partition, twistOf(4));
     Mesh turned = mesh;
     meshes::transform(turned, rigid);
-    for (Kind kind : { Kind::Sibson, Kind::Laplace })
-    {
-      const Points expected = motions::mapped(morphed(mesh, partition, target, kind), rigid);
-      const Points result = morphed(turned, partition, motions::mapped(target, rigid), kind);
-      EXPECT_LT(difference(result, expected), 1e-8 * meshes::size(turned.points)) << name;
-    }
+    const Points expected = motions::mapped(morphed(mesh, partition, target), rigid);
+    const Points result = morphed(turned, partition, motions::mapped(target, rigid));
+    EXPECT_LT(difference(result, expected), 1e-8 * meshes::size(turned.points)) << name;
   }
 }
 
@@ -76,7 +71,7 @@ TEST(SimplexNaturalNeighbor, SymmetricMotionsStaySymmetric)
     const double r = (x.head<2>().array() - 3).matrix().squaredNorm();
     return Row(x[0], x[1], x[2] + .05 * r * x[2]);
   };
-  const Points moved = morphed(mesh, partition, targets(mesh, partition, bulge), Kind::Sibson);
+  const Points moved = morphed(mesh, partition, targets(mesh, partition, bulge));
   const auto height = [&](int i, int j, int k) { return moved(i + 7 * (j + 7 * k), 2); };
   for (int k = 1; k < 6; ++k)
   {
@@ -126,32 +121,28 @@ TEST(SimplexNaturalNeighbor, WeightsOfEachNodeAreBarycentric)
   Mesh mesh = meshes::hexes(6, 5, 4);
   meshes::jitterInterior(mesh, .2, meshes::seed());
   const NodePartition partition = outerPartition(mesh);
-  for (const Kind kind : { Kind::Sibson, Kind::Laplace })
-  {
-    Monitor monitor;
-    SimplexNaturalNeighbor method;
-    method.setCoordinates(kind);
-    method.prepare(mesh, partition, monitor);
-    const Points sites = method.sites().coordinates();
-    std::vector<int> visits(partition.free.size());
-    method.forEachNode(
-      [&](Index place, const std::vector<std::int32_t>& ids, const std::vector<double>& weights)
+  Monitor monitor;
+  SimplexNaturalNeighbor method;
+  method.prepare(mesh, partition, monitor);
+  const Points sites = method.sites().coordinates();
+  std::vector<int> visits(partition.free.size());
+  method.forEachNode(
+    [&](Index place, const std::vector<std::int32_t>& ids, const std::vector<double>& weights)
+    {
+      ++visits[place];
+      ASSERT_EQ(ids.size(), weights.size());
+      Row position = Row::Zero();
+      double sum = 0;
+      for (std::size_t i = 0; i < ids.size(); ++i)
       {
-        ++visits[place];
-        ASSERT_EQ(ids.size(), weights.size());
-        Row position = Row::Zero();
-        double sum = 0;
-        for (std::size_t i = 0; i < ids.size(); ++i)
-        {
-          EXPECT_GE(weights[i], 0);
-          sum += weights[i];
-          position += weights[i] * sites.row(ids[i]);
-        }
-        EXPECT_NEAR(sum, 1, 1e-13);
-        EXPECT_LE((position - mesh.points.row(partition.free[place])).norm(), 1e-11);
-      });
-    EXPECT_EQ(visits, std::vector<int>(partition.free.size(), 1));
-  }
+        EXPECT_GE(weights[i], 0);
+        sum += weights[i];
+        position += weights[i] * sites.row(ids[i]);
+      }
+      EXPECT_NEAR(sum, 1, 1e-13);
+      EXPECT_LE((position - mesh.points.row(partition.free[place])).norm(), 1e-11);
+    });
+  EXPECT_EQ(visits, std::vector<int>(partition.free.size(), 1));
 }
 
 TEST(SimplexNaturalNeighbor, NodesOnTheHullAndBeyondAreCounted)

@@ -27,29 +27,3 @@ TEST(SimplexNaturalNeighborMorph, TheMemoryLimitChangesNoResult)
   EXPECT_NE(listener.Warnings[0].find("memory limit"), std::string::npos) << listener.Warnings[0];
   EXPECT_TRUE(grids::points(filter->GetOutput()) == stored);
 }
-
-TEST(SimplexNaturalNeighborMorph, CoordinatesDiffer)
-{
-  auto grid = grids::hexes(5);
-  vtkNew<vtkSimplexNaturalNeighborMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  filter->Update();
-  const morph::Points sibson = grids::points(filter->GetOutput());
-  filter->SetCoordinatesToLaplace();
-  filter->Update();
-  const double difference = (grids::points(filter->GetOutput()) - sibson).cwiseAbs().maxCoeff();
-  EXPECT_GT(difference, 1e-6);
-  EXPECT_LT(difference, 0.5);
-}
-
-TEST(SimplexNaturalNeighborMorph, IntegersAreClamped)
-{
-  vtkNew<vtkSimplexNaturalNeighborMorph> filter;
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_SIBSON);
-  filter->SetCoordinates(7);
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_LAPLACE);
-  filter->SetCoordinatesToSibson();
-  EXPECT_EQ(filter->GetCoordinates(), vtkSimplexNaturalNeighborMorph::COORDINATES_SIBSON);
-  EXPECT_EQ(filter->GetMemoryLimit(), 4000);
-}

@@ -64,7 +64,7 @@ bool SimplexNaturalNeighbor::weightsOf(Index place, Workspace& work) const
   const int inside = this->enclosing_.tetrahedron[place];
   const auto barycentric = this->enclosing_.barycentric.row(place);
   if (barycentric.minCoeff() >= -PointLocation::InsideTolerance &&
-      this->neighbors_.compute(x, inside, this->coordinates_, work))
+      this->neighbors_.compute(x, inside, work))
   {
     return true;
   }

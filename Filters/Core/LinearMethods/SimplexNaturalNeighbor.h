@@ -34,9 +34,6 @@ namespace morph
 class SimplexNaturalNeighbor : public LinearMorpher
 {
 public:
-  using Coordinates = NaturalNeighbors::Coordinates;
-  /// Call it before prepare(). Default Sibson.
-  void setCoordinates(Coordinates coordinates) { this->coordinates_ = coordinates; }
   /// Sets the maximum number of bytes for the weights. Call it before prepare(). Default 4e9.
   void setMemoryLimit(std::size_t bytes) { this->memoryLimit_ = bytes; }
 
@@ -66,7 +63,6 @@ private:
   Index forEachBlock(
     Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const;
 
-  Coordinates coordinates_ = Coordinates::Sibson;
   std::size_t memoryLimit_ = 4000000000;
   InterpolationSites sites_;
   Delaunay delaunay_;
