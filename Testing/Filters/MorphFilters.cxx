@@ -76,8 +76,6 @@ const std::vector<MorphFilter>& morphFilters()
     { "SimplexLinear", make<Linear>, {},
       { { "FoldedTetrahedra",
           on<Linear, vtkIdType>([](Linear* f) { return f->GetFoldedTetrahedra(); }) },
-        { "BridgingTetrahedra",
-          on<Linear, vtkIdType>([](Linear* f) { return f->GetBridgingTetrahedra(); }) },
         { "ExtrapolatedNodes",
           on<Linear, vtkIdType>([](Linear* f) { return f->GetExtrapolatedNodes(); }) } } },
     { "SimplexNaturalNeighbor", make<Natural>,

@@ -164,7 +164,6 @@ Getters countsOf(vtkRadialBasisMorph* f)
 Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
-    { "BridgingTetrahedra", [f] { return f->GetBridgingTetrahedra(); } },
     { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
     { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
 }
