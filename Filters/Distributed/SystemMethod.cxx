@@ -246,7 +246,7 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
 }
 
 SystemMethod::Rows LogBarrierWarp::assemble(
-  const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
+  const std::vector<Index>& columns, const std::vector<double>& /*factors*/, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
@@ -255,8 +255,7 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   ranks.together(
     [&]
     {
-      system =
-        logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
+      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
       joinRows(std::move(system.interior), rows.interior, monitor);
       rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
     });

@@ -22,7 +22,7 @@ public:
   /// 1e-10.
   void setTolerance(double tolerance);
   const HypreSolver& solver() const { return this->solver_; }
-  /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
+  /// Of FEMWARP; see morph::StiffMorpher. The values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
   const CellStiffness& stiffness() const { return this->stiffness_; }
 

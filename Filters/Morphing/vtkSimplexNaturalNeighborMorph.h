@@ -4,11 +4,11 @@
  * @brief   morphs a mesh by natural-neighbor interpolation between its boundary nodes
  *
  * Each interior node follows its natural neighbors among the prescribed nodes: the nodes whose
- * Voronoi cells its own would border on. Weights are Sibson's coordinates (equation (8) of
- * Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells
- * are not used. The coordinates depend on the Voronoi diagram, which is unique: structured meshes
- * move symmetrically, and rotating a mesh changes nothing. They vary smoothly with the node's
- * position. In quality the method is near vtkSimplexLinearMorph, at many times the cost.
+ * Voronoi cells its own would border on. Weights are Sibson's coordinates (equation (8) of Staten
+ * et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells are not used.
+ * The coordinates depend on the Voronoi diagram, which is unique: structured meshes move
+ * symmetrically, and rotating a mesh changes nothing. They vary smoothly with the node's position.
+ * In quality the method is near vtkSimplexLinearMorph, at many times the cost.
  *
  * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors. Weights are
  * kept where they fit into MemoryLimit; otherwise they are recomputed for each motion, and a

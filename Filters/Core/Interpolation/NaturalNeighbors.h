@@ -12,14 +12,14 @@ namespace morph
 /// Natural neighbor coordinates of a point among the sites of a tessellation.
 ///
 /// Sibson's coordinates (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the
-/// point's Voronoi cell would take from the site's, divided by the sum of these. The Voronoi diagram
-/// is unique, so they do not depend on the tessellation of cospherical sites.
+/// point's Voronoi cell would take from the site's, divided by the sum of these. The Voronoi
+/// diagram is unique, so they do not depend on the tessellation of cospherical sites.
 ///
 /// The neighbors are the sites of the tetrahedra whose circumscribed spheres contain the point (its
 /// conflict zone). New Voronoi vertices lie on the Voronoi edges that cross the zone's border. The
 /// point's power distances to the spheres at both ends determine where, so no sphere is fitted
-/// through the point. Volumes are sums over the zone's faces. A face's contribution is linear in its
-/// dual edge, so the cost is linear in the zone.
+/// through the point. Volumes are sums over the zone's faces. A face's contribution is linear in
+/// its dual edge, so the cost is linear in the zone.
 class NaturalNeighbors
 {
 public:

@@ -68,8 +68,7 @@ void append(SplitRows& chunk, int row, int rows, const std::vector<int>& columns
 }
 
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
-  Monitor& monitor)
+  const std::vector<Index>& prescribed, bool relax, Monitor& monitor)
 {
   const Adjacency around = nodeToCells(mesh, monitor);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
@@ -82,8 +81,7 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   splitRows(0, n, chunks, monitor,
     [&]
     {
-      return [&, weights = NodeWeights(mesh, around, columns, factors)](
-               Index i, SplitRows& chunk) mutable
+      return [&, weights = NodeWeights(mesh, around, columns)](Index i, SplitRows& chunk) mutable
       {
         const NodeWeights::Kind kind = weights.compute(rows[i], relax);
         tallies[i / ChunkRows].count(rows[i], kind, weights.iterations());
