@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Support/HugePages.h"
 
-#include "Support/FreePageReporting.h"
-
 #ifdef __linux__
 #include <cstdint>
 
@@ -17,11 +15,6 @@ namespace morph
 void adviseHugePages(void* data, std::size_t bytes) noexcept
 {
 #ifdef __linux__
-  static const bool areCostly = reportsFreePages();
-  if (areCostly)
-  {
-    return;
-  }
   constexpr std::uintptr_t Page = std::uintptr_t(1) << 21;
   // The whole pages in the array: their neighbors may hold other data.
   const auto begin = (reinterpret_cast<std::uintptr_t>(data) + Page - 1) / Page * Page;

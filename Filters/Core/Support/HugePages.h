@@ -10,9 +10,6 @@ namespace morph
 /// systems stay as they are. The first write to each 4 KiB page costs a fault of 0.2 microseconds
 /// and more, up to 15 in a virtual machine. A huge page takes one fault for 2 MiB. The content of
 /// the array does not change. See madvise(2), MADV_HUGEPAGE.
-///
-/// Does nothing where reportsFreePages(): the host has taken nearly all free huge pages, and gives
-/// one back in 6 milliseconds. 512 small pages take 0.8 there, as the kernel has some at hand.
 void adviseHugePages(void* data, std::size_t bytes) noexcept;
 
 /// Returns `bytes`, above 0, of new memory on huge pages; freePages() gives all of it back to the
