@@ -39,8 +39,8 @@ public:
   ///@{
   /**
    * The number of nearest prescribed nodes that an interior node follows; all where there are
-   * fewer. Changing it prepares again. Default 80, the paper's for volumes; range
-   * [1, VTK_INT_MAX].
+   * fewer. Those as far as the last of them count, too. Changing it prepares again. Default 80, the
+   * paper's for volumes; range [1, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 1, VTK_INT_MAX);
   vtkGetMacro(NumberOfNeighbors, int);

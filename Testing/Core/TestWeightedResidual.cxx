@@ -209,9 +209,13 @@ TEST(WeightedResidual, RigidMotionAndScaleOfTheRestMeshDoNotMatter)
     Eigen::AngleAxisd(1.3, Eigen::Vector3d(1, -2, .5).normalized()).toRotationMatrix();
   const auto place = [&](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
   { return 1e3 * x * turn + Eigen::RowVector3d(500, -3000, 100); };
+  // Lattices have many sites as far as the last neighbor.
+  auto all = meshes::all(4, 4, 4);
+  const auto others = generic(4, 4, 4);
+  all.insert(all.end(), others.begin(), others.end());
   for (const Options& options : variants())
   {
-    for (const auto& [name, mesh] : generic(4, 4, 4))
+    for (const auto& [name, mesh] : all)
     {
       const NodePartition partition = outerPartition(mesh);
       Mesh elsewhere = mesh;
@@ -317,9 +321,9 @@ TEST(WeightedResidual, WeightsArePositiveAndSumToOne)
   ASSERT_EQ(weights.rows(), 6 * 5 * 4);
   for (Index row = 0; row < weights.rows(); ++row)
   {
-    ASSERT_EQ(weights.entries(row), 30);
+    ASSERT_GE(weights.entries(row), 30); // more where several are as far as the last
     double sum = 0;
-    for (Index e = 0; e < 30; ++e)
+    for (Index e = 0; e < weights.entries(row); ++e)
     {
       EXPECT_GT(weights.weight(row)[e], 0);
       EXPECT_TRUE(e == 0 || weights.column(row)[e] > weights.column(row)[e - 1]);

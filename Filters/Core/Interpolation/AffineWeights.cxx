@@ -7,7 +7,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
@@ -16,12 +15,11 @@ namespace
 constexpr Index Grain = 64;
 constexpr Index FirstCount = 32;
 
-/// Sets `row` to the fit's weights at `x`. Returns false if the sites lie in a plane.
-bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::RowVector3d& x,
-  AffineRow& row)
+/// Sets the weights of `row`, which has its sites, to those of the fit at `x`. Returns false if the
+/// sites lie in a plane.
+bool fit(const Points& sites, const Eigen::RowVector3d& x, AffineRow& row)
 {
-  row.sites.assign(near.nodes, near.nodes + near.count);
-  const double count = static_cast<double>(near.count);
+  const double count = static_cast<double>(row.sites.size());
   // Relative to the first site: coordinates far from the origin lose no digits.
   const Eigen::RowVector3d first = sites.row(row.sites[0]);
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
@@ -69,8 +67,6 @@ std::vector<AffineRow> affineWeights(
 {
   const NearestNodes nearest(sites);
   std::vector<AffineRow> rows(places.rows());
-  std::vector<Index> order(places.rows());
-  std::iota(order.begin(), order.end(), Index(0));
   monitor.parallelFor(places.rows(), Grain,
     [&](Index begin, Index end)
     {
@@ -79,12 +75,10 @@ std::vector<AffineRow> affineWeights(
         bool isDone = false;
         for (Index count = FirstCount; !isDone; count *= 2)
         {
-          nearest.search(places, order, i, i + 1, count,
-            [&](Index, const NearestNodes::Neighbors& near)
-            {
-              const bool spans = fit(sites, near, places.row(i), rows[i]);
-              isDone = (spans && largest(rows[i].weights) <= most) || near.count == sites.rows();
-            });
+          nearest.nearest(places.row(i), count, rows[i].sites);
+          const bool spans = fit(sites, places.row(i), rows[i]);
+          isDone = (spans && largest(rows[i].weights) <= most) ||
+                   static_cast<Index>(rows[i].sites.size()) == sites.rows();
         }
       }
     });

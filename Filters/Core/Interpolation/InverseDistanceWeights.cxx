@@ -2,39 +2,45 @@
 #include "Interpolation/InverseDistanceWeights.h"
 
 #include "Geometry/NearestNodes.h"
-#include "Geometry/SpatialOrder.h"
 #include "Support/Error.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace morph
 {
 namespace
 {
-constexpr Index Grain = 256;
-constexpr Index Batch = 64 * Grain; // places between two calls of the monitor
+constexpr Index BlockLength = 256; // places that are searched together
+constexpr Index Batch = 64;        // blocks between two calls of the monitor
 
-void writeRow(
-  const NearestNodes::Neighbors& neighbors, double tolerance, std::int32_t* column, double* weight)
+/// Fills a row of the weights of a place at the sites of its `columns`.
+void writeRow(const InterpolationSites& sites, const Eigen::RowVector3d& place, Index row,
+  WeightMatrix& weights)
 {
-  const double* d = neighbors.squaredDistances;
-  const Index n = neighbors.count;
-  std::copy(neighbors.nodes, neighbors.nodes + n, column);
-  const double* least = std::min_element(d, d + n);
-  if (*least <= tolerance * tolerance)
+  const std::int32_t* column = weights.column(row);
+  double* weight = weights.weight(row);
+  const Index n = weights.entries(row);
+  for (Index i = 0; i < n; ++i)
+  {
+    weight[i] = (sites.coordinates().row(column[i]) - place).squaredNorm();
+  }
+  double* nearest = std::min_element(weight, weight + n);
+  const double least = *nearest;
+  if (least <= sites.tolerance() * sites.tolerance())
   {
     std::fill(weight, weight + n, 0.);
-    weight[least - d] = 1;
+    *nearest = 1;
     return;
   }
   double sum = 0;
   for (Index i = 0; i < n; ++i)
   {
-    weight[i] = *least / d[i]; // at most one: no overflow near a site
+    weight[i] = least / weight[i]; // at most one: no overflow near a site
     sum += weight[i];
   }
   const double scale = 1 / sum;
@@ -63,28 +69,49 @@ WeightMatrix inverseDistanceWeights(
 {
   requireModerate(sites.coordinates());
   requireModerate(places);
-  const Index n = places.rows();
-  std::vector<Index> ids(n);
-  std::iota(ids.begin(), ids.end(), Index(0));
-  const std::vector<Index> order = spatialOrder(places, ids);
-  const NearestNodes nearest(sites.coordinates());
+  const Index n = places.rows(), blocks = (n + BlockLength - 1) / BlockLength;
+  const NearestNodes nodes(sites.coordinates());
   monitor.check();
   monitor.progress(.1);
 
-  WeightMatrix weights;
-  weights.open(n, sites.size(), std::min(neighbors, sites.size()));
-  for (Index begin = 0; begin < n; begin += Batch)
+  const auto endOf = [=](Index block) { return std::min(n, (block + 1) * BlockLength); };
+  std::vector<std::vector<std::int32_t>> found(blocks);
+  std::vector<Index> offsets(n + 1, 0);
+  for (Index begin = 0; begin < blocks; begin += Batch)
   {
     monitor.check();
-    monitor.progress(.1 + .9 * static_cast<double>(begin) / static_cast<double>(n));
-    monitor.parallelFor(std::min(Batch, n - begin), Grain,
+    monitor.progress(.1 + .9 * static_cast<double>(begin) / static_cast<double>(blocks));
+    monitor.parallelFor(std::min(Batch, blocks - begin), 1,
       [&](Index first, Index last)
       {
-        nearest.search(places, order, begin + first, begin + last, neighbors,
-          [&](Index row, const NearestNodes::Neighbors& found)
-          { writeRow(found, sites.tolerance(), weights.column(row), weights.weight(row)); });
+        std::vector<std::int32_t> near;
+        for (Index b = begin + first; b < begin + last; ++b)
+        {
+          for (Index row = b * BlockLength; row < endOf(b); ++row)
+          {
+            nodes.nearest(places.row(row), neighbors, near);
+            found[b].insert(found[b].end(), near.begin(), near.end());
+            offsets[row + 1] = static_cast<Index>(near.size());
+          }
+        }
       });
   }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  WeightMatrix weights;
+  weights.open(sites.size(), std::move(offsets));
+  monitor.parallelFor(blocks, 1,
+    [&](Index first, Index last)
+    {
+      for (Index b = first; b < last; ++b)
+      {
+        std::copy(found[b].begin(), found[b].end(), weights.column(b * BlockLength));
+        found[b] = {};
+        for (Index row = b * BlockLength; row < endOf(b); ++row)
+        {
+          writeRow(sites, places.row(row), row, weights);
+        }
+      }
+    });
   return weights;
 }
 }

@@ -22,8 +22,8 @@ namespace morph
 ///
 /// It is exact for affine motions of prescribed nodes that do not all lie in one plane. If they do,
 /// the fit of minimum norm keeps the method linear, and nodes off the plane move as their
-/// projections. A free node within 1e-12 of the size of a site has the site's displacement. The n
-/// nearest are the smallest by (distance, site number). The map is not continuous in x: where the
+/// projections. A free node within 1e-12 of the size of a site has the site's displacement. Sites
+/// as far as the n-th nearest count, too (NearestNodes). The map is not continuous in x: where the
 /// n-th neighbor changes, u jumps by its share of the residual. On fine meshes, nodes on either
 /// side of the middle depend on different walls, so this method inverts cells first.
 ///
