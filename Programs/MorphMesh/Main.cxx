@@ -234,10 +234,6 @@ int main(int argc, char* argv[])
     std::cerr << "morph-mesh: " << error.what() << "\nTry morph-mesh --help.\n";
     return fail(2);
   }
-  catch (const Reported&)
-  {
-    return fail(1);
-  }
   catch (const std::exception& error)
   {
     std::cerr << "morph-mesh: " << error.what() << "\n";
