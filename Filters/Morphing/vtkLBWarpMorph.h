@@ -49,10 +49,7 @@ public:
   enum OutsideHullType
   {
     OUTSIDE_HULL_ERROR = 0,
-    OUTSIDE_HULL_RELAX = 1,
-    // The old names, until version 0.2.
-    ERROR_OUTSIDE_HULL = OUTSIDE_HULL_ERROR,
-    RELAX_OUTSIDE_HULL = OUTSIDE_HULL_RELAX
+    OUTSIDE_HULL_RELAX = 1
   };
 
   ///@{
