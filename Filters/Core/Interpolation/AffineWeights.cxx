@@ -3,6 +3,7 @@
 
 #include "Geometry/AffineFit.h"
 #include "Geometry/NearestNodes.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -67,19 +68,16 @@ std::vector<AffineRow> affineWeights(
 {
   const NearestNodes nearest(sites);
   std::vector<AffineRow> rows(places.rows());
-  monitor.parallelFor(places.rows(), Grain,
-    [&](Index begin, Index end)
+  parallel(places.rows(), Grain, monitor,
+    [&](Index i)
     {
-      for (Index i = begin; i < end; ++i)
+      bool isDone = false;
+      for (Index count = FirstCount; !isDone; count *= 2)
       {
-        bool isDone = false;
-        for (Index count = FirstCount; !isDone; count *= 2)
-        {
-          nearest.nearest(places.row(i), count, rows[i].sites);
-          const bool spans = fit(sites, places.row(i), rows[i]);
-          isDone = (spans && largest(rows[i].weights) <= most) ||
-                   static_cast<Index>(rows[i].sites.size()) == sites.rows();
-        }
+        nearest.nearest(places.row(i), count, rows[i].sites);
+        const bool spans = fit(sites, places.row(i), rows[i]);
+        isDone = (spans && largest(rows[i].weights) <= most) ||
+                 static_cast<Index>(rows[i].sites.size()) == sites.rows();
       }
     });
   return rows;

@@ -3,6 +3,7 @@
 
 #include "Geometry/NearestNodes.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -99,17 +100,14 @@ WeightMatrix inverseDistanceWeights(
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   WeightMatrix weights;
   weights.open(sites.size(), std::move(offsets));
-  monitor.parallelFor(blocks, 1,
-    [&](Index first, Index last)
+  parallel(blocks, 1, monitor,
+    [&](Index b)
     {
-      for (Index b = first; b < last; ++b)
+      std::copy(found[b].begin(), found[b].end(), weights.column(b * BlockLength));
+      found[b] = {};
+      for (Index row = b * BlockLength; row < endOf(b); ++row)
       {
-        std::copy(found[b].begin(), found[b].end(), weights.column(b * BlockLength));
-        found[b] = {};
-        for (Index row = b * BlockLength; row < endOf(b); ++row)
-        {
-          writeRow(sites, places.row(row), row, weights);
-        }
+        writeRow(sites, places.row(row), row, weights);
       }
     });
   return weights;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Support/Monitor.h"
+#include "Support/Types.h"
+
+namespace morph
+{
+/// Calls body(i) for each i in [0, n), perhaps in several threads: Monitor::parallelFor() for a
+/// body that needs no range. What one call writes no other may read or write.
+template <typename Body>
+void parallel(Index n, Index grain, Monitor& monitor, const Body& body)
+{
+  monitor.parallelFor(n, grain,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
+/// As above, for a body of some nanoseconds.
+template <typename Body>
+void parallel(Index n, Monitor& monitor, const Body& body)
+{
+  constexpr Index Grain = 4096; // waking a thread takes as long
+  parallel(n, Grain, monitor, body);
+}
+}
