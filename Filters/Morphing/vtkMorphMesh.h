@@ -286,7 +286,7 @@ public:
    * What to do where the method leaves inverted cells: vtkMorphAlgorithm::VALIDITY_NONE and so on.
    * Default VALIDITY_REPAIR.
    */
-  vtkSetClampMacro(Validity, int, 0, 4);
+  vtkSetClampMacro(Validity, int, 0, 5);
   vtkGetMacro(Validity, int);
   ///@}
 
@@ -357,6 +357,8 @@ public:
   double GetBoundaryMinimum() const;
   vtkIdType GetInvertedCells() const;
   vtkIdType GetDegenerateCells() const;
+  vtkIdType GetInvertedBefore() const;
+  vtkIdType GetNewInvertedCells() const;
   vtkIdType GetWorstCellId() const;
   vtkIdType GetSurfaceInvertedCells() const;
   vtkIdType GetBoundaryInvertedCells() const;

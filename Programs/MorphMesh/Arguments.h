@@ -25,7 +25,9 @@ struct Motion
   double radius = 0;                 ///< change of the radius of cylinders
   std::string target, displacements; ///< files; empty: none
   bool align = false;                ///< the target first
-  std::string handles, lattice;      ///< files of control points; empty: none
+  int projectAlong = 0;              ///< as of vtkDisplacementAlgorithm
+  std::array<double, 3> projectVector = { 0, 0, 1 };
+  std::string handles, lattice; ///< files of control points; empty: none
   std::array<int, 3> latticeSize = { 3, 3, 3 };
   std::array<double, 6> latticeBox = {}; ///< as VTK's bounds
   bool hasLatticeBox = false;            ///< else the box around what moves

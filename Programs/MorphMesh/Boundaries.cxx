@@ -172,6 +172,8 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
     filter->SetMotionToTarget();
     filter->SetTargetData(readTarget(motion.target));
     filter->SetAlignTarget(motion.align);
+    filter->SetProjectAlong(motion.projectAlong);
+    filter->SetProjectVector(motion.projectVector.data());
   }
   else if (motion.byControlPoints())
   {

@@ -153,7 +153,7 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
     }
   }
-  const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
+  const bool valid = filter->GetNewInvertedCells() == 0;
   return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
 }
 

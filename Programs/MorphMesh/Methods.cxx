@@ -238,7 +238,8 @@ void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
 
 void setValidity(vtkMorphAlgorithm* method, const std::string& name)
 {
-  const Option validity = { "--validity", { "None", "Report", "SubStep", "Repair", "Refuse" }, 0, 4,
+  const Option validity = { "--validity",
+    { "None", "Report", "SubStep", "Repair", "Refuse", "RepairAll" }, 0, 5,
     setter<vtkMorphAlgorithm>(
       [](vtkMorphAlgorithm* f, double v) { f->SetValidity(static_cast<int>(v)); }) };
   validity.set(method, valueOf(validity, name));

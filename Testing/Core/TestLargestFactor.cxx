@@ -104,7 +104,7 @@ TEST_P(LargestFactors, AreThoseOfASearch)
     ++made;
     Monitor monitor;
     const LargestFactor found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor);
+      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor);
     EXPECT_EQ(found.cell >= 0, std::isfinite(found.factor));
     if (isQuadratic)
     {
@@ -132,7 +132,7 @@ TEST_P(LargestFactors, AreThoseOfASearch)
     {
       meshes::ThreadedMonitor threaded(threads);
       const LargestFactor again =
-        largestFactor(problem.mesh, problem.motion, problem.orientation, threaded);
+        largestFactor(problem.mesh, problem.motion, problem.orientation, {}, threaded);
       EXPECT_EQ(again.factor, found.factor);
       EXPECT_EQ(again.cell, found.cell);
     }
@@ -162,11 +162,12 @@ TEST(LargestFactor, OfOneTurnIsThatOfItsRange)
     problem.motion.turns[0].angle = std::abs(problem.motion.turns[0].angle);
     const CombinedMotion::Turn& turn = problem.motion.turns[0];
     Monitor monitor;
-    const double range = validRange(problem.mesh,
-      { &problem.mesh.points, turn.first, turn.second, turn.angle }, problem.orientation, monitor)
-                           .highest;
+    const double range =
+      validRange(problem.mesh, { &problem.mesh.points, turn.first, turn.second, turn.angle },
+        problem.orientation, {}, monitor)
+        .highest;
     const double found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor).factor;
+      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor).factor;
     if (std::isfinite(range))
     {
       EXPECT_NEAR(found, range, 1e-7) << "case " << number << ", seed " << meshes::seed();
@@ -191,12 +192,12 @@ TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
   problem.motion = { &problem.mesh.points, &problem.straight,
     { { &problem.first[0], &problem.second[0], .5 } } };
   Monitor monitor;
-  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_EQ(found.factor, HUGE_VAL);
   EXPECT_EQ(found.cell, -1);
 
   problem.mesh.points.row(0) << 5, 5, 5; // inverted at 0
-  found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_TRUE(std::isnan(found.factor));
   EXPECT_EQ(found.cell, 0);
 }

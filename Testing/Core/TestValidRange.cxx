@@ -78,7 +78,8 @@ TEST_P(ValidRanges, AreThoseOfBisection)
     }
     ++made;
     Monitor monitor;
-    const ValidRange range = validRange(problem.mesh, problem.motion, problem.orientation, monitor);
+    const ValidRange range =
+      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
     ASSERT_FALSE(range.isEmpty);
     const double low = problem.bisected(-1), high = problem.bisected(1);
     bothFinite += std::isfinite(range.lowest) && std::isfinite(range.highest);
@@ -104,7 +105,7 @@ TEST_P(ValidRanges, AreThoseOfBisection)
     {
       meshes::ThreadedMonitor threaded(threads);
       const ValidRange again =
-        validRange(problem.mesh, problem.motion, problem.orientation, threaded);
+        validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
       EXPECT_EQ(again.lowest, range.lowest);
       EXPECT_EQ(again.highest, range.highest);
     }
@@ -134,7 +135,7 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.first.col(2) = -.25 * problem.mesh.points.col(2);
   problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
   Monitor monitor;
-  ValidRange range = validRange(problem.mesh, problem.motion, {}, monitor);
+  ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_NEAR(range.highest, 4, 1e-11);
   EXPECT_LE(range.highest, 4);
   EXPECT_EQ(range.highestCell, 0);
@@ -149,13 +150,13 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   second *= -1;
   second.col(2).setZero();
   const NodeMotion turn = { &problem.mesh.points, &problem.first, &second, 1 };
-  range = validRange(problem.mesh, turn, {}, monitor);
+  range = validRange(problem.mesh, turn, {}, {}, monitor);
   EXPECT_EQ(range.highest, HUGE_VAL);
   EXPECT_EQ(range.lowest, -HUGE_VAL);
 
   // Inverted at 0.
   problem.mesh.points.row(0) << 5, 5, 5;
-  range = validRange(problem.mesh, problem.motion, {}, monitor);
+  range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_TRUE(range.isEmpty);
   EXPECT_TRUE(std::isnan(range.lowest) && std::isnan(range.highest));
   EXPECT_EQ(range.lowestCell, 0);

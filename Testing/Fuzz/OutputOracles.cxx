@@ -245,8 +245,8 @@ bool keepsAffineMaps(const Case& made, vtkMorphAlgorithm* filter)
                                                made.boundary.matrix.determinant() > 0.2);
   const double tolerance = choices.value("property.Tolerance");
   return isOne && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_SUB_STEP &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_REPAIR &&
+         (filter->GetValidity() < vtkMorphAlgorithm::VALIDITY_SUB_STEP ||
+           filter->GetValidity() == vtkMorphAlgorithm::VALIDITY_REFUSE) &&
          made.choices.value("hostile.mesh") == 0 && made.choices.value("hostile.boundary") == 0;
 }
 
@@ -389,7 +389,8 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired";
   // Positions are valid as computed; rounding to float may undo that, and ghosts are not measured.
   if (claimsValid && !isFloat(output) && !made.grid.hasGhosts &&
-      !(reported == 0 && filter->GetMinScaledJacobian() > 0))
+      !(filter->GetNewInvertedCells() == 0 &&
+        (filter->GetInvertedBefore() > 0 || (reported == 0 && filter->GetMinScaledJacobian() > 0))))
   {
     return { "status", status + " with inverted cells" };
   }

@@ -75,7 +75,7 @@ Table ofMorph(bool certify = false)
     real<F>("StepMemoryLimit", &F::SetStepMemoryLimit, 1000, 0, 0.01),
     real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
     flag<F>("HoldUnnamedBoundary", &F::SetHoldUnnamedBoundary, true),
-    whole<F>("Validity", &F::SetValidity, F::VALIDITY_REPORT, 0, 4),
+    whole<F>("Validity", &F::SetValidity, F::VALIDITY_REPORT, 0, 5),
     flag<F>("Certify", &F::SetCertify, certify),
     whole<F>("MaximumSubSteps", &F::SetMaximumSubSteps, 64, 1, 20),
     flag<F>("PostSmooth", &F::SetPostSmooth, false),

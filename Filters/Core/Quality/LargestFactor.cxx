@@ -44,9 +44,10 @@ double safeStep(double d, const std::array<double, 3>& size, const std::array<do
 class MovingCell
 {
 public:
-  MovingCell(const Mesh& mesh, const CombinedMotion& motion)
+  MovingCell(const Mesh& mesh, const CombinedMotion& motion, const InvertedBefore& before)
     : mesh_(mesh)
     , motion_(motion)
+    , before_(before)
     , fields_(2 + 2 * motion.turns.size())
     , edges_(fields_.size())
   {
@@ -60,7 +61,8 @@ public:
     {
       return false;
     }
-    const bool isQuadratic = isQuadraticVolume(*this->shape_);
+    this->positive_ = this->before_.positivePlaces(cell);
+    const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
     this->map_ = isQuadratic ? QuadraticMap::find(this->mesh_.types[cell]) : nullptr;
     this->sign_ = sign;
     const auto nodes = this->mesh_.cell(cell);
@@ -74,21 +76,10 @@ public:
       this->gather(2 + 2 * t, this->motion_.turns[t].first, nodes);
       this->gather(3 + 2 * t, this->motion_.turns[t].second, nodes);
     }
-    if (this->isPolyhedron_)
+    if (this->isPolyhedron_ &&
+        !this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
     {
-      if (!this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
-      {
-        return false;
-      }
-    }
-    else
-    {
-      Vector corner[8];
-      this->gatherCorners(this->fields_[0].data(), corner);
-      if (hasCollapsedEdge(*this->shape_, corner))
-      {
-        return false;
-      }
+      return false;
     }
     this->setSpeeds();
     return true;
@@ -144,8 +135,15 @@ private:
   void setEdges(Edges& edges, const Vector* x) const
   {
     edges.clear();
-    const auto add = [&edges](const Vector& a, const Vector& b, const Vector& c) {
-      edges.push_back({ a, b, c });
+    std::size_t place = 0;
+    const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
+    {
+      const bool isFollowed = !this->positive_ || (*this->positive_)[place];
+      ++place;
+      if (isFollowed)
+      {
+        edges.push_back({ a, b, c });
+      }
     };
     if (this->isPolyhedron_)
     {
@@ -253,6 +251,8 @@ private:
   using Field = std::vector<Vector>; ///< of the cell's nodes
   const Mesh& mesh_;
   const CombinedMotion& motion_;
+  const InvertedBefore& before_;
+  const std::vector<bool>* positive_ = nullptr; ///< see InvertedBefore::positivePlaces()
   std::vector<Field> fields_; ///< base, straight, and first and second of each turn
   std::vector<Edges> edges_;  ///< of fields_
   Edges edgesNow_;
@@ -290,7 +290,7 @@ double follow(MovingCell& cell, double last, double known)
 }
 
 LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
-  const std::vector<std::int8_t>& orientation, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
   monitor.check();
   double fastest = 0;
@@ -306,7 +306,7 @@ LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
   monitor.parallelFor(mesh.numberOfCells(), Grain,
     [&](Index first, Index end)
     {
-      MovingCell cell(mesh, motion);
+      MovingCell cell(mesh, motion, before);
       for (Index c = first; c < end; ++c)
       {
         if (!cell.take(c, orientation.empty() ? 1 : orientation[c]))

@@ -4,6 +4,7 @@
 #include "Boundary/FaceAreas.h"
 
 #include <vtkCellArray.h>
+#include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -179,7 +180,8 @@ Row SurfaceShape::Closest(const Row& x) const
   vtkIdType cell = -1;
   int part = 0;
   double squared = 0;
-  this->Locator->FindClosestPoint(x.data(), closest.data(), cell, part, squared);
+  vtkNew<vtkGenericCell> memory; // the locator's own is not for several threads
+  this->Locator->FindClosestPoint(x.data(), closest.data(), memory, cell, part, squared);
   return cell < 0 ? x : closest;
 }
 

@@ -44,7 +44,7 @@ public:
     y = this->Shapes[surface]->Closest(x);
     return true;
   }
-  bool closestOnFeatures(const Row&, Row&) const override { return false; }
+  bool closestOnFeatures(Index, const Row&, Row&) const override { return false; }
 
 private:
   std::vector<const SurfaceShape*> Shapes;

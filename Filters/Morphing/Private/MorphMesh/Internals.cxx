@@ -430,6 +430,8 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetNumber("BoundaryMinimum", from->GetBoundaryMinimum());
   to.SetInteger("InvertedCells", from->GetInvertedCells());
   to.SetInteger("DegenerateCells", from->GetDegenerateCells());
+  to.SetInteger("InvertedBefore", from->GetInvertedBefore());
+  to.SetInteger("NewInvertedCells", from->GetNewInvertedCells());
   to.SetInteger("WorstCellId", from->GetWorstCellId());
   to.SetInteger("SurfaceInvertedCells", from->GetSurfaceInvertedCells());
   to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());

@@ -11,7 +11,8 @@ namespace morph::filters
 {
 /// Polygonal data as a surface onto which boundary nodes are projected. Polygons and strips are cut
 /// into triangles. Points in one place (within 1e-7 of the target's size) are merged, so that the
-/// triangles of an STL file are connected.
+/// triangles of an STL file are connected. Triangles that are there twice, or lower than that, have
+/// no effect.
 class Target : public morph::ProjectionTarget
 {
 public:
@@ -43,7 +44,10 @@ public:
 
   bool closestOnSurface(
     morph::Index surface, const Row& x, const Row& normal, Row& y) const override;
-  bool closestOnFeatures(const Row& x, Row& y) const override;
+  bool closestOnFeatures(morph::Index node, const Row& x, Row& y) const override;
+  /// Finds the point of the target nearest to `x` on the line through it. `direction`: of the line,
+  /// unit length; `normal`: as of closestOnSurface(). Returns false if there is none within reach.
+  bool ClosestAlong(const Row& x, const Row& direction, const Row& normal, Row& y) const;
 
 private:
   struct Implementation;

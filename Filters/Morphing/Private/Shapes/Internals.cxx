@@ -214,6 +214,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   }
   this->Modes.SetFeatureLines(this->Filter->FeatureLines, monitor);
   this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
+  this->Modes.GetSolver()->ReportMesh(monitor);
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
   morph::ProgressRange checking(monitor, 0.6, 0.8);
@@ -250,8 +251,9 @@ void vtkMorphShapes::vtkInternals::Write(
   if (all)
   {
     this->Results.Set(quality);
+    this->Results.Set(measured.Judged);
   }
-  const bool isBad = quality.inverted + quality.degenerate > 0;
+  const bool isBad = measured.Judged.Added > 0;
   this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
   this->Results.Write(written.Mesh);
 }
