@@ -9,6 +9,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 using namespace morph;
@@ -29,7 +31,7 @@ std::vector<Index> allIds(Index n)
   return ids;
 }
 
-/// The k nearest by (squared distance, number), numbers ascending.
+/// The nodes up to the distance of the k-th nearest, and its ties, numbers ascending.
 std::vector<std::int32_t> sortedNearest(const Points& nodes, const Eigen::RowVector3d& x, Index k)
 {
   std::vector<std::pair<double, std::int32_t>> all;
@@ -39,10 +41,15 @@ std::vector<std::int32_t> sortedNearest(const Points& nodes, const Eigen::RowVec
     all.emplace_back(u * u + v * v + w * w, static_cast<std::int32_t>(i));
   }
   std::sort(all.begin(), all.end());
+  const double most = std::sqrt(all[std::min(k, nodes.rows()) - 1].first) * (1 + 1e-9) +
+                      4 * std::numeric_limits<double>::epsilon() * nodes.cwiseAbs().maxCoeff();
   std::vector<std::int32_t> result;
-  for (Index i = 0; i < std::min(k, nodes.rows()); ++i)
+  for (const auto& [squared, node] : all)
   {
-    result.push_back(all[i].second);
+    if (std::sqrt(squared) <= most * (1 + 1e-13))
+    {
+      result.push_back(node);
+    }
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -150,7 +157,7 @@ TEST(NearestNodes, PlacesAndNodesOnSpheresAreExact)
   }
 }
 
-TEST(NearestNodes, TiesGoToTheLowestNumbers)
+TEST(NearestNodes, AllNodesAsFarAsTheLastCount)
 {
   Monitor monitor;
   const Mesh mesh = meshes::hexes(10, 9, 8);

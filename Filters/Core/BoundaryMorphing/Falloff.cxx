@@ -34,7 +34,7 @@ std::vector<double> squaredDistances(const Points& nodes, const Points& places, 
     {
       nearest.search(places, order, first, last, 1,
         [&](Index row, const NearestNodes::Neighbors& found)
-        { result[row] = found.squaredDistances[0]; });
+        { result[row] = found.leastSquaredDistance(); });
     });
   return result;
 }

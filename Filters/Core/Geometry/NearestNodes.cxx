@@ -18,6 +18,8 @@ using Place = std::array<double, 3>;
 constexpr std::array<Index, 3> BlockLength = { 512, 64, 8 };
 constexpr Index LeafSize = 16;
 
+constexpr double Tie = 1e-9; // of the distance
+
 /// Enlarges a squared distance to cover the rounding of the differences that led to it.
 double widened(double squaredDistance)
 {
@@ -236,21 +238,22 @@ Block blockAround(const Points& x, const Index* rows, Index n)
     squaredDistance(high.data(), block.middle.data())));
   return block;
 }
-
-/// Squared radius of a ball around the centre that holds every neighbor of the block's places.
-double squaredRadius(const Block& block)
-{
-  const double radius = block.reach + 2 * block.radius;
-  return widened(radius * radius);
-}
 }
 
 struct NearestNodes::Implementation
 {
   explicit Implementation(const Points& nodes)
     : cloud{ nodes }
+    , rounding(4 * std::numeric_limits<double>::epsilon() * nodes.cwiseAbs().maxCoeff())
     , tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(LeafSize))
   {
+  }
+
+  /// The squared distance up to which nodes are as far as one at a squared distance.
+  double withTies(double squaredDistance) const
+  {
+    const double most = std::sqrt(squaredDistance) * (1 + Tie) + this->rounding;
+    return widened(most * most);
   }
 
   double squaredDistanceOfKth(const Place& x, Index k) const
@@ -278,6 +281,7 @@ struct NearestNodes::Implementation
   }
 
   Cloud cloud;
+  double rounding; ///< of the distance of nodes
   Tree tree;
 };
 
@@ -301,12 +305,19 @@ public:
       const Index last = std::min(end, first + BlockLength[0]);
       Block block = blockAround(this->x_, this->rows_ + first, last - first);
       block.reach = std::sqrt(this->nodes_.squaredDistanceOfKth(block.middle, this->k_));
-      this->nodes_.within(block.middle, squaredRadius(block), this->candidates_[0]);
+      this->nodes_.within(block.middle, this->squaredRadius(block), this->candidates_[0]);
       this->divide(first, last, 1, block);
     }
   }
 
 private:
+  /// Squared radius of a ball around the centre that holds every neighbor of the block's places.
+  double squaredRadius(const Block& block) const
+  {
+    const double radius = block.reach + 2 * block.radius;
+    return this->nodes_.withTies(radius * radius);
+  }
+
   /// Processes places begin to end - 1 of `outer`, whose candidates are candidates_[level - 1].
   void divide(Index begin, Index end, std::size_t level, const Block& outer)
   {
@@ -316,8 +327,8 @@ private:
       {
         const double* x = this->x_.data() + 3 * this->rows_[i];
         this->nearest(x, this->reach(x, outer));
-        this->visit_(this->rows_[i],
-          { this->neighbors_.nodes.data(), this->neighborDistances_.data(), this->k_ });
+        this->visit_(this->rows_[i], { this->neighbors_.nodes.data(),
+                                       this->neighborDistances_.data(), this->neighbors_.count });
       }
       return;
     }
@@ -344,7 +355,7 @@ private:
       return fromOuter;
     }
     double largest = 0;
-    for (Index i = 0; i < this->k_; ++i)
+    for (Index i = 0; i < this->k_; ++i) // any k
     {
       const double u = this->neighbors_.coordinates[0][i] - x[0],
                    v = this->neighbors_.coordinates[1][i] - x[1],
@@ -374,7 +385,7 @@ private:
   /// Selects the block's candidates; distances_ holds those of `outer` from the block's centre.
   void narrow(const Block& block, const Candidates& outer, Candidates& inner)
   {
-    const double most = squaredRadius(block);
+    const double most = this->squaredRadius(block);
     inner.reserve(outer.count);
     const double *a = outer.coordinates[0].data(), *b = outer.coordinates[1].data(),
                  *c = outer.coordinates[2].data(), *d = this->distances_.data();
@@ -402,7 +413,7 @@ private:
     squaredDistances(from, x, this->distances_);
     makeRoom(this->nearPlaces_, from.count);
     makeRoom(this->nearDistances_, from.count);
-    const double most = widened(reach * reach);
+    const double most = this->nodes_.withTies(reach * reach);
     double *d = this->distances_.data(), *nearDistances = this->nearDistances_.data();
     std::int32_t* nearPlaces = this->nearPlaces_.data();
     Index m = 0;
@@ -414,12 +425,9 @@ private:
     }
 
     std::copy(nearDistances, nearDistances + m, d);
-    const double largest = kthSmallest(d, m, this->k_);
-    // Among nodes as far as the k-th, take the lowest numbers.
-    Index ties = this->k_ - std::count_if(nearDistances, nearDistances + m,
-                              [=](double e) { return e < largest; });
-    this->neighbors_.reserve(this->k_ + 1);
-    makeRoom(this->neighborDistances_, this->k_ + 1);
+    const double largest = this->nodes_.withTies(kthSmallest(d, m, this->k_));
+    this->neighbors_.reserve(m + 1);
+    makeRoom(this->neighborDistances_, m + 1);
     Index kept = 0;
     for (Index i = 0; i < m; ++i)
     {
@@ -431,9 +439,7 @@ private:
         this->neighbors_.coordinates[j][kept] = from.coordinates[j][place];
       }
       this->neighborDistances_[kept] = distance;
-      const Index tie = distance == largest && ties > 0 ? 1 : 0;
-      ties -= tie;
-      kept += (distance < largest ? 1 : 0) + tie;
+      kept += distance <= largest ? 1 : 0;
     }
     this->neighbors_.count = kept;
   }

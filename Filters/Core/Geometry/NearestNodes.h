@@ -3,6 +3,7 @@
 
 #include "Support/Types.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,9 +11,9 @@
 
 namespace morph
 {
-/// Exact k nearest nodes for many places at once. Nodes are ordered by (squared distance, node
-/// number), where the distance is (x - a)^2 + (y - b)^2 + (z - c)^2 as rounded. So a result depends
-/// neither on threads nor on the other places.
+/// Exact k nearest nodes for many places at once. All nodes as far as the k-th count, within 1e-9
+/// of its distance and the rounding of the coordinates. So a result depends neither on threads nor
+/// on the other places, and in a mesh with symmetries not on the choice of axes, unit and origin.
 ///
 /// Places in sequence along a space-filling curve share most of their neighbors. For a block with
 /// centre m and radius r, the triangle inequality gives d_k(x) <= d_k(m) + |x - m|. So one k-d tree
@@ -25,12 +26,21 @@ public:
   explicit NearestNodes(const Points& nodes);
   ~NearestNodes();
 
-  /// The neighbors of a place: `count` node numbers, ascending, and their squared distances.
+  /// The neighbors of a place: `count` node numbers, ascending, and their squared distances. There
+  /// are more than k where several are as far as the k-th.
   struct Neighbors
   {
     const std::int32_t* nodes;
     const double* squaredDistances;
     Index count;
+
+    /// Returns the index of the nearest, the first of several.
+    Index nearest() const
+    {
+      const double* d = this->squaredDistances;
+      return std::min_element(d, d + this->count) - d;
+    }
+    double leastSquaredDistance() const { return this->squaredDistances[this->nearest()]; }
   };
   using Visit = std::function<void(Index row, const Neighbors& neighbors)>;
 

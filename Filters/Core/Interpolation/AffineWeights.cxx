@@ -4,8 +4,6 @@
 #include "Geometry/AffineFit.h"
 #include "Geometry/NearestNodes.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <numeric>
 
@@ -16,9 +14,10 @@ namespace
 constexpr Index Grain = 64;
 constexpr Index FirstCount = 32;
 
-/// Sets `row` to the fit's weights at `x`. Returns false if the sites lie in a plane.
+/// Sets `row` to the fit's weights at `x`. `limits`: directions count by their shares. Returns false
+/// if the sites lie in a plane.
 bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::RowVector3d& x,
-  AffineRow& row)
+  bool limits, AffineRow& row)
 {
   row.sites.assign(near.nodes, near.nodes + near.count);
   const double count = static_cast<double>(near.count);
@@ -36,21 +35,18 @@ bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::
     const Eigen::RowVector3d arm = sites.row(site) - centre;
     spread += arm.transpose() * arm;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const Eigen::Vector3d moments = axes.eigenvalues(); // ascending
-  if (!AffineLeastSquares::isExtended(moments[0], moments[2]))
+  PrincipalDirections directions(spread, count);
+  if (limits)
   {
-    return false;
+    directions.limit(Eigen::RowVector3d::Ones(), directions.leverages(x - centre));
   }
-  const Eigen::Vector3d slope =
-    axes.eigenvectors() *
-    (axes.eigenvectors().transpose() * (x - centre).transpose()).cwiseQuotient(moments);
+  const Eigen::Vector3d slope = directions.inverse() * (x - centre).transpose();
   row.weights.clear();
   for (const std::int32_t site : row.sites)
   {
     row.weights.push_back(1 / count + (sites.row(site) - centre).dot(slope));
   }
-  return true;
+  return directions.rank() == 3;
 }
 
 double largest(const std::vector<double>& weights)
@@ -82,8 +78,13 @@ std::vector<AffineRow> affineWeights(
           nearest.search(places, order, i, i + 1, count,
             [&](Index, const NearestNodes::Neighbors& near)
             {
-              const bool spans = fit(sites, near, places.row(i), rows[i]);
-              isDone = (spans && largest(rows[i].weights) <= most) || near.count == sites.rows();
+              const bool spans = fit(sites, near, places.row(i), false, rows[i]);
+              isDone = spans && largest(rows[i].weights) <= most;
+              if (!isDone && near.count == sites.rows())
+              {
+                fit(sites, near, places.row(i), true, rows[i]);
+                isDone = true;
+              }
             });
         }
       }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <mutex>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -27,10 +28,11 @@ struct Group
   std::vector<Index> rows;
 };
 
-/// Searches a group's neighbors in several threads, which call visit(row, neighbors). `from`, `to`:
-/// progress.
-void searchGroup(const NearestNodes& nearest, const Points& places, const Group& group, double from,
-  double to, Monitor& monitor, const NearestNodes::Visit& visit)
+/// Searches a group's neighbors in several threads, which call search(first, last, visitor) for
+/// ranges of its rows. `from`, `to`: progress.
+template <typename Search>
+void searchRanges(const NearestNodes& nearest, const Points& places, const Group& group,
+  double from, double to, Monitor& monitor, const Search& search)
 {
   const Index n = static_cast<Index>(group.rows.size());
   for (Index begin = 0; begin < n; begin += Batch)
@@ -39,7 +41,12 @@ void searchGroup(const NearestNodes& nearest, const Points& places, const Group&
     monitor.progress(from + (to - from) * static_cast<double>(begin) / static_cast<double>(n));
     monitor.parallelFor(std::min(Batch, n - begin), Grain,
       [&](Index first, Index last)
-      { nearest.search(places, group.rows, begin + first, begin + last, group.neighbors, visit); });
+      {
+        search(last - first,
+          [&](const NearestNodes::Visit& visit) {
+            nearest.search(places, group.rows, begin + first, begin + last, group.neighbors, visit);
+          });
+      });
   }
 }
 
@@ -47,8 +54,7 @@ void searchGroup(const NearestNodes& nearest, const Points& places, const Group&
 bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& x,
   const NearestNodes::Neighbors& neighbors)
 {
-  const double* d = neighbors.squaredDistances;
-  if (*std::min_element(d, d + neighbors.count) <= prescribed.tolerance() * prescribed.tolerance())
+  if (neighbors.leastSquaredDistance() <= prescribed.tolerance() * prescribed.tolerance())
   {
     return true;
   }
@@ -73,9 +79,12 @@ std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationS
   {
     if (pending.neighbors < sites.size())
     {
-      searchGroup(nearest, places, pending, .1, .5, monitor,
-        [&](Index row, const NearestNodes::Neighbors& neighbors)
-        { done[row] = surrounded(sites, places.row(row), neighbors) ? 1 : 0; });
+      searchRanges(nearest, places, pending, .1, .5, monitor,
+        [&](Index, const auto& search)
+        {
+          search([&](Index row, const NearestNodes::Neighbors& neighbors)
+            { done[row] = surrounded(sites, places.row(row), neighbors) ? 1 : 0; });
+        });
     }
     else
     {
@@ -94,30 +103,72 @@ std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationS
   return groups;
 }
 
-void writeRow(
-  const NearestNodes::Neighbors& neighbors, double tolerance, std::int32_t* column, double* weight)
+/// Rows of weights, in any order.
+struct Piece
 {
-  const double* d = neighbors.squaredDistances;
-  const Index n = neighbors.count;
-  std::copy(neighbors.nodes, neighbors.nodes + n, column);
-  const double* least = std::min_element(d, d + n);
-  if (*least <= tolerance * tolerance)
+  std::vector<Index> rows, counts;
+  std::vector<std::int32_t> columns;
+  std::vector<double> weights;
+
+  void add(Index row, const NearestNodes::Neighbors& neighbors, double tolerance)
   {
-    std::fill(weight, weight + n, 0.);
-    weight[least - d] = 1;
-    return;
+    const Index n = neighbors.count;
+    this->rows.push_back(row);
+    this->counts.push_back(n);
+    this->columns.insert(this->columns.end(), neighbors.nodes, neighbors.nodes + n);
+    const Index nearest = neighbors.nearest();
+    const double* d = neighbors.squaredDistances;
+    const double least = d[nearest];
+    const std::size_t first = this->weights.size();
+    this->weights.resize(first + n, 0);
+    double* weight = this->weights.data() + first;
+    if (least <= tolerance * tolerance)
+    {
+      weight[nearest] = 1;
+      return;
+    }
+    double sum = 0;
+    for (Index i = 0; i < n; ++i)
+    {
+      weight[i] = least / d[i]; // at most one: no overflow near a site
+      sum += weight[i];
+    }
+    const double scale = 1 / sum;
+    for (Index i = 0; i < n; ++i)
+    {
+      weight[i] *= scale;
+    }
   }
-  double sum = 0;
-  for (Index i = 0; i < n; ++i)
+};
+
+/// The rows' lengths follow from the search alone, as all neighbors at the last one's distance
+/// count. So the weights are kept in pieces first.
+WeightMatrix join(std::vector<Piece>& pieces, Index rows, Index columns)
+{
+  std::vector<Index> offsets(rows + 1, 0);
+  for (const Piece& piece : pieces)
   {
-    weight[i] = *least / d[i]; // at most one: no overflow near a site
-    sum += weight[i];
+    for (std::size_t i = 0; i < piece.rows.size(); ++i)
+    {
+      offsets[piece.rows[i] + 1] = piece.counts[i];
+    }
   }
-  const double scale = 1 / sum;
-  for (Index i = 0; i < n; ++i)
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  WeightMatrix weights;
+  weights.open(columns, std::move(offsets));
+  for (Piece& piece : pieces)
   {
-    weight[i] *= scale;
+    Index first = 0;
+    for (std::size_t i = 0; i < piece.rows.size(); ++i)
+    {
+      const Index row = piece.rows[i], count = piece.counts[i];
+      std::copy_n(piece.columns.begin() + first, count, weights.column(row));
+      std::copy_n(piece.weights.begin() + first, count, weights.weight(row));
+      first += count;
+    }
+    piece = Piece(); // gives its memory back while that of the matrix fills
   }
+  return weights;
 }
 
 /// Throws Error if squares of distances overflow.
@@ -156,29 +207,35 @@ WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Point
   {
     groups.push_back(std::move(all));
   }
-  std::vector<Index> offsets(n + 1, 0);
+  Index entries = 0; // at least
   for (const Group& group : groups)
   {
-    for (Index row : group.rows)
-    {
-      offsets[row + 1] = group.neighbors;
-    }
+    entries += group.neighbors * static_cast<Index>(group.rows.size());
   }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  WeightMatrix weights;
-  weights.open(sites.size(), std::move(offsets));
+  WeightMatrix().open(sites.size(), { 0, entries }); // throws where memory does not suffice
 
+  std::vector<Piece> pieces;
+  std::mutex mutex;
   double progress = neighborhood.grows ? .5 : .1;
-  const double left = (1 - progress) / static_cast<double>(std::max<Index>(1, weights.entries()));
+  const double left = (1 - progress) / static_cast<double>(std::max<Index>(1, entries));
   for (const Group& group : groups)
   {
     const double next = progress + left * static_cast<double>(group.neighbors) *
                                      static_cast<double>(group.rows.size());
-    searchGroup(nearest, places, group, progress, next, monitor,
-      [&](Index row, const NearestNodes::Neighbors& neighbors)
-      { writeRow(neighbors, sites.tolerance(), weights.column(row), weights.weight(row)); });
+    searchRanges(nearest, places, group, progress, next, monitor,
+      [&](Index rows, const auto& search)
+      {
+        Piece piece;
+        const Index usual = rows * group.neighbors * 5 / 4; // with ties
+        piece.columns.reserve(usual);
+        piece.weights.reserve(usual);
+        search([&](Index row, const NearestNodes::Neighbors& neighbors)
+          { piece.add(row, neighbors, sites.tolerance()); });
+        const std::lock_guard<std::mutex> lock(mutex);
+        pieces.push_back(std::move(piece));
+      });
     progress = next;
   }
-  return weights;
+  return join(pieces, n, sites.size());
 }
 }

@@ -10,7 +10,8 @@ namespace morph
 /// The sites that have a weight at a place.
 struct Neighborhood
 {
-  /// the nearest, by (distance, site number); at least 1, and all where there are fewer
+  /// the nearest, and all as far as the last of them (NearestNodes); at least 1, and all where
+  /// there are fewer
   Index count = 80;
   /// doubles `count` at a place until its neighbors' hull contains it or all sites are included
   bool grows = false;
@@ -20,6 +21,8 @@ struct Neighborhood
 /// to x. The result has a row for each of the `places` (#places x 3) and ascending columns. A place
 /// within the tolerance of a site has weight 1 at the nearest site. The weights do not depend on
 /// threads or on the order of the places. Progress runs from 0.1 to 1.
+///
+/// Cost of memory: another 12 bytes an entry until the rows are complete.
 ///
 /// Throws Error if memory does not suffice, and for coordinates of 1e150 and beyond. Cost: O(log
 /// #sites + count) a place (NearestNodes). Growing neighborhoods take a second search over them and

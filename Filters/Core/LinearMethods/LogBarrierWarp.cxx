@@ -83,7 +83,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monitor& monitor) const
@@ -106,8 +107,8 @@ EvaluateReport LogBarrierWarp::solve(
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
-    [&](const RightHandSide& rhs, MultiVector& solution)
-    { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
+    [&](const RightHandSide& rhs, MultiVector& solution, double tolerance)
+    { solved = this->solver_.solve(rhs, solution, tolerance, MaxIterations, monitor); });
   return this->report(solved, monitor);
 }
 

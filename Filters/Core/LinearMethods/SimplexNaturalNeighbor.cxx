@@ -154,7 +154,7 @@ void SimplexNaturalNeighbor::measureDistances(Monitor& monitor)
     {
       nearest.search(places, this->order_, first, last, 1,
         [&](Index row, const NearestNodes::Neighbors& found)
-        { this->distances_[row] = std::sqrt(found.squaredDistances[0]); });
+        { this->distances_[row] = std::sqrt(found.leastSquaredDistance()); });
     });
 }
 

@@ -81,7 +81,7 @@ std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor
     {
       nearest.search(centres, order, first, last, 1,
         [&](Index c, const NearestNodes::Neighbors& found)
-        { distance[c] *= std::sqrt(found.squaredDistances[0]); });
+        { distance[c] *= std::sqrt(found.leastSquaredDistance()); });
     });
   return distance;
 }

@@ -23,7 +23,7 @@ namespace morph
 /// It is exact for affine motions of prescribed nodes that do not all lie in one plane. If they do,
 /// the fit of minimum norm keeps the method linear, and nodes off the plane move as their
 /// projections. A free node within 1e-12 of the size of a site has the site's displacement. The n
-/// nearest are the smallest by (distance, site number). The map is not continuous in x: where the
+/// nearest include all as far as the n-th (NearestNodes). The map is not continuous in x: where the
 /// n-th neighbor changes, u jumps by its share of the residual. On fine meshes, nodes on either
 /// side of the middle depend on different walls, so this method inverts cells first.
 ///
@@ -56,6 +56,7 @@ public:
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   /// Warns where the fit reflects or flattens the mesh: the result is then rarely useful.
+  void warnOf(const Points& prescribed, Monitor& monitor) const override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

@@ -470,7 +470,7 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
   }
   // Three nodes that are not on a line tell the motion.
   const bool isTold =
-    morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
+    morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).directions().rank() >= 2;
   const WholeVolume::Moved by = isTold
                                   ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
                                       result.Moved(outer, morph::allColumns) }
