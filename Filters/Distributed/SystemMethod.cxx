@@ -10,6 +10,7 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -100,6 +101,35 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->solver_.prepare(ranks, this->kind_, rows.interior, others, ghostNumbers);
 }
 
+SolveReport SystemMethod::solveEach(const HypreSolver& solver, Points rhs, Points& x) const
+{
+  const Ranks& ranks = this->mesh().ranks();
+  const std::vector<Index>& part = this->parts_.ofRow();
+  std::vector<double> size(this->parts_.count(), 0);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    size[part[i]] += rhs.row(i).squaredNorm();
+  }
+  ranks.sum(size.data(), size.size());
+  for (double& value : size)
+  {
+    value = size.size() > 1 && value > 0 && std::isfinite(value) ? std::sqrt(value) : 1;
+  }
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    rhs.row(i) /= size[part[i]];
+    x.row(i) /= size[part[i]];
+  }
+  const double count = std::max(1., static_cast<double>(size.size()));
+  const SolveReport solved =
+    solver.solve(ranks, rhs, x, this->tolerance_ / std::sqrt(count), MaxIterations);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    x.row(i) *= size[part[i]];
+  }
+  return solved;
+}
+
 EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor) const
 {
   EvaluateReport report;
@@ -151,7 +181,7 @@ EvaluateReport SystemMethod::displace(
   {
     free.setZero();
   }
-  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
+  const SolveReport solved = this->solveEach(this->solver_, std::move(rhs), free);
   if (!this->isUniform_)
   {
     free += fitted;
@@ -172,7 +202,7 @@ EvaluateReport SystemMethod::displaceTranspose(
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : this->solver_;
   ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved = solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
+  const SolveReport solved = this->solveEach(solver, free, solution);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {

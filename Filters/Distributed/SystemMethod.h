@@ -52,6 +52,8 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const final;
 
 private:
+  /// Solves as morph::solveEach(). `x`: the first guess, then the solution.
+  SolveReport solveEach(const HypreSolver& solver, Points rhs, Points& x) const;
   EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   HypreSolver::Kind kind_;

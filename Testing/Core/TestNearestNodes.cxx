@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 using namespace morph;
 
@@ -21,13 +22,14 @@ Points randomPoints(Index n, std::mt19937& random)
   return points.unaryExpr([&](double) { return value(random); });
 }
 
-/// All nodes at most as far as the k-th, to a relative 1e-9.
+/// All nodes at most as far as the k-th, to a relative 1e-9 and rounding.
 std::vector<std::int32_t> byAllDistances(const Points& nodes, const Eigen::RowVector3d& x, Index k)
 {
   const Eigen::VectorXd distances = (nodes.rowwise() - x).rowwise().norm();
   std::vector<double> sorted(distances.data(), distances.data() + distances.size());
   std::sort(sorted.begin(), sorted.end());
-  const double most = (1 + 1e-9) * sorted[std::min(k, nodes.rows()) - 1];
+  const double most = (1 + 1e-9) * sorted[std::min(k, nodes.rows()) - 1] +
+                      4 * std::numeric_limits<double>::epsilon() * nodes.cwiseAbs().maxCoeff();
   std::vector<std::int32_t> result;
   for (Index i = 0; i < nodes.rows(); ++i)
   {

@@ -51,8 +51,9 @@ struct ResultSet
 class NearestSet : public ResultSet
 {
 public:
-  NearestSet(std::size_t k, std::vector<std::pair<double, std::uint32_t>>& found)
+  NearestSet(std::size_t k, double rounding, std::vector<std::pair<double, std::uint32_t>>& found)
     : k_(k)
+    , rounding_(rounding)
     , room_(2 * k)
     , found_(found)
   {
@@ -78,7 +79,8 @@ public:
   {
     const auto last = this->found_.begin() + static_cast<std::ptrdiff_t>(this->k_ - 1);
     std::nth_element(this->found_.begin(), last, this->found_.end());
-    this->limit_ = Tie * Tie * last->first + std::numeric_limits<double>::min();
+    const double most = Tie * std::sqrt(last->first) + this->rounding_;
+    this->limit_ = most * most + std::numeric_limits<double>::min();
     this->found_.erase(std::remove_if(this->found_.begin(), this->found_.end(),
                          [&](const auto& one) { return one.first >= this->limit_; }),
       this->found_.end());
@@ -86,6 +88,7 @@ public:
 
 private:
   std::size_t k_;
+  double rounding_;
   std::size_t room_;
   double limit_ = std::numeric_limits<double>::infinity(); ///< of squared distances
   std::vector<std::pair<double, std::uint32_t>>& found_;
@@ -121,11 +124,13 @@ struct NearestNodes::Implementation
 {
   explicit Implementation(const Points& nodes)
     : cloud{ nodes }
+    , rounding(4 * std::numeric_limits<double>::epsilon() * nodes.cwiseAbs().maxCoeff())
     , tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(LeafSize))
   {
   }
 
   Cloud cloud;
+  double rounding; ///< of the distance of nodes
   Tree tree;
 };
 
@@ -155,7 +160,8 @@ void NearestNodes::nearest(
   const Eigen::RowVector3d& x, Index k, std::vector<std::int32_t>& found) const
 {
   std::vector<std::pair<double, std::uint32_t>> near;
-  NearestSet set(static_cast<std::size_t>(std::min(k, this->size())), near);
+  NearestSet set(
+    static_cast<std::size_t>(std::min(k, this->size())), this->implementation_->rounding, near);
   this->implementation_->tree.findNeighbors(set, x.data(), {});
   set.shorten();
   found.resize(near.size());

@@ -5,8 +5,6 @@
 #include "Geometry/NearestNodes.h"
 #include "Support/Parallel.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 namespace morph
@@ -16,9 +14,9 @@ namespace
 constexpr Index Grain = 64;
 constexpr Index FirstCount = 32;
 
-/// Sets the weights of `row`, which has its sites, to those of the fit at `x`. Returns false if the
-/// sites lie in a plane.
-bool fit(const Points& sites, const Eigen::RowVector3d& x, AffineRow& row)
+/// Sets the weights of `row`, which has its sites, to those of the fit at `x`. `limits`: directions
+/// count by their shares. Returns false if the sites lie in a plane.
+bool fit(const Points& sites, const Eigen::RowVector3d& x, bool limits, AffineRow& row)
 {
   const double count = static_cast<double>(row.sites.size());
   // Relative to the first site: coordinates far from the origin lose no digits.
@@ -35,21 +33,18 @@ bool fit(const Points& sites, const Eigen::RowVector3d& x, AffineRow& row)
     const Eigen::RowVector3d arm = sites.row(site) - centre;
     spread += arm.transpose() * arm;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const Eigen::Vector3d moments = axes.eigenvalues(); // ascending
-  if (!AffineLeastSquares::isExtended(moments[0], moments[2]))
+  PrincipalDirections directions(spread, count);
+  if (limits)
   {
-    return false;
+    directions.limit(Eigen::RowVector3d::Ones(), directions.leverages(x - centre));
   }
-  const Eigen::Vector3d slope =
-    axes.eigenvectors() *
-    (axes.eigenvectors().transpose() * (x - centre).transpose()).cwiseQuotient(moments);
+  const Eigen::Vector3d slope = directions.inverse() * (x - centre).transpose();
   row.weights.clear();
   for (const std::int32_t site : row.sites)
   {
     row.weights.push_back(1 / count + (sites.row(site) - centre).dot(slope));
   }
-  return true;
+  return directions.rank() == 3;
 }
 
 double largest(const std::vector<double>& weights)
@@ -75,9 +70,13 @@ std::vector<AffineRow> affineWeights(
       for (Index count = FirstCount; !isDone; count *= 2)
       {
         nearest.nearest(places.row(i), count, rows[i].sites);
-        const bool spans = fit(sites, places.row(i), rows[i]);
-        isDone = (spans && largest(rows[i].weights) <= most) ||
-                 static_cast<Index>(rows[i].sites.size()) == sites.rows();
+        const bool spans = fit(sites, places.row(i), false, rows[i]);
+        isDone = spans && largest(rows[i].weights) <= most;
+        if (!isDone && static_cast<Index>(rows[i].sites.size()) == sites.rows())
+        {
+          fit(sites, places.row(i), true, rows[i]);
+          isDone = true;
+        }
       }
     });
   return rows;

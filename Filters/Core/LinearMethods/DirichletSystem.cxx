@@ -29,7 +29,7 @@ void requireTolerance(double tolerance)
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
-  const RowComponents& components, const CsrMatrix& coupling)
+  const std::vector<Index>& rows, const RowComponents& components, const CsrMatrix& coupling)
   : components_(components)
   , coupled_(components.count)
 {
@@ -41,8 +41,14 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
       columns.push_back(static_cast<int>(entry.col()));
     }
   }
-  for (std::vector<int>& columns : this->coupled_)
+  std::vector<std::vector<Index>> moved(components.count);
+  for (std::size_t row = 0; row < rows.size(); ++row)
   {
+    moved[components.of(static_cast<Index>(row))].push_back(rows[row]);
+  }
+  for (std::size_t c = 0; c < this->coupled_.size(); ++c)
+  {
+    std::vector<int>& columns = this->coupled_[c];
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     columns.shrink_to_fit();
@@ -51,7 +57,7 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
     {
       places.row(i) = points.row(partition.prescribed[columns[i]]);
     }
-    this->leastSquares_.emplace_back(places);
+    this->leastSquares_.emplace_back(places, points(moved[c], allColumns));
   }
 }
 
@@ -85,9 +91,10 @@ AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 bool AffineGuess::agree(const Points& points, const NodePartition& partition,
   const MultiVector& prescribed, const Fits& fits, double tolerance) const
 {
-  Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
+  bool all = true;
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
+    Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
     for (const int column : this->coupled_[c])
     {
       const MultiVectorRow& given = prescribed[column];
@@ -96,8 +103,9 @@ bool AffineGuess::agree(const Points& points, const NodePartition& partition,
       largest = largest.max(given.array().abs());
       most = most.max(off.array().abs());
     }
+    all = all && (most <= tolerance * largest).all(); // not for numbers that have overflowed
   }
-  return (most <= tolerance * largest).all(); // not for numbers that have overflowed
+  return all;
 }
 
 void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
@@ -175,6 +183,47 @@ std::size_t AffineGuess::memory() const
   return bytes;
 }
 
+void solveEach(const RowComponents& components, const RightHandSide& b, double tolerance,
+  MultiVector& x, const RowSolver& solver, Monitor& monitor)
+{
+  if (components.count < 2)
+  {
+    solver(b, x, tolerance);
+    return;
+  }
+  const Index rows = b.rows();
+  std::vector<double> size(components.count, 0);
+  MultiVector scaled(rows);
+  for (Index i = 0; i < rows; ++i)
+  {
+    scaled[i] = b[i];
+    size[components.of(i)] += scaled[i].squaredNorm();
+  }
+  for (double& value : size)
+  {
+    value = value > 0 && std::isfinite(value) ? std::sqrt(value) : 1;
+  }
+  const auto forRows = [&](const auto& body)
+  {
+    monitor.parallelFor(rows, Grain,
+      [&](Index first, Index last)
+      {
+        for (Index i = first; i < last; ++i)
+        {
+          body(i, size[components.of(i)]);
+        }
+      });
+  };
+  forRows(
+    [&](Index i, double unit)
+    {
+      scaled[i] /= unit;
+      x[i] /= unit;
+    });
+  solver(scaled, x, tolerance / std::sqrt(static_cast<double>(components.count)));
+  forRows([&](Index i, double unit) { x[i] *= unit; });
+}
+
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
@@ -202,7 +251,7 @@ double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor)
 }
 
 bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,
-  Monitor& monitor, const std::function<void(const RightHandSide&, MultiVector&)>& solver) const
+  Monitor& monitor, const RowSolver& solver) const
 {
   constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
   const double affine = AffineShare * tolerance;
@@ -215,13 +264,14 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
   }
   if (this->isUniform)
   {
-    solver(RightHandSide(this->coupling, prescribed), x);
+    solveEach(this->guess.components(), RightHandSide(this->coupling, prescribed), tolerance, x,
+      solver, monitor);
     return true;
   }
   MultiVector rhs, fitted;
   this->guess.takeOff(
     this->points, this->partition, this->coupling, prescribed, fits, rhs, x, fitted, monitor);
-  solver(rhs, x);
+  solveEach(this->guess.components(), rhs, tolerance, x, solver, monitor);
   for (std::size_t i = 0; i < fitted.size(); ++i)
   {
     x[i] += fitted[i];

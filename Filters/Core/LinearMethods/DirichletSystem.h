@@ -29,9 +29,10 @@ class AffineGuess
 {
 public:
   AffineGuess() = default;
-  /// `components`: of A_I, copied; `coupling`: A_B. Cost: one pass over A_B.
-  AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
-    const CsrMatrix& coupling);
+  /// `rows`: the nodes of A_I's rows; `components`: of A_I, copied; `coupling`: A_B. Cost: one pass
+  /// over A_B and the rows.
+  AffineGuess(const Points& points, const NodePartition& partition, const std::vector<Index>& rows,
+    const RowComponents& components, const CsrMatrix& coupling);
 
   /// The fit of each component, for the columns of a MultiVector.
   class Fits
@@ -56,8 +57,9 @@ public:
   /// `prescribed`: #prescribed displacements.
   Fits fits(const MultiVector& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
+  const RowComponents& components() const { return this->components_; }
   /// Whether the fits give the displacements of all coupled nodes, to `tolerance` of the largest of
-  /// each column. Cost: one pass over these nodes.
+  /// each column and component. Cost: one pass over these nodes.
   bool agree(const Points& points, const NodePartition& partition, const MultiVector& prescribed,
     const Fits& fits, double tolerance) const;
 
@@ -83,6 +85,14 @@ private:
   std::vector<std::vector<int>> coupled_; ///< per component, its columns of A_B, ascending
   std::vector<AffineLeastSquares> leastSquares_;
 };
+
+/// Solves A X = B so that each coordinate's residual is at most `tolerance` of |B|, in each
+/// component by itself: a body that moves by far less than another has as many digits. `solver(b,
+/// x, tolerance)` solves with norms over all rows, from the guess x. Where there are several
+/// components, it gets each in a unit in which its |B| is 1. Cost then: a few passes over the rows.
+using RowSolver = std::function<void(const RightHandSide&, MultiVector&, double)>;
+void solveEach(const RowComponents& components, const RightHandSide& b, double tolerance,
+  MultiVector& x, const RowSolver& solver, Monitor& monitor);
 
 /// Sets `x` to the first guess, #rows.
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
@@ -117,11 +127,11 @@ struct DirichletEquations
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
 
-  /// Solves to `tolerance`, and sets `x`, #rows. `solver(rhs, x)` solves A_I X = rhs from the guess
-  /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is
-  /// not called then, as a pass over the matrix takes longer than all else.
+  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is the
+  /// solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
+  /// matrix takes longer than all else.
   bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
-    const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;
+    const RowSolver& solver) const;
 };
 
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its

@@ -90,7 +90,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     }
     throwSingular(nodes);
   }
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
@@ -100,9 +101,9 @@ EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Mon
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
   const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
-    [&](const RightHandSide& rhs, MultiVector& solution)
+    [&](const RightHandSide& rhs, MultiVector& solution, double tolerance)
     {
-      report = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
+      report = this->solver_.solve(rhs, solution, tolerance, MaxIterations, monitor);
       reportRounding(report, this->tolerance_, monitor);
     });
   if (!iterates)
@@ -138,10 +139,16 @@ EvaluateReport FemWarp::displaceTranspose(
   Points gradient = free;
   this->stars_.recoverTranspose(gradient, prescribed);
   const Points rhs = permute(gradient, this->rows(), this->partition());
-  Points solution = Points::Zero(rhs.rows(), 3);
-  const SolveReport report =
-    this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
+  SolveReport report;
+  MultiVector x(static_cast<std::size_t>(rhs.rows()), MultiVectorRow::Zero());
+  solveEach(
+    this->solver_.components(), toRows(rhs, monitor), this->tolerance_, x,
+    [&](const RightHandSide& b, MultiVector& y, double tolerance)
+    { report = this->solver_.solve(b, y, tolerance, MaxIterations, monitor); },
+    monitor);
   reportRounding(report, this->tolerance_, monitor);
+  Points solution;
+  fromRows(x, solution, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {

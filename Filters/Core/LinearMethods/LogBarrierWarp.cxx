@@ -79,7 +79,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monitor& monitor) const
@@ -101,8 +102,8 @@ EvaluateReport LogBarrierWarp::solve(
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
     this->solver_.matrix(), this->coupling_, this->guess_, true, this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
-    [&](const RightHandSide& rhs, MultiVector& solution)
-    { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
+    [&](const RightHandSide& rhs, MultiVector& solution, double tolerance)
+    { solved = this->solver_.solve(rhs, solution, tolerance, MaxIterations, monitor); });
   return this->report(solved, monitor);
 }
 

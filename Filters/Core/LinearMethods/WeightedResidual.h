@@ -48,6 +48,7 @@ public:
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   /// Warns where the fit reflects or flattens the mesh: the result is then rarely useful.
+  void warnOf(const Points& prescribed, Monitor& monitor) const override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

@@ -135,6 +135,10 @@ void Morpher::setReference(Points)
 {
 }
 
+void Morpher::warnOf(const Points&, Monitor&) const
+{
+}
+
 void Morpher::requirePrepared() const
 {
   if (!this->prepared_)
@@ -187,6 +191,7 @@ EvaluateReport Morpher::evaluate(
   ProgressRange whole(monitor, 0, 1);
   if (freeDisplacement.rows() > 0)
   {
+    this->warnOf(displacement, monitor);
     report = this->displace(displacement, freeDisplacement, whole);
   }
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),

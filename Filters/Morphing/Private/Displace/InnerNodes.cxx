@@ -476,7 +476,8 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
         return tells(result.Roles[node]) &&
                std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node);
       });
-    isTold = morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
+    isTold =
+      morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).directions().rank() >= 2;
     if (isTold)
     {
       break;

@@ -251,16 +251,16 @@ const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surf
   return *this->Shapes[surface];
 }
 
-Eigen::RowVector3d Surroundings::Closest(
-  const BoundaryModel& model, const std::vector<Index>& surfaces, const Eigen::RowVector3d& from)
+Eigen::RowVector3d Surroundings::Slid(const BoundaryModel& model,
+  const std::vector<Index>& surfaces, Index node, const Eigen::RowVector3d& to)
 {
-  Eigen::RowVector3d x = from;
+  Eigen::RowVector3d x = to;
   for (int round = 0; round < (surfaces.size() > 1 ? 100 : 1); ++round)
   {
     const Eigen::RowVector3d before = x;
     for (const Index s : surfaces)
     {
-      x = this->ShapeOf(model, s).Closest(x);
+      x = this->ShapeOf(model, s).Slid(model.Points().row(node), x);
     }
     if (x == before)
     {
@@ -285,7 +285,8 @@ std::vector<Index> Surroundings::AbleToSlide(const BoundaryModel& model,
     {
       if (result.Roles[node] == Moves || result.Roles[node] == Follows)
       {
-        const double distance = shape.Distance(result.Moved.row(node));
+        const Eigen::RowVector3d to = result.Moved.row(node);
+        const double distance = (shape.Slid(model.Points().row(node), to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.Roles[node] == Moves ? distance : 0);
       }
@@ -325,7 +326,7 @@ void Surroundings::Slide(const BoundaryModel& model, const std::vector<Index>& s
   }
   for (const auto& [node, on] : surfacesOf)
   {
-    result.Moved.row(node) = this->Closest(model, on, result.Moved.row(node));
+    result.Moved.row(node) = this->Slid(model, on, node, result.Moved.row(node));
   }
 }
 
