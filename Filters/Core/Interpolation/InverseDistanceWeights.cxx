@@ -38,34 +38,17 @@ void writeRow(const InterpolationSites& sites, const Eigen::RowVector3d& place, 
     *nearest = 1;
     return;
   }
-};
-
-/// The rows' lengths follow from the search alone, as all neighbors at the last one's distance
-/// count. So the weights are kept in pieces first.
-WeightMatrix join(std::vector<Piece>& pieces, Index rows, Index columns)
-{
-  std::vector<Index> offsets(rows + 1, 0);
-  for (const Piece& piece : pieces)
+  double sum = 0;
+  for (Index i = 0; i < n; ++i)
   {
     weight[i] = least / weight[i]; // at most one: no overflow near a site
     sum += weight[i];
   }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  WeightMatrix weights;
-  weights.open(columns, std::move(offsets));
-  for (Piece& piece : pieces)
+  const double scale = 1 / sum;
+  for (Index i = 0; i < n; ++i)
   {
-    Index first = 0;
-    for (std::size_t i = 0; i < piece.rows.size(); ++i)
-    {
-      const Index row = piece.rows[i], count = piece.counts[i];
-      std::copy_n(piece.columns.begin() + first, count, weights.column(row));
-      std::copy_n(piece.weights.begin() + first, count, weights.weight(row));
-      first += count;
-    }
-    piece = Piece(); // gives its memory back while that of the matrix fills
+    weight[i] *= scale;
   }
-  return weights;
 }
 
 /// Throws Error if squares of distances overflow.

@@ -14,8 +14,6 @@ namespace morph
 /// nearest site. The weights do not depend on threads or on the order of the places. Progress runs
 /// from 0.1 to 1.
 ///
-/// Cost of memory: another 12 bytes an entry until the rows are complete.
-///
 /// Throws Error if memory does not suffice, and for coordinates of 1e150 and beyond. Cost: O(log
 /// #sites + neighbors) a place. Source: equation (6) of Staten et al. (IMR 2011).
 WeightMatrix inverseDistanceWeights(

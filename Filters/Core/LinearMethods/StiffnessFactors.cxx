@@ -64,7 +64,7 @@ std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
-      double corners[8][3];
+      double corners[8][3] = {};
       copyCorners(mesh, c, shape, mesh.points, corners[0]);
       return nearest.distance(
         Eigen::Map<const Points>(corners[0], shape.numberOfCorners, 3).colwise().mean());
