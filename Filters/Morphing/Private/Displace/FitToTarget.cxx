@@ -164,7 +164,10 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   if (options.Align)
   {
     morph::ProgressRange aligning(monitor, 0.05, 0.5);
-    place = make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    auto aligned =
+      make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    aligned->TakePrecision(*place);
+    place = std::move(aligned);
   }
   this->Input = target;
   this->InputTime = target->GetMTime();
@@ -235,6 +238,7 @@ Points FitToTarget::Targets(
   const BoundaryModel& model, const Choice::Result& choice, morph::Monitor& monitor)
 {
   const morph::Classification& geometry = model.Geometry();
+  this->Place->WarnOfRounding(model.Size(), monitor);
   const WithCurves place(*this->Place);
   std::vector<Index> missed;
   BoundaryMotion motion = begin(model, choice, place, missed);

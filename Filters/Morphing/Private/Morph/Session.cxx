@@ -139,6 +139,7 @@ BoundaryMatch::Result Session::Match(
   {
     monitor.warn(warning);
   }
+  BoundaryMatch::WarnIfNothingStays(match, monitor);
   monitor.check();
   return match;
 }
