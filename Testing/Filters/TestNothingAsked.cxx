@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where nothing is asked, nothing moves: no node by more than 1e-12 of the size by a motion of zero,
-// and none by more than 1e-7 by one of 1e-9.
+// Where nothing is asked, nothing moves: no node by a motion of zero, and none by more than 1e-7 of
+// the size by one of 1e-9.
 #include "TestGrids.h"
 
 #include "vtkMorphMesh.h"

@@ -152,8 +152,8 @@ Surroundings::Result atRest(const BoundaryModel& model, Surroundings::Result las
   return last;
 }
 
-/// Leaves the nodes on free surfaces alone, and those of `nodes`, to the morph of the interior where
-/// they neither move nor are held.
+/// Leaves the nodes on free surfaces alone, and those of `nodes`, to the morph of the interior
+/// where they neither move nor are held.
 void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
   const std::vector<Index>& surfaces, const std::vector<Index>& nodes, Surroundings::Result& result)
 {
