@@ -183,8 +183,8 @@ public:
 
   ///@{
   /**
-   * Name of a point array of the input with three components, in the unit of the points. Empty or
-   * "None": none. Default: none.
+   * Name of a point array of the input with three components, in the unit of the points. Nodes are
+   * free where it is NaN, or vtkValidPointMask 0. Empty or "None": none. Default: none.
    */
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);

@@ -40,8 +40,8 @@
  * against it. Interior nodes may be prescribed too. A node may be named more than once if the
  * targets agree within MatchTolerance; the first one counts.
  *
- * Target positions are the points of port 1 or, if DisplacementArray is set, the undeformed
- * position plus that vector.
+ * Targets are the points of port 1; what differs by their rounding alone stays. With a
+ * DisplacementArray they are the nodes plus it. NaN, or vtkValidPointMask 0, frees a node.
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
@@ -50,7 +50,7 @@
  * MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and
  * LargestValidStep. The same numbers have getters after an execution. Mid-side, face and body nodes
  * of quadratic cells that are not prescribed keep their place in the cell. Cells of lower dimension
- * pass through.
+ * pass through. Normals do not.
  *
  * Output 1 holds the inverted and degenerate cells of output 0 (ScaledJacobian of 0 or less) with
  * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are

@@ -176,9 +176,8 @@ void checkMotion(const Arguments& arguments)
       "--displacements cannot be combined with --move, --target, --handles or --lattice.");
   }
   const Motion none;
-  const bool hasNumbers = motion.translation != none.translation ||
-                          motion.rotation != none.rotation || motion.scale != none.scale;
-  if (motion.moving.empty() && (hasNumbers || motion.radius != 0))
+  const bool hasNumbers = motion.isPlaced() || motion.radius;
+  if (motion.moving.empty() && hasNumbers)
   {
     throw UsageError("--translate, --rotate, --scale and --radius need --move.");
   }
@@ -205,7 +204,7 @@ void checkMotion(const Arguments& arguments)
     throw UsageError(
       "--freeze, --rigid and --keep-layers need --move, --target, --handles or --lattice.");
   }
-  if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
+  if (!motion.target.empty() && hasNumbers)
   {
     throw UsageError(
       "--target cannot be combined with --translate, --rotate, --scale or --radius.");
@@ -218,11 +217,11 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--project-along needs --target.");
   }
-  if (hasNumbers && motion.radius != 0)
+  if (motion.isPlaced() && motion.radius)
   {
     throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
   }
-  if (motion.byControlPoints() && (hasNumbers || motion.radius != 0 || !motion.target.empty() ||
+  if (motion.byControlPoints() && (hasNumbers || !motion.target.empty() ||
                                     (!motion.handles.empty() && !motion.lattice.empty())))
   {
     throw UsageError("Only one of --handles, --lattice, --target, --radius, and --translate, "
@@ -233,8 +232,7 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--lattice-size, --lattice-box and --b-splines need --lattice.");
   }
-  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0 && motion.target.empty() &&
-      !motion.byControlPoints())
+  if (!motion.moving.empty() && !hasNumbers && motion.target.empty() && !motion.byControlPoints())
   {
     throw UsageError("--move needs --translate, --rotate, --scale, --radius, --target, --handles "
                      "or --lattice.");

@@ -179,17 +179,26 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   {
     setControlPoints(filter, motion);
   }
-  else if (motion.radius != 0)
+  else if (motion.radius)
   {
     filter->SetMotionToRadius();
-    filter->SetRadiusChange(motion.radius);
+    filter->SetRadiusChange(*motion.radius);
   }
   else
   {
     filter->SetMotionToPlacement();
-    filter->SetTranslation(motion.translation.data());
-    filter->SetRotation(motion.rotation.data());
-    filter->SetScale(motion.scale.data());
+    if (motion.translation)
+    {
+      filter->SetTranslation(motion.translation->data());
+    }
+    if (motion.rotation)
+    {
+      filter->SetRotation(motion.rotation->data());
+    }
+    if (motion.scale)
+    {
+      filter->SetScale(motion.scale->data());
+    }
     filter->SetAutoCenter(!motion.hasCenter);
     filter->SetCenter(motion.center.data());
   }

@@ -10,10 +10,12 @@
 #include "ProgressBar.h"
 #include "Report.h"
 
+#include <vtkCellData.h>
 #include <vtkDisplacementAlgorithm.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphAlgorithm.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkScaledJacobian.h>
@@ -113,13 +115,16 @@ std::string numbered(const std::string& path, int step)
   return path.substr(0, dot) + "-" + std::to_string(step) + path.substr(dot);
 }
 
-/// The grid with the points of the morphed one: its arrays stay as they were.
+/// The grid with the points of the morphed one: its arrays stay as they were, but for the normals,
+/// which would be wrong.
 vtkSmartPointer<vtkUnstructuredGrid> withPoints(
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* morphed)
 {
   auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
   result->ShallowCopy(grid);
   result->SetPoints(morphed->GetPoints());
+  result->GetPointData()->SetNormals(nullptr);
+  result->GetCellData()->SetNormals(nullptr);
   return result;
 }
 

@@ -107,6 +107,18 @@ class MorphMesh(unittest.TestCase):
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
 
+    def test_a_motion_of_zero_is_a_motion(self):
+        for motion in (("--translate", "0,0,0"), ("--rotate", "z,0"), ("--scale", "1"),
+                       ("--scale", "1,1,1"), ("--radius", "0")):
+            result = run("--quiet", "--move", "Surface 1", *motion, BORE, self.folder / "out.vtk")
+            self.assertEqual((result.returncode, result.stderr), (0, ""), motion)
+            points = [re.search(b"POINTS .*CELLS ", (self.folder / name).read_bytes(), re.S)[0]
+                      for name in ("out.vtk", "rest.vtk")
+                      if run(BORE, self.boundary, self.folder / "rest.vtk").returncode == 0]
+            self.assertEqual(points[0], points[1], motion)
+        self.fails(2, "--radius cannot be combined", "--move", "Surface 1", "--radius", "0",
+                   "--scale", "1", BORE, self.folder / "out.vtk")
+
     def test_a_surface_turns_about_a_point(self):
         """Its centre, as it is listed, against Rodrigues' formula; its area stays."""
         def surface(path):
@@ -372,6 +384,19 @@ class MorphMesh(unittest.TestCase):
             content = boundary.read_bytes()
             parts.append(content[content.index(b"POINTS "):content.index(b"POLYGONS")])
         self.assertEqual(parts[0] == parts[1], True)
+
+    def test_normals_are_left_out(self):
+        name = self.folder / "bore.vtk"
+        self.assertEqual(self.morph(output="bore.vtk").returncode, 0)
+        content = name.read_bytes()
+        count = int(re.search(rb"POINTS (\d+)", content)[1])
+        normals = b"NORMALS Outward double\n" + struct.pack(">3d", 0, 0, 1) * count + b"\n"
+        at = re.search(rb"POINT_DATA \d+\n", content).end()
+        name.write_bytes(content[:at] + normals + content[at:])
+        move = ("--move", "Surface 1", "--translate", "0,0,0.01", name)
+        self.assertEqual(run(*move, self.folder / "moved.vtk").returncode, 0)
+        self.assertIn(b"NORMALS", name.read_bytes())
+        self.assertNotIn(b"NORMALS", (self.folder / "moved.vtk").read_bytes())
 
     def test_a_grid_of_another_program(self):
         # AVS UCD: a cube of eight hexahedra; ids from 1.

@@ -187,7 +187,10 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   if (options.Align)
   {
     morph::ProgressRange aligning(monitor, 0.05, 0.5);
-    place = make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    auto aligned =
+      make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    aligned->TakePrecision(*place);
+    place = std::move(aligned);
   }
   this->Input = target;
   this->InputTime = target->GetMTime();
@@ -352,6 +355,7 @@ Points FitToTarget::Targets(const BoundaryModel& model, const Choice::Result& ch
   const std::vector<Index>& sliding, Surroundings& surroundings, morph::Monitor& monitor)
 {
   const morph::Classification& geometry = model.Geometry();
+  this->Place->WarnOfRounding(model.Size(), monitor);
   const Rim rim(model, choice, sliding, surroundings);
   const WithCurves place(*this->Place, rim);
   const bool isAlong = this->Made.How == Project::Along;

@@ -312,8 +312,9 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   motion.TransformAboutCenter = filter->TransformAboutCenter;
   motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
-  moves.Targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
   moves.Choice = this->Choice;
+  moves.Rest.FreeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
+  moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
 
   rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);

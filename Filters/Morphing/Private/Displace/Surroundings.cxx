@@ -152,11 +152,12 @@ Surroundings::Result atRest(const BoundaryModel& model, Surroundings::Result las
   return last;
 }
 
-/// Leaves the nodes on free surfaces alone, neither moving nor held, to the morph of the interior.
+/// Leaves the nodes on free surfaces alone, and those of `nodes`, to the morph of the interior
+/// where they neither move nor are held.
 void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
-  const std::vector<Index>& surfaces, Surroundings::Result& result)
+  const std::vector<Index>& surfaces, const std::vector<Index>& nodes, Surroundings::Result& result)
 {
-  if (surfaces.empty())
+  if (surfaces.empty() && nodes.empty())
   {
     return;
   }
@@ -179,6 +180,7 @@ void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
       mark(model.Geometry().surfaces[s].nodes, 0);
     }
   }
+  mark(nodes, 1);
   mark(held, 0);
   for (const Index node : model.Faces().nodes)
   {
@@ -208,7 +210,7 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   {
     this->Place(model, choice, options, result, monitor);
   }
-  leaveFree(model, choice.Held, options.Free, result);
+  leaveFree(model, choice.Held, options.Free, options.FreeNodes, result);
   return result;
 }
 

@@ -29,10 +29,11 @@ public:
   struct Options
   {
     Kind How = Kind::Follow;
-    morph::SurfaceMorphOptions Follow; ///< where `linear`, nothing slides
-    double Radius = 0;                 ///< of Fade, in the unit of the points
-    std::vector<morph::Index> Sliding; ///< surfaces of the geometry that slide, of any kind
-    std::vector<morph::Index> Free;    ///< surfaces whose nodes are solved with the interior
+    morph::SurfaceMorphOptions Follow;   ///< where `linear`, nothing slides
+    double Radius = 0;                   ///< of Fade, in the unit of the points
+    std::vector<morph::Index> Sliding;   ///< surfaces of the geometry that slide, of any kind
+    std::vector<morph::Index> Free;      ///< surfaces whose nodes are solved with the interior
+    std::vector<morph::Index> FreeNodes; ///< that are, too
   };
 
   /// What a node does; the values of the output's array Role.
@@ -69,7 +70,8 @@ public:
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
   /// surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. Nodes of
-  /// free surfaces alone, neither moving nor held, have the role IsFree and their current position.
+  /// free surfaces alone, and free nodes, neither moving nor held, have the role IsFree and their
+  /// current position.
   /// A result does not depend on what is kept. `last`: an earlier result that is no longer needed.
   /// Its memory is used again, so that nodes inside cost nothing.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,

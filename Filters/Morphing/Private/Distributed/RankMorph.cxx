@@ -182,6 +182,10 @@ BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double
       monitor.warn(warning);
     }
   }
+  if (ranks.rank() == 0)
+  {
+    BoundaryMatch::WarnIfNothingStays(match, monitor);
+  }
   return match;
 }
 

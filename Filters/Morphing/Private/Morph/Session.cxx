@@ -149,6 +149,7 @@ BoundaryMatch::Result Session::Match(
   {
     monitor.warn(warning);
   }
+  BoundaryMatch::WarnIfNothingStays(match, monitor);
   monitor.check();
   return match;
 }

@@ -2,6 +2,7 @@
 #include "Private/Project/Target.h"
 
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Precision.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
@@ -464,6 +465,22 @@ struct Target::Implementation
   double Sign = 1;
   double Cosine = 0;
   double Reach = 0;
+  Precision PointPrecision;
+
+  /// How far a place may be off in single precision.
+  double Rounding() const
+  {
+    return this->PointPrecision.IsFloat ? std::sqrt(3) / 2 * this->PointPrecision.Step() : 0;
+  }
+  /// Returns `found`. A place `y` that was found as near to `x` as that is `x` itself.
+  bool Found(bool found, const Row& x, Row& y) const
+  {
+    if (found && (y - x).norm() <= this->Rounding())
+    {
+      y = x;
+    }
+    return found;
+  }
 
   /// Adds one to the count of each of the target's surfaces within `distance` of `x`.
   void Vote(const Row& x, double distance, std::vector<Index>& count) const
@@ -506,6 +523,7 @@ Target::Target(vtkPolyData* surface, double featureAngle, double normalAngle, do
   own.Cosine = std::cos(normalAngle * std::acos(-1.) / 180);
   own.Reach = reach;
   own.X = GridMesh::FromPoints(surface->GetPoints());
+  own.PointPrecision = Precision::Of(surface->GetPoints(), own.X);
   std::vector<Index> wrong;
   for (Index i = 0; i < own.X.rows(); ++i)
   {
@@ -612,6 +630,23 @@ bool Target::HasFeatures() const
   return this->Internals->Features->GetNumberOfCells() > 0;
 }
 
+void Target::TakePrecision(const Target& original)
+{
+  this->Internals->PointPrecision = original.Internals->PointPrecision;
+}
+
+void Target::WarnOfRounding(double size, morph::Monitor& monitor) const
+{
+  const Implementation& own = *this->Internals;
+  if (own.Rounding() > 1e-6 * size)
+  {
+    monitor.warn(
+      "The target has " + own.PointPrecision.Text() +
+      ". Nodes as near to it as that stay, and others are as far off. Write it in double "
+      "precision, in a VTK file for instance, or with an origin near the mesh.");
+  }
+}
+
 vtkPolyData* Target::Surface() const
 {
   return this->Internals->All->Surface();
@@ -632,7 +667,7 @@ bool Target::ClosestOnVertices(const Row& x, Row& y) const
       found = true;
     }
   }
-  return found;
+  return own.Found(found, x, y);
 }
 
 bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const
@@ -647,7 +682,7 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
   const vtkIdType first = place.Nearest(x, own.Reach, y);
   if (first < 0 || fits(first))
   {
-    return first >= 0;
+    return own.Found(first >= 0, x, y);
   }
   // Another wall is nearer, or an edge where triangles meet: search farther, and only triangles
   // that fit.
@@ -657,7 +692,7 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
     radius = std::min(radius, own.Reach);
     if (place.NearestThat(x, radius, fits, y))
     {
-      return true;
+      return own.Found(true, x, y);
     }
     if (radius >= own.Reach)
     {
@@ -678,6 +713,7 @@ bool Target::closestOnFeatures(Index, const Row& x, Row& y) const
 {
   const Implementation& own = *this->Internals;
   vtkNew<vtkGenericCell> cell;
-  return this->HasFeatures() && nearest(own.FeatureLocator, x, own.Reach, cell, y) >= 0;
+  return own.Found(
+    this->HasFeatures() && nearest(own.FeatureLocator, x, own.Reach, cell, y) >= 0, x, y);
 }
 }

@@ -36,6 +36,12 @@ public:
 
   bool HasFeatures() const;
 
+  /// A target in single precision is known up to its rounding: what is as near as that is on it.
+  /// Takes the precision of the target that this one is, aligned.
+  void TakePrecision(const Target& original);
+  /// Warns where the rounding shows. `size`: of the mesh.
+  void WarnOfRounding(double size, morph::Monitor& monitor) const;
+
   /// The triangles: points in one place are merged.
   vtkPolyData* Surface() const;
   /// Finds the nearest vertex of the target, where its feature edges meet or end. Returns false if
