@@ -27,7 +27,7 @@ public:
   };
 
   /// Takes the target. `choice`: what moves, onto which it is aligned; null for the whole boundary.
-  /// Throws morph::Error for a target without polygons, and for coordinates that are not finite.
+  /// Throws morph::Error as Target does.
   void Update(vtkPolyData* target, const BoundaryModel& model, const Choice::Result* choice,
     const Options& options, morph::Monitor& monitor);
 
