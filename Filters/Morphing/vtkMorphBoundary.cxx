@@ -387,7 +387,7 @@ void vtkMorphBoundary::vtkInternals::Run(
   if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(task.Target, this->Filter->FeatureAngle,
+    place = std::make_unique<filters::Target>(task.Target, mesh.points, this->Filter->FeatureAngle,
       this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * task.Size, monitor);
     place->WarnOfRounding(task.Size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);

@@ -6,6 +6,7 @@
 #include "Motions.h"
 #include "Solvers/Gmres.h"
 #include "Solvers/MixedPrecisionMatrix.h"
+#include "Solvers/SpdSolver.h"
 #include "Support/Error.h"
 #include "WatchingMonitor.h"
 
@@ -292,6 +293,23 @@ TEST(Gmres, ConvergesByItself)
   }
   EXPECT_LT(std::sqrt(left[0] / norm2[0]), 1.1e-10);
   EXPECT_LT(std::sqrt(left[2] / norm2[2]), 1.1e-10);
+}
+
+TEST(Solvers, TakeASystemOfNoRows)
+{
+  Monitor monitor;
+  const Points none(0, 3);
+  Points x(0, 3);
+  SpdSolver symmetric;
+  symmetric.prepare(MixedPrecisionMatrix(CsrMatrix(0, 0), monitor), none, monitor);
+  EXPECT_EQ(symmetric.solve(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(symmetric.solveConstrained(none, {}, x, 1e-10, 100, monitor).relativeResidual, 0);
+  symmetric.precondition(none, x, monitor);
+  GeneralSolver general;
+  general.prepare(MixedPrecisionMatrix(CsrMatrix(0, 0), monitor), none, monitor);
+  EXPECT_EQ(general.solve(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(general.solveTransposed(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(x.rows(), 0);
 }
 
 TEST(Gmres, GoesOnFromItsGuess)

@@ -7,6 +7,8 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "Support/Error.h"
+#include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
 
@@ -81,6 +83,18 @@ void makeCase(Case& result, const std::string& kind, int number)
     result.motion.turns.push_back({ &result.first[turn], &result.second[turn],
       std::copysign(1 + one(random) / 2, one(random)) });
   }
+}
+
+/// About the z axis, and by (1, 1, 1).
+void turnAndShift(Case& problem)
+{
+  const Points& x = problem.mesh.points;
+  problem.straight = Points::Ones(x.rows(), 3);
+  problem.first[0] = problem.second[0] = Points::Zero(x.rows(), 3);
+  problem.first[0].col(0) = -x.col(1);
+  problem.first[0].col(1) = x.col(0);
+  problem.second[0].leftCols(2) = -x.leftCols(2);
+  problem.motion = { &x, &problem.straight, { { &problem.first[0], &problem.second[0], .5 } } };
 }
 
 class LargestFactors : public testing::TestWithParam<std::string>
@@ -184,13 +198,7 @@ TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
 {
   Case problem;
   problem.mesh = meshes::hexes(3, 2, 2);
-  problem.straight = Points::Ones(problem.mesh.points.rows(), 3);
-  problem.first[0] = problem.second[0] = Points::Zero(problem.mesh.points.rows(), 3);
-  problem.first[0].col(0) = -problem.mesh.points.col(1);
-  problem.first[0].col(1) = problem.mesh.points.col(0);
-  problem.second[0].leftCols(2) = -problem.mesh.points.leftCols(2);
-  problem.motion = { &problem.mesh.points, &problem.straight,
-    { { &problem.first[0], &problem.second[0], .5 } } };
+  turnAndShift(problem);
   Monitor monitor;
   LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_EQ(found.factor, HUGE_VAL);
@@ -200,4 +208,31 @@ TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
   found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_TRUE(std::isnan(found.factor));
   EXPECT_EQ(found.cell, 0);
+}
+
+TEST(LargestFactor, OfFlatCellsIsFoundInFewSteps)
+{
+  Case problem;
+  problem.mesh = meshes::tets(2, 2, 2);
+  problem.mesh.points.col(0) *= 1e-9; // as flat as that
+  turnAndShift(problem);
+  Monitor monitor;
+  EXPECT_EQ(largestFactor(problem.mesh, problem.motion, {}, monitor).factor, HUGE_VAL);
+
+  problem.straight.col(1) = problem.mesh.points.col(2); // they shear too, and stay valid
+  const double factor = largestFactor(problem.mesh, problem.motion, {}, monitor).factor;
+  EXPECT_GE(factor, 0); // on the safe side
+  EXPECT_LT(factor, 1);
+}
+
+TEST(LargestFactor, AsksWhetherToStop)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(10, 10, 10);
+  turnAndShift(problem);
+  meshes::WatchingMonitor monitor;
+  largestFactor(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_GE(monitor.questions, 3);
+  monitor.cancelAfter = monitor.questions + 2;
+  EXPECT_THROW(largestFactor(problem.mesh, problem.motion, {}, monitor), Error);
 }

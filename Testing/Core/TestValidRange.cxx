@@ -7,7 +7,9 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "Support/Error.h"
 #include "ValidRangeCases.h"
+#include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
 
@@ -179,4 +181,27 @@ TEST(PolynomialRoot, FindsTheFirst)
   EXPECT_FALSE(isPositiveUntil(cubic, 3, 1));
   EXPECT_FALSE(isPositiveUntil(cubic, 3, HUGE_VAL));
   EXPECT_TRUE(isPositiveUntil(small, 3, 1e-10));
+}
+
+TEST(PolynomialRoot, OfNumbersBeyondAllBoundsIsNone)
+{
+  const double first[] = { HUGE_VAL, -5, 3, 1 }, last[] = { 1, 2, 3, HUGE_VAL };
+  const double not1[] = { 1, NAN, 3, 1 }, large[] = { 1e308, -1e308, 1e308, -1e-308 };
+  EXPECT_EQ(firstPositiveRoot(first, 3), 0);
+  EXPECT_EQ(firstPositiveRoot(last, 3), 0);
+  EXPECT_EQ(firstPositiveRoot(not1, 3), 0);
+  EXPECT_GE(firstPositiveRoot(large, 3), 0); // it ends
+}
+
+TEST(ValidRange, AsksWhetherToStop)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(30, 30, 10);
+  problem.first = Points::Random(problem.mesh.points.rows(), 3);
+  problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
+  meshes::WatchingMonitor monitor;
+  validRange(problem.mesh, problem.motion, {}, monitor);
+  EXPECT_GE(monitor.questions, 2);
+  monitor.cancelAfter = monitor.questions + 1;
+  EXPECT_THROW(validRange(problem.mesh, problem.motion, {}, monitor), Error);
 }

@@ -350,13 +350,15 @@ TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)
 TEST(FitToSurface, ATargetThatCannotServeIsAnErrorAndKeepsTheMesh)
 {
   auto grid = brick();
-  vtkNew<vtkTransform> away;
+  vtkNew<vtkTransform> away, farAway;
   away->Translate(0, 0, 100);
+  farAway->Translate(0, 0, 1e20);
   auto notFinite = lid(3.4, 0);
   notFinite->GetPoints()->SetPoint(3, std::numeric_limits<double>::quiet_NaN(), 0, 0);
   const std::pair<vtkSmartPointer<vtkPolyData>, const char*> cases[] = {
     { vtkSmartPointer<vtkPolyData>::New(), "no polygons" }, { notFinite, "not finite" },
-    { moved(largerBrick(), away), "" }, { moved(lid(3.4, 0), away), "No node that moves reaches" }
+    { moved(largerBrick(), away), "" }, { moved(lid(3.4, 0), away), "No node that moves reaches" },
+    { moved(lid(3.4, 0), farAway), "farther from the mesh than 100,000 times its size" }
   };
   for (const auto& [target, message] : cases)
   {

@@ -381,6 +381,35 @@ TEST(Zones, ErrorsNameWhatIsWrong)
   EXPECT_NE(errorOf(surface).find("the input is a surface"), std::string::npos);
 }
 
+TEST(Zones, OneThatIsFrozenAndRigidStays)
+{
+  auto grid = marked();
+  for (const char* name : { "All", "Nodes" })
+  {
+    vtkNew<vtkDoubleArray> all;
+    all->SetName("All");
+    all->SetNumberOfTuples(grid->GetNumberOfPoints());
+    all->FillValue(1);
+    grid->GetPointData()->AddArray(all);
+    auto filter = displaced::make(grid);
+    filter->SetMotionToVector();
+    filter->SetVector(0.1, 0, 0);
+    filter->AddFrozenZone(name);
+    filter->AddRigidZone(name);
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    const Points rest = displaced::restPositions(filter->GetOutput());
+    const Points moved = grids::points(filter->GetOutput());
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      const bool isFrozen = displaced::role(filter->GetOutput(), i) == 5;
+      EXPECT_NEAR((moved.row(i) - rest.row(i)).norm(), isFrozen ? 0 : 0.1, 1e-12);
+    }
+    EXPECT_GT(filter->GetZonePoints(), 0);
+  }
+}
+
 TEST(Zones, InnerPointsHaveAllArrays)
 {
   auto grid = marked();

@@ -383,6 +383,14 @@ class SolverFiles(unittest.TestCase):
                 self.refuse(message, "--list-surfaces", path)
                 self.refuse(message, "--move", "Surface 0", "--translate", "1,0,0", path, path)
 
+    def test_too_many_included_files_are_refused(self):
+        (self.folder / "empty.inc").write_text("")
+        for name, line in (("m.inp", "*INCLUDE, INPUT=empty.inc\n"),
+                           ("m.bdf", "INCLUDE 'empty.inc'\n")):
+            path = self.folder / name
+            path.write_text(("BEGIN BULK\n" if name == "m.bdf" else "") + 1001 * line)
+            self.refuse(f"{name}: it includes more than 1000 files", "--list-surfaces", path)
+
     def test_planar_files_of_each_format(self):
         """CGNS and Exodus II: library_files.py. OpenFOAM has no planar mesh: its two-dimensional
         cases are one cell thick."""

@@ -6,6 +6,7 @@
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
+#include "Support/ParallelBatches.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -21,7 +22,8 @@ namespace morph
 namespace
 {
 using Vector = Eigen::Vector3d;
-constexpr Index Grain = 1024;
+constexpr Index Batch = 8192; // cells, quadratic ones some 0.1 ms each
+constexpr Index Grain = 512;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Pi = 3.14159265358979323846;
 
@@ -322,7 +324,7 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
     {
     }
   };
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
+  parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
     [&](Index first, Index last)
     {
       Ends ends;
@@ -359,7 +361,6 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
-  monitor.check();
   const bool isRotation = motion.second != nullptr;
   const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, before, monitor)
                                : endsOf<1>(mesh, motion, orientation, before, monitor);

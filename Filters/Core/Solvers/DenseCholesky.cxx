@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DenseCholesky.h"
 
+#include "Support/ParallelBatches.h"
+#include "Support/ProgressRange.h"
 #include "Support/Types.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,6 +18,7 @@ namespace
 {
 constexpr Index Panel = 96;
 constexpr Index Tile = 192;
+constexpr Index TilesBetweenChecks = 64; // of some milliseconds each
 
 /// Subtracts the panel's part from the lower triangle that begins at row and column `first`.
 void updateTrailing(
@@ -29,7 +33,7 @@ void updateTrailing(
       tiles.emplace_back(i, j);
     }
   }
-  monitor.parallelFor(static_cast<Index>(tiles.size()), 1,
+  parallelBatches(monitor, static_cast<Index>(tiles.size()), TilesBetweenChecks, 1,
     [&](Index begin, Index end)
     {
       for (Index t = begin; t < end; ++t)
@@ -68,8 +72,11 @@ bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
           pivot.matrixU().solveInPlace<Eigen::OnTheRight>(strip);
         }
       });
-    updateTrailing(matrix, column, width, below, monitor);
-    monitor.progress(1 - std::pow(1 - static_cast<double>(below) / static_cast<double>(n), 3));
+    const auto done = [n](Index columns)
+    { return 1 - std::pow(1 - static_cast<double>(columns) / static_cast<double>(n), 3); };
+    ProgressRange updating(monitor, done(column), done(below));
+    updateTrailing(matrix, column, width, below, updating);
+    updating.progress(1);
   }
   return true;
 }

@@ -109,6 +109,10 @@ void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
   this->generalCoarsest_.reset();
   this->finest_ = &matrix.rounded();
   assert(!this->finest_->step);
+  if (matrix.rows() == 0)
+  {
+    return; // no level: see apply()
+  }
   float largest = this->addLevel(*this->finest_, monitor);
   if (largest == 0)
   {
@@ -262,7 +266,8 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
 Eigen::Vector4d Multigrid::apply(
   const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
 {
-  return this->cycle(0, rhs, work, x, workspace, monitor);
+  return this->levels_.empty() ? Eigen::Vector4d(Eigen::Vector4d::Zero())
+                               : this->cycle(0, rhs, work, x, workspace, monitor);
 }
 
 Eigen::Vector4d Multigrid::cycle(

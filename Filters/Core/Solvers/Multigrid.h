@@ -38,7 +38,8 @@ public:
 
   /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
   /// Its columns may become narrow afterwards, not before. `coordinates`: #rows x 3. Throws Error
-  /// of kind Singular where a diagonal entry is about 1e38 times smaller than the largest entry.
+  /// of kind Singular where a diagonal entry is about 1e38 times smaller than the largest entry. A
+  /// matrix of no rows has no level, and apply() returns zero.
   void prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
     const ConstPoints& coordinates, Monitor& monitor);
   /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this

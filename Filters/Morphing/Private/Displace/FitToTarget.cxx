@@ -181,7 +181,7 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   {
     morph::ProgressRange part(monitor, from, from + 0.05);
     return std::make_unique<Target>(
-      surface, options.FeatureAngle, options.Angle, options.Reach, part);
+      surface, model.Points(), options.FeatureAngle, options.Angle, options.Reach, part);
   };
   auto place = make(target, 0);
   if (options.Align)

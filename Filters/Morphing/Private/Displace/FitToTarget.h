@@ -68,7 +68,7 @@ public:
         {
           return false;
         }
-        y = this->Surfaces.Closest(this->Model, this->Nodes.at(node).Sliding, there);
+        y = this->Surfaces.Slid(this->Model, this->Nodes.at(node).Sliding, node, there);
         if ((y - there).norm() <= 1e-14 * this->Model.Size())
         {
           break;
@@ -89,7 +89,7 @@ public:
   };
 
   /// Takes the target. `choice`: what moves, onto which it is aligned; null for the whole boundary.
-  /// Throws morph::Error for a target without polygons, and for coordinates that are not finite.
+  /// Throws morph::Error as Target does.
   void Update(vtkPolyData* target, const BoundaryModel& model, const Choice::Result* choice,
     const Options& options, morph::Monitor& monitor);
 

@@ -69,7 +69,8 @@ void Warn(const BoundaryModel& model, const Choice::Result& choice, const Points
     {
       if (result.Roles[node] == Surroundings::IsZone)
       {
-        off.Add(node, surroundings.ShapeOf(model, s).Distance(result.Moved.row(node)));
+        const Eigen::RowVector3d to = result.Moved.row(node);
+        off.Add(node, (surroundings.Slid(model, { s }, node, to) - to).norm());
       }
     }
   }

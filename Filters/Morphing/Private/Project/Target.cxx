@@ -315,6 +315,42 @@ vtkIdType nearest(
   return id;
 }
 
+/// Throws for places that no search is made for: VTK's take endless time to come from there, or end
+/// the process.
+void requireUsable(const morph::Points& x, const morph::Points& mesh)
+{
+  constexpr double Farthest = 1e5; // sizes of the mesh
+  Eigen::AlignedBox3d box;
+  for (Index i = 0; i < mesh.rows(); ++i)
+  {
+    box.extend(mesh.row(i).transpose());
+  }
+  std::vector<Index> notFinite, far;
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    if (!x.row(i).allFinite())
+    {
+      notFinite.push_back(i);
+    }
+    else if (box.exteriorDistance(x.row(i).transpose()) > Farthest * box.diagonal().norm())
+    {
+      far.push_back(i);
+    }
+  }
+  if (!notFinite.empty())
+  {
+    throw morph::Error("The target surface has coordinates that are not finite (NaN or infinite), "
+                       "at its points " +
+                       morph::listIds(notFinite) + ".");
+  }
+  if (!far.empty())
+  {
+    throw morph::Error("The target surface is farther from the mesh than 100,000 times its size, "
+                       "at its points " +
+                       morph::listIds(far) + ". Give it the unit and the origin of the mesh.");
+  }
+}
+
 /// Triangles that can be searched.
 class Triangles
 {
@@ -515,8 +551,8 @@ struct Target::Implementation
   }
 };
 
-Target::Target(vtkPolyData* surface, double featureAngle, double normalAngle, double reach,
-  morph::Monitor& monitor)
+Target::Target(vtkPolyData* surface, const morph::Points& mesh, double featureAngle,
+  double normalAngle, double reach, morph::Monitor& monitor)
   : Internals(new Implementation)
 {
   Implementation& own = *this->Internals;
@@ -524,20 +560,7 @@ Target::Target(vtkPolyData* surface, double featureAngle, double normalAngle, do
   own.Reach = reach;
   own.X = GridMesh::FromPoints(surface->GetPoints());
   own.PointPrecision = Precision::Of(surface->GetPoints(), own.X);
-  std::vector<Index> wrong;
-  for (Index i = 0; i < own.X.rows(); ++i)
-  {
-    if (!own.X.row(i).allFinite())
-    {
-      wrong.push_back(i);
-    }
-  }
-  if (!wrong.empty())
-  {
-    throw morph::Error("The target surface has coordinates that are not finite (NaN or infinite), "
-                       "at its points " +
-                       morph::listIds(wrong) + ".");
-  }
+  requireUsable(own.X, mesh);
   own.Faces = triangles(surface, own.X, mergedPoints(own.X));
   std::vector<Index> all(own.Faces.offsets.size() - 1);
   if (all.empty())

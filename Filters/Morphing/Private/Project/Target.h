@@ -18,10 +18,11 @@ class Target : public morph::ProjectionTarget
 public:
   /// `featureAngle`, degrees: between the target's faces, for its feature edges. `normalAngle`,
   /// degrees: how far a node's normal and the target's may differ. `reach`: how far a node may
-  /// go, in the unit of the points. Throws morph::Error where there is no polygon, or a point is
-  /// not finite.
-  Target(vtkPolyData* surface, double featureAngle, double normalAngle, double reach,
-    morph::Monitor& monitor);
+  /// go, in the unit of the points. `mesh`: the points that it is a target of. Throws morph::Error
+  /// where there is no polygon, and for points that are not finite, or farther from the mesh than
+  /// 1e5 times its size.
+  Target(vtkPolyData* surface, const morph::Points& mesh, double featureAngle, double normalAngle,
+    double reach, morph::Monitor& monitor);
   ~Target() override;
 
   /// Reverses the target's normals if they disagree with those of most nodes. `points`, `normals`:

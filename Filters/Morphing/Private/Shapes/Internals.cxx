@@ -229,17 +229,14 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     });
   this->Results.SetNumber("EvaluateSeconds",
     group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
-  if (this->Filter->FindValidRanges)
-  {
-    this->FindRanges(weights, monitor);
-  }
-  this->Write(grid, outputs, monitor);
+  morph::ProgressRange writing(monitor, 0.8, 1);
+  this->Write(grid, weights, outputs, writing);
   this->WriteShapes(weights, this->Ports.Output(outputs));
   this->Weights = weights;
 }
 
-void vtkMorphShapes::vtkInternals::Write(
-  vtkUnstructuredGrid* grid, vtkInformationVector* outputs, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
+  const std::vector<double>& weights, vtkInformationVector* outputs, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
   const filters::ModeSolver::Outputs written = { this->Ports.Output(outputs),
@@ -255,6 +252,10 @@ void vtkMorphShapes::vtkInternals::Write(
   }
   const bool isBad = measured.Judged.Added > 0;
   this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
+  if (this->Filter->FindValidRanges) // of a mesh that can be written
+  {
+    this->FindRanges(weights, monitor);
+  }
   this->Results.Write(written.Mesh);
 }
 

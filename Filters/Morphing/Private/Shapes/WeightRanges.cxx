@@ -3,6 +3,7 @@
 
 #include "Morpher/Blend.h"
 #include "Private/Shapes/ShapeModes.h"
+#include "Support/ProgressRange.h"
 
 #include <cmath>
 #include <limits>
@@ -84,12 +85,14 @@ WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<doubl
     {
       for (std::size_t i = 0; i < weights.size(); ++i)
       {
-        monitor.check();
+        const double share = 1. / static_cast<double>(weights.size() + 1);
+        morph::ProgressRange part(
+          monitor, share * static_cast<double>(i), share * static_cast<double>(i + 1));
         std::vector<double> others = weights;
         others[i] = 0;
-        morph::blend(modes.Mesh().points, modes.Weighted(others), base, monitor);
+        morph::blend(modes.Mesh().points, modes.Weighted(others), base, part);
         result.Shapes.push_back(morph::validRange(
-          modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, monitor));
+          modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, part));
       }
       result.LargestFactor = largestFactor(modes, weights, result.Shapes, before, moved, monitor);
     });
