@@ -196,7 +196,7 @@ Table ofMorphMesh(int moving, int displacement)
   return { whole<F>("Moving", &F::SetMoving, moving, 0, 4),
     whole<F>("Displacement", &F::SetDisplacement, displacement, 0, 8),
     whole<F>("Method", &F::SetMethod, 0, 0, 7),
-    whole<F>("Validity", &F::SetValidity, vtkMorphAlgorithm::VALIDITY_REPAIR, 0, 4),
+    whole<F>("Validity", &F::SetValidity, vtkMorphAlgorithm::VALIDITY_REPAIR, 0, 5),
     whole<F>("Stiffness", &F::SetStiffness, 0, 0, 2),
     real<F>("StiffnessExponent", &F::SetStiffnessExponent, 1, 0, 2),
     real<F>("SoftStiffness", &F::SetSoftStiffness, 0.01, 1e-6, 1),
