@@ -16,9 +16,8 @@ EXTENSIONS = re.compile(
 ALLOWED = {
     "Filters/Core/Support/Simd.h",         # has a scalar twin
     "Filters/IO/Files/ReplaceFile.cxx",    # has a twin for Windows
+    "Filters/IO/Files/MappedFile.cxx",     # compiled with netCDF alone
     "Programs/MorphMesh/ProgressBar.cxx",  # isatty
-    "Programs/MorphMesh/ReadApart.cxx",    # fork
-    "Programs/MorphMesh/ReadingGuard.cxx",
 }
 
 

@@ -10,6 +10,7 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -104,6 +105,36 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->solver_->prepare(std::move(equations), monitor);
 }
 
+SolveReport SystemMethod::solveEach(
+  const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const
+{
+  const Ranks& ranks = this->mesh().ranks();
+  const std::vector<Index>& part = this->parts_.ofRow();
+  std::vector<double> size(this->parts_.count(), 0);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    size[part[i]] += rhs.row(i).squaredNorm();
+  }
+  ranks.sum(size.data(), size.size());
+  for (double& value : size)
+  {
+    value = size.size() > 1 && value > 0 && std::isfinite(value) ? std::sqrt(value) : 1;
+  }
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    rhs.row(i) /= size[part[i]];
+    x.row(i) /= size[part[i]];
+  }
+  const double count = std::max(1., static_cast<double>(size.size()));
+  const SolveReport solved =
+    solver.solve(rhs, x, this->tolerance_ / std::sqrt(count), MaxIterations, monitor);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    x.row(i) *= size[part[i]];
+  }
+  return solved;
+}
+
 EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor) const
 {
   EvaluateReport report;
@@ -155,8 +186,7 @@ EvaluateReport SystemMethod::displace(
   {
     free.setZero();
   }
-  const SolveReport solved = 
-    this->solver_->solve(rhs, free, this->tolerance_, MaxIterations, monitor);
+  const SolveReport solved = this->solveEach(*this->solver_, std::move(rhs), free, monitor);
   if (!this->isUniform_)
   {
     free += fitted;
@@ -177,8 +207,7 @@ EvaluateReport SystemMethod::displaceTranspose(
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
   ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved = 
-    solver.solve(free, solution, this->tolerance_, MaxIterations, monitor);
+  const SolveReport solved = this->solveEach(solver, free, solution, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
@@ -252,7 +281,7 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
 }
 
 SystemMethod::Rows LogBarrierWarp::assemble(
-  const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
+  const std::vector<Index>& columns, const std::vector<double>& /*factors*/, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
@@ -261,8 +290,7 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   ranks.together(
     [&]
     {
-      system =
-        logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
+      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
       rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
       rows.coupling.swap(system.coupling);
     });

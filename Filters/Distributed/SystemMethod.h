@@ -22,7 +22,7 @@ public:
   /// 1e-10.
   void setTolerance(double tolerance);
   const HypreSolver& solver() const { return *this->solver_; }
-  /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
+  /// Of FEMWARP; see morph::StiffMorpher. The values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
@@ -52,6 +52,10 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const final;
 
 private:
+  /// Solves each body to its own size, in which it is given to the solver, whose norms are over all
+  /// rows. `x`: the first guess, then the solution.
+  SolveReport solveEach(
+    const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const;
   EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   HypreSolver::Kind kind_;

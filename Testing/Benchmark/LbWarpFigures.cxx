@@ -82,8 +82,7 @@ void Run::weights(const Problem& problem)
   {
     say(problem.name + ", weights, repetition " + std::to_string(i + 1));
     this->settleDown();
-    const std::vector<double> sameStiffness;
-    morph::NodeWeights row(problem.mesh, around, columns, sameStiffness);
+    morph::NodeWeights row(problem.mesh, around, columns);
     steps = 0;
     const ThreadStopwatch rowsWatch;
     for (const morph::Index node : free)

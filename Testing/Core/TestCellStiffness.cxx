@@ -48,7 +48,6 @@ struct Layer
 };
 
 /// Turns the inner wall by 30 degrees; the outer one stays, and the sides are free.
-template <typename Method>
 Layer turned(Kind kind, double exponent = 1)
 {
   const Mesh mesh = wideRing();
@@ -73,7 +72,7 @@ Layer turned(Kind kind, double exponent = 1)
       return { std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1],
         x[2] };
     });
-  Method method;
+  FemWarp method;
   method.setStiffness({ kind, exponent, walls, {} });
   meshes::ThreadedMonitor monitor(2);
   method.prepare(mesh, partition, monitor);
@@ -100,16 +99,16 @@ Layer turned(Kind kind, double exponent = 1)
 TEST(CellStiffness, KeepsTheFirstLayersOfARingBetter)
 {
   // Nodes follow the wall without turning at best: a line then leans by the wall's 30 degrees.
-  const Layer uniform = turned<FemWarp>(Kind::Uniform);
+  const Layer uniform = turned(Kind::Uniform);
   EXPECT_NEAR(uniform.lean, 54, 1);
   EXPECT_NEAR(uniform.height, 0.73, 0.01);
-  const Layer volume = turned<FemWarp>(Kind::InverseVolume);
+  const Layer volume = turned(Kind::InverseVolume);
   EXPECT_LT(volume.lean, 31);
   EXPECT_GT(volume.height, 0.86);
-  const Layer distance = turned<FemWarp>(Kind::WallDistance);
+  const Layer distance = turned(Kind::WallDistance);
   EXPECT_LT(distance.lean, 42);
   EXPECT_GT(distance.height, 0.81);
-  const Layer quadratic = turned<FemWarp>(Kind::WallDistance, 2);
+  const Layer quadratic = turned(Kind::WallDistance, 2);
   EXPECT_LT(quadratic.lean, 37);
   EXPECT_GT(quadratic.height, 0.83);
   for (const Layer& each : { uniform, volume, distance, quadratic })

@@ -202,6 +202,33 @@ TEST_P(FirstGuess, EachBodyTakesItsOwnAffineMotion)
   }
 }
 
+TEST_P(FirstGuess, ABodyThatMovesByLittleHasAsManyDigits)
+{
+  const Mesh body = meshes::layered(meshes::hexes, 8, 0.05, 1.2), mesh = together(body, body);
+  const Index first = body.numberOfNodes();
+  const NodePartition ofBoth = outerPartition(mesh), ofOne = outerPartition(body);
+  const auto wave = [](double factor, const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+  { return factor * Eigen::RowVector3d(std::sin(5 * x[1]), std::cos(3 * x[0]), x[0] * x[2]); };
+  Monitor monitor;
+  const auto both = GetParam().make(), one = GetParam().make();
+  both->prepare(mesh, ofBoth, monitor);
+  one->prepare(body, ofOne, monitor);
+  for (const double small : { 1e-3, 1e-6, 1e-9 })
+  {
+    // Displacements, as positions would round them.
+    Points given(static_cast<Index>(ofBoth.prescribed.size()), 3);
+    for (Index i = 0; i < given.rows(); ++i)
+    {
+      const Index node = ofBoth.prescribed[i];
+      given.row(i) =
+        node < first ? wave(1, mesh.points.row(node)) : wave(small, body.points.row(node - first));
+    }
+    const Points alone = one->basis({ given.bottomRows(given.rows() / 2) }, monitor)[0];
+    const Points beside = both->basis({ given }, monitor)[0].bottomRows(first);
+    EXPECT_LT((beside - alone).cwiseAbs().maxCoeff(), 1e-9 * small) << small;
+  }
+}
+
 TEST_P(FirstGuess, IsTheAnswerToAnAffineMotionOfTheWholeBoundary)
 {
   for (const auto& [name, mesh] : motions::jittered())

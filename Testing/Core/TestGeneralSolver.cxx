@@ -4,6 +4,7 @@
 
 #include "Meshes.h"
 #include "Motions.h"
+#include "Solvers/SpdSolver.h"
 #include "Support/Error.h"
 #include "WatchingMonitor.h"
 
@@ -226,4 +227,21 @@ TEST(GeneralSolver, ThreadsDoNotShow)
     EXPECT_EQ(std::memcmp(x.data(), reference.data(), sizeof(double) * x.size()), 0) << threads;
     EXPECT_EQ(std::memcmp(y.data(), referenceBack.data(), sizeof(double) * y.size()), 0) << threads;
   }
+}
+
+TEST(Solvers, TakeASystemOfNoRows)
+{
+  Monitor monitor;
+  const Points none(0, 3);
+  Points x(0, 3);
+  SpdSolver symmetric;
+  symmetric.prepare({ CsrMatrix(0, 0), none }, monitor);
+  EXPECT_EQ(symmetric.solve(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(solveConstrained(symmetric, none, {}, x, 1e-10, 100, monitor).relativeResidual, 0);
+  symmetric.precondition(none, x, monitor);
+  GeneralSolver general;
+  general.prepare({ CsrMatrix(0, 0), none }, monitor);
+  EXPECT_EQ(general.solve(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(general.solveTransposed(none, x, 1e-10, 100, monitor).iterations, 0);
+  EXPECT_EQ(x.rows(), 0);
 }

@@ -311,6 +311,36 @@ TEST(LogBarrierWarp, FreeNodesOnAFlatOuterFaceKeepToIt)
   }
 }
 
+TEST(LogBarrierWarp, FreeNodesOnTheEdgesOfGrowingLayersAreInTheirHull)
+{
+  // On an edge of the box the neighbors above and below are unequally far: the weights' system is
+  // singular to rounding.
+  for (const double growth : { 1.05, 1.1, 1.2, 1.5 })
+  {
+    const int layers = 24;
+    Mesh mesh = meshes::hexes(4, 4, layers);
+    const double most = std::pow(growth, layers) - 1;
+    meshes::transform(mesh, [&](const Eigen::RowVector3d& x)
+      { return Eigen::RowVector3d(x[0] / 4, x[1] / 4, (std::pow(growth, x[2]) - 1) / most); });
+    std::vector<Index> ends;
+    for (Index i = 0; i < mesh.numberOfNodes(); ++i)
+    {
+      if (mesh.points(i, 2) == 0 || mesh.points(i, 2) == 1)
+      {
+        ends.push_back(i);
+      }
+    }
+    const NodePartition partition = partitionNodes(mesh, ends);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.prepare(mesh, partition, monitor);
+    Points moved;
+    method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+    EXPECT_LT(motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-12)
+      << growth;
+  }
+}
+
 TEST(LogBarrierWarp, ANodeOutsideItsHullIsNamed)
 {
   const Mesh mesh = withNodeOutside(Centre, { 1.3, .1, .2 });

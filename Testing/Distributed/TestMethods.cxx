@@ -39,9 +39,6 @@ std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
   all.emplace_back("weighted residual", std::make_unique<morph::WeightedResidual>());
   all.emplace_back("simplex-linear", std::make_unique<morph::SimplexLinear>());
   all.emplace_back("natural neighbor", std::make_unique<morph::SimplexNaturalNeighbor>());
-  auto coarse = std::make_unique<morph::SimplexNaturalNeighbor>();
-  coarse->setCoarsening(1);
-  all.emplace_back("natural neighbor, coarsened", std::move(coarse));
   all.emplace_back("radial basis", std::make_unique<morph::RadialBasis>());
   auto few = std::make_unique<morph::RadialBasis>();
   few->setNumberOfCentres(20);
@@ -98,16 +95,6 @@ TEST(DistributedMethods, AgreeWithTheSerialOnes)
         << method << ", " << name;
     }
   }
-}
-
-TEST(DistributedMethods, AgreeOnACoarsenedBoundary)
-{
-  // Large enough for subsets of the boundary.
-  const Ranks ranks = pieces::world();
-  const Mesh whole = meshes::hexes(12, 12, 12);
-  auto coarse = std::make_unique<morph::SimplexNaturalNeighbor>();
-  coarse->setCoarsening(0.5);
-  EXPECT_LT(difference(ranks, whole, std::move(coarse), bend, false), 1e-9);
 }
 
 TEST(DistributedMethods, ReproduceAffineMotions)

@@ -199,6 +199,33 @@ TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
   EXPECT_NE(listener.Warnings[0].find(" % of the largest displacement"), std::string::npos);
 }
 
+TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
+{
+  for (const double height : { 0.05, 1e-3, 1e-5, 1e-6, 1e-8 })
+  {
+    // What is bumpy and nearly flat fits large cylinders, too.
+    morph::Mesh mesh = meshes::hexes(8, 8, 4);
+    meshes::transform(mesh, [&](const Row& x)
+      { return Row(x + Row(0, 0, x[2] == 4 ? height * std::sin(1e3 * x[0] * (x[1] + 1)) : 0)); });
+    auto grid = grids::make(mesh);
+    auto filter = displaced::make(grid);
+    filter->SetMovingToPatches();
+    filter->AddPatch(surface(grid, [](const Row& x) { return x[0] == 8; }).c_str());
+    filter->AddSlidingPatch(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
+    filter->SetMotionToVector();
+    filter->SetVector(0, 1e-9, 0);
+    filter->Update();
+    const morph::Points x = displaced::restPositions(filter->GetOutput());
+    const morph::Points y = grids::points(filter->GetOutput());
+    EXPECT_LT((y - x).rowwise().norm().maxCoeff(), 2e-9) << height;
+    // The same with a motion that can be seen: the top keeps its height.
+    filter->SetVector(0, 0.1, 0);
+    filter->Update();
+    const morph::Points z = grids::points(filter->GetOutput());
+    EXPECT_LT((z - x).rowwise().norm().maxCoeff(), 0.13) << height;
+  }
+}
+
 TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));

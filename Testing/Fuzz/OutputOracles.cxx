@@ -7,6 +7,8 @@
 #include "Recount.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAlgorithm.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -245,8 +247,8 @@ bool keepsAffineMaps(const Case& made, vtkMorphAlgorithm* filter)
                                                made.boundary.matrix.determinant() > 0.2);
   const double tolerance = choices.value("property.Tolerance");
   return isOne && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_SUB_STEP &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_REPAIR &&
+         (filter->GetValidity() < vtkMorphAlgorithm::VALIDITY_SUB_STEP ||
+           filter->GetValidity() == vtkMorphAlgorithm::VALIDITY_REFUSE) &&
          made.choices.value("hostile.mesh") == 0 && made.choices.value("hostile.boundary") == 0;
 }
 
@@ -279,7 +281,8 @@ Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructured
 }
 
 /// After an error: a message, no counts, and the undeformed mesh or nothing.
-Finding checkFailed(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+template <typename F>
+Finding checkFailed(const Case& made, F* filter, const Run& run)
 {
   auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
   if (run.errors.empty() && filter->GetMorphStatus() == std::string("Failed"))
@@ -338,12 +341,10 @@ Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& ru
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
 }
 
-Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+/// The moved mesh of any filter that morphs one, and what it says of it.
+template <typename F>
+Finding checkMesh(const Case& made, F* filter, const Run& run)
 {
-  if (const Finding found = checkAccepted(made, filter, run))
-  {
-    return found;
-  }
   auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
   if (!output)
   {
@@ -362,21 +363,17 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   {
     return found;
   }
-  if (!made.grid.isAsMesh)
+  if (!made.grid.isAsMesh || filter->GetQuality() != F::QUALITY_ALL)
   {
     return {};
   }
-  if (const Finding found = checkCells(made.grid.grid(), output))
+  for (const auto& found : { checkCells(made.grid.grid(), output), checkCounts(made, output),
+         checkMirrored(made, output, run) })
   {
-    return found;
-  }
-  if (const Finding found = checkCounts(made, output))
-  {
-    return found;
-  }
-  if (const Finding found = checkMirrored(made, output, run))
-  {
-    return found;
+    if (found)
+    {
+      return found;
+    }
   }
   const double reported =
     fieldValue(output, "InvertedCells") + fieldValue(output, "DegenerateCells");
@@ -388,25 +385,31 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   }
   const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired";
   // Positions are valid as computed; rounding to float may undo that, and ghosts are not measured.
-  if (claimsValid && !isFloat(output) && !made.grid.hasGhosts &&
-      !(reported == 0 && filter->GetMinScaledJacobian() > 0))
+  const bool isRight =
+    !claimsValid || isFloat(output) || made.grid.hasGhosts ||
+    (filter->GetNewInvertedCells() == 0 &&
+      (filter->GetInvertedBefore() > 0 || (reported == 0 && filter->GetMinScaledJacobian() > 0)));
+  return isRight ? Finding{} : Finding{ "status", status + " with inverted cells" };
+}
+
+Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+{
+  for (const auto& found : { checkAccepted(made, filter, run), checkMesh(made, filter, run) })
   {
-    return { "status", status + " with inverted cells" };
-  }
-  if (!made.boundary.isRight || !run.errors.empty() || !isWhole(filter))
-  {
-    return {};
-  }
-  // A huge tolerance lets any point stand for any node.
-  if (filter->GetMatchTolerance() <= 1e-3)
-  {
-    if (const Finding found = checkPrescribed(made, filter, output))
+    if (found)
     {
       return found;
     }
-    return checkAffine(made, filter, output);
   }
-  return {};
+  auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
+  // A huge tolerance lets any point stand for any node.
+  if (!output || !made.grid.isAsMesh || !made.boundary.isRight || !run.errors.empty() ||
+      !isWhole(filter) || filter->GetMatchTolerance() > 1e-3)
+  {
+    return {};
+  }
+  const Finding found = checkPrescribed(made, filter, output);
+  return found ? found : checkAffine(made, filter, output);
 }
 
 /// The sum over the boundary is that over the mesh, since the methods keep translations.
@@ -450,6 +453,14 @@ Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
   if (auto* morph = vtkMorphAlgorithm::SafeDownCast(filter))
   {
     return checkMorph(made, morph, run);
+  }
+  if (auto* mesh = vtkMorphMesh::SafeDownCast(filter))
+  {
+    return checkMesh(made, mesh, run);
+  }
+  if (auto* shapes = vtkMorphShapes::SafeDownCast(filter))
+  {
+    return checkMesh(made, shapes, run);
   }
   auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
   if (!run.errors.empty() || !run.fromExecutive.empty() || !output)

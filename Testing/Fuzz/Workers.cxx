@@ -132,13 +132,14 @@ std::pair<std::string, std::string> inProcess(
 std::string lineOf(std::uint64_t seed, const Verdict& verdict)
 {
   return line({ "done", std::to_string(seed), verdict.filter, verdict.hasFreeNodes ? "1" : "0",
-    verdict.hasError ? "1" : "0", verdict.finding.oracle, verdict.finding.detail });
+    verdict.hasError ? "1" : "0", verdict.finding.oracle, verdict.finding.detail,
+    verdict.features });
 }
 
 Report reportOf(const std::vector<std::string>& fields)
 {
   return { std::stoull(fields[1]), fields[2], fields[3] == "1", fields[4] == "1", fields[5],
-    fields[6] };
+    fields[6], fields[7] };
 }
 }
 

@@ -5,6 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -18,7 +19,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr double NoParameter = std::numeric_limits<double>::quiet_NaN();
 
 void requireLength(std::size_t length, Index needed, const char* what)
@@ -565,14 +565,8 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
       result.entity[node] = body;
     }
   };
-  monitor.parallelFor(mesh.numberOfNodes(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index node = first; node < last; ++node)
-      {
-        placeInside(node, parts.ofNode[node]);
-      }
-    });
+  parallel(
+    mesh.numberOfNodes(), monitor, [&](Index node) { placeInside(node, parts.ofNode[node]); });
   const auto hasNodesBetween = [&mesh](Index c)
   {
     const CellShape* shape = cellShape(mesh.types[c]);

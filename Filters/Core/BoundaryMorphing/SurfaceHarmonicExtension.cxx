@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
-#include "BoundaryMorphing/MotionFit.h"
+#include "Geometry/AffineFit.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
 
@@ -163,7 +163,9 @@ void extendHarmonically(const BoundaryFaces& faces, const std::vector<Index>& fa
   const std::vector<Index>& fixed, const std::vector<Index>& free, BoundaryMotion& motion,
   Monitor& monitor)
 {
-  const AffineFit fit = affineFit(motion, fixed);
+  const AffineFit fit =
+    AffineLeastSquares(motion.rest(fixed, allColumns), motion.rest(free, allColumns))
+      .fit(motion.displacement(fixed, allColumns));
   Smoother(faces, free, fit, motion).run(faceIds, monitor);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/RadialKernel.h"
 
+#include "Support/ParallelBatches.h"
 #include "Support/Simd.h"
 
 #include <algorithm>
@@ -116,17 +117,9 @@ void sumOver(const Kernel& kernel, const Points& targets, const std::vector<Sour
   const std::vector<double> places = inBlocks(targets, blocks);
   const double pairs = static_cast<double>(Lanes * sources.size());
   const Index stretch = std::max<Index>(64, static_cast<Index>(PairsBetweenChecks / pairs));
-  for (Index begin = 0; begin < blocks; begin += stretch)
-  {
-    monitor.check();
-    const Index end = std::min(blocks, begin + stretch);
-    monitor.parallelFor(end - begin, 4,
-      [&](Index first, Index last) {
-        dispatchedFor<BlockSums<Kernel>>(
-          begin + first, begin + last, kernel, places, sources, sums);
-      });
-    monitor.progress(static_cast<double>(end) / static_cast<double>(blocks));
-  }
+  parallelBatches(monitor, blocks, stretch, 4,
+    [&](Index first, Index last)
+    { dispatchedFor<BlockSums<Kernel>>(first, last, kernel, places, sources, sums); });
 }
 }
 

@@ -2,6 +2,7 @@
 #include "Interpolation/WeightMatrix.h"
 
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/Simd.h"
 
 #include <algorithm>
@@ -107,14 +108,7 @@ void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor)
 PaddedPoints WeightMatrix::padded(const Points& sites, Monitor& monitor)
 {
   PaddedPoints result(sites.rows(), 4);
-  monitor.parallelFor(sites.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index s = first; s < last; ++s)
-      {
-        result.row(s) << sites.row(s), 0;
-      }
-    });
+  parallel(sites.rows(), monitor, [&](Index s) { result.row(s) << sites.row(s), 0; });
   return result;
 }
 
@@ -133,26 +127,23 @@ void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor&
     MostBlocks, std::max<Index>(1, this->entries() / (8 * std::max<Index>(1, this->columns()))));
   const Index length = (this->rows() + blocks - 1) / blocks;
   std::vector<Points> part(blocks);
-  monitor.parallelFor(blocks, 1,
-    [&](Index firstBlock, Index lastBlock)
+  parallel(blocks, 1, monitor,
+    [&](Index b)
     {
-      for (Index b = firstBlock; b < lastBlock; ++b)
+      part[b].setZero(this->columns(), 3);
+      const Index last = std::min(this->rows(), (b + 1) * length);
+      for (Index row = b * length; row < last; ++row)
       {
-        part[b].setZero(this->columns(), 3);
-        const Index last = std::min(this->rows(), (b + 1) * length);
-        for (Index row = b * length; row < last; ++row)
+        const std::int32_t* column = this->column(row);
+        const double* weight = this->weight(row);
+        const double* y = free.data() + 3 * row;
+        const Index n = this->entries(row);
+        for (Index e = 0; e < n; ++e)
         {
-          const std::int32_t* column = this->column(row);
-          const double* weight = this->weight(row);
-          const double* y = free.data() + 3 * row;
-          const Index n = this->entries(row);
-          for (Index e = 0; e < n; ++e)
-          {
-            double* at = part[b].data() + 3 * static_cast<Index>(column[e]);
-            at[0] += weight[e] * y[0];
-            at[1] += weight[e] * y[1];
-            at[2] += weight[e] * y[2];
-          }
+          double* at = part[b].data() + 3 * static_cast<Index>(column[e]);
+          at[0] += weight[e] * y[0];
+          at[1] += weight[e] * y[1];
+          at[2] += weight[e] * y[2];
         }
       }
     });

@@ -27,7 +27,7 @@ void requireTolerance(double tolerance)
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
-  const RowComponents& components, const CsrMatrix& coupling)
+  const std::vector<Index>& rows, const RowComponents& components, const CsrMatrix& coupling)
   : components_(components)
   , coupled_(components.count)
 {
@@ -39,8 +39,14 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
       columns.push_back(static_cast<int>(entry.col()));
     }
   }
-  for (std::vector<int>& columns : this->coupled_)
+  std::vector<std::vector<Index>> moved(components.count);
+  for (std::size_t row = 0; row < rows.size(); ++row)
   {
+    moved[components.of(static_cast<Index>(row))].push_back(rows[row]);
+  }
+  for (std::size_t c = 0; c < this->coupled_.size(); ++c)
+  {
+    std::vector<int>& columns = this->coupled_[c];
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     columns.shrink_to_fit();
@@ -49,7 +55,7 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
     {
       places.row(i) = points.row(partition.prescribed[columns[i]]);
     }
-    this->leastSquares_.emplace_back(places);
+    this->leastSquares_.emplace_back(places, points(moved[c], allColumns));
   }
 }
 
@@ -83,9 +89,10 @@ AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 bool AffineGuess::agree(const Points& points, const NodePartition& partition,
   const MultiVector& prescribed, const Fits& fits, double tolerance) const
 {
-  Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
+  bool all = true;
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
+    Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
     for (const int column : this->coupled_[c])
     {
       const MultiVectorRow& given = prescribed[column];
@@ -94,8 +101,9 @@ bool AffineGuess::agree(const Points& points, const NodePartition& partition,
       largest = largest.max(given.array().abs());
       most = most.max(off.array().abs());
     }
+    all = all && (most <= tolerance * largest).all(); // not for numbers that have overflowed
   }
-  return (most <= tolerance * largest).all(); // not for numbers that have overflowed
+  return all;
 }
 
 void AffineGuess::takeOff(const Points& points, const NodePartition& partition,

@@ -29,9 +29,10 @@ class AffineGuess
 {
 public:
   AffineGuess() = default;
-  /// `components`: of A_I, copied; `coupling`: A_B. Cost: one pass over A_B.
-  AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
-    const CsrMatrix& coupling);
+  /// `rows`: the nodes of A_I's rows; `components`: of A_I, copied; `coupling`: A_B. Cost: one pass
+  /// over A_B and the rows.
+  AffineGuess(const Points& points, const NodePartition& partition, const std::vector<Index>& rows,
+    const RowComponents& components, const CsrMatrix& coupling);
 
   /// The fit of each component, for the columns of a MultiVector.
   class Fits
@@ -57,7 +58,7 @@ public:
   Fits fits(const MultiVector& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
   /// Whether the fits give the displacements of all coupled nodes, to `tolerance` of the largest of
-  /// each column. Cost: one pass over these nodes.
+  /// each column and component. Cost: one pass over these nodes.
   bool agree(const Points& points, const NodePartition& partition, const MultiVector& prescribed,
     const Fits& fits, double tolerance) const;
 
@@ -116,9 +117,9 @@ struct DirichletEquations
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
 
-  /// Solves to `tolerance`, and sets `x`, #rows. `solver(rhs, x)` solves A_I X = rhs from the guess
-  /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is
-  /// not called then, as a pass over the matrix takes longer than all else.
+  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is the
+  /// solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
+  /// matrix takes longer than all else.
   bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
     const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;
 };

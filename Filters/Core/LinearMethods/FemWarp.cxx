@@ -90,7 +90,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     }
     throwSingular(nodes);
   }
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const

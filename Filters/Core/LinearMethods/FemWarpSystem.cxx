@@ -19,8 +19,6 @@ namespace morph
 {
 namespace
 {
-constexpr std::size_t MostIds = 100; // in a warning
-
 /// Whether two corners of a cell coincide, as in a hexahedron that is used as a wedge.
 bool isCollapsed(const Mesh& mesh, Index cell)
 {
@@ -188,13 +186,13 @@ std::string describe(const BadCells& bad)
   std::string text = "The reference mesh has";
   if (!bad.inverted.empty())
   {
-    text += " " + std::to_string(bad.inverted.size()) + " inverted cells: ids " +
-            listIds(bad.inverted, MostIds);
+    text +=
+      " " + std::to_string(bad.inverted.size()) + " inverted cells: ids " + listIds(bad.inverted);
   }
   if (!bad.flat.empty())
   {
     text += std::string(bad.inverted.empty() ? " " : ", and ") + std::to_string(bad.flat.size()) +
-            " cells of zero volume or nearly so: ids " + listIds(bad.flat, MostIds);
+            " cells of zero volume or nearly so: ids " + listIds(bad.flat);
   }
   text += ".";
   if (!bad.absolute.empty())

@@ -38,8 +38,7 @@ struct Tally
 }
 
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
-  Monitor& monitor)
+  const std::vector<Index>& prescribed, bool relax, Monitor& monitor)
 {
   const Adjacency around = nodeToCells(mesh, monitor);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
@@ -55,7 +54,7 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   std::vector<Outcome> outcomes(rows.size());
   const auto makeRows = [&]() -> MakeRow
   {
-    return [&, weights = NodeWeights(mesh, around, columns, factors)](
+    return [&, weights = NodeWeights(mesh, around, columns)](
              Index i, SparseRow& row) mutable
     {
       const NodeWeights::Kind kind = weights.compute(rows[i], relax);

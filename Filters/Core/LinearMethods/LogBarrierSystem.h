@@ -25,9 +25,8 @@ struct LogBarrierSystem
 };
 
 /// Computes the equations. `rows`: the free nodes in the order of the matrix rows. With `relax`,
-/// nodes outside take the fall-backs of NodeWeights::Kind; otherwise all are in `empty`. `factors`:
-/// the stiffness of the cells; none: 1. Cost: 1 to 2 microseconds a node of a hexahedral mesh.
+/// nodes outside take the fall-backs of NodeWeights::Kind; otherwise all are in `empty`. Cost: 1 to
+/// 2 microseconds a node of a hexahedral mesh.
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
-  Monitor& monitor);
+  const std::vector<Index>& prescribed, bool relax, Monitor& monitor);
 }

@@ -2,7 +2,6 @@
 #include "LinearMethods/LogBarrierWarp.h"
 
 #include "LinearMethods/LogBarrierSystem.h"
-#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
@@ -55,11 +54,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     this->rows_ = {};
   }
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
-  const std::vector<double> factors =
-    stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
-  this->isUniform_ = factors.empty();
   LogBarrierSystem system =
-    logBarrierSystem(rest, this->rows(), partition.prescribed, relax, factors, monitor);
+    logBarrierSystem(rest, this->rows(), partition.prescribed, relax, monitor);
   requireWeights(system, relax);
   this->meanWeightIterations_ = system.meanIterations;
   this->mostWeightIterations_ = system.mostIterations;
@@ -84,7 +80,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
   this->solver_.prepare(std::move(equations), last);
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport LogBarrierWarp::report(const SolveReport& solved, Monitor& monitor) const
@@ -102,8 +99,7 @@ EvaluateReport LogBarrierWarp::solve(
 {
   SolveReport solved;
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
-    this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
-    this->affineResidual_ };
+    this->solver_.matrix(), this->coupling_, this->guess_, true, this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const RightHandSide& rhs, MultiVector& solution)
     { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
@@ -137,11 +133,6 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   const SolveReport solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
-  if (!this->isUniform_)
-  {
-    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
-      rhs, solution, prescribed);
-  }
   return this->report(solved, monitor);
 }
 

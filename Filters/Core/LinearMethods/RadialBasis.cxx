@@ -40,7 +40,7 @@ void RadialBasis::setNumberOfCentres(Index count)
 
 void RadialBasis::requireSpace() const
 {
-  const int rank = AffineLeastSquares(this->sites_.coordinates()).rank();
+  const int rank = AffineLeastSquares(this->sites_.coordinates()).directions().rank();
   if (rank < 3)
   {
     const char* where[] = { "coincide", "lie on one line", "lie in one plane" };

@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Support/Parallel.h"
 
 namespace morph
 {
@@ -27,23 +28,19 @@ const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
   const std::vector<std::uint8_t>& skip, Monitor& monitor)
 {
-  constexpr Index Grain = 4096;
   std::vector<double> volume(mesh.numberOfCells(), 0.);
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
-    [&](Index first, Index last)
+  parallel(mesh.numberOfCells(), monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      if (isPolyhedron(mesh, c))
       {
-        if (isPolyhedron(mesh, c))
-        {
-          volume[c] = polyhedronVolume(mesh, c, mesh.points);
-        }
-        else if (const CellShape* shape = volumeShape(mesh, c))
-        {
-          double corners[8][3];
-          copyCorners(mesh, c, *shape, mesh.points, corners[0]);
-          volume[c] = signedVolume(shape->shape, corners);
-        }
+        volume[c] = polyhedronVolume(mesh, c, mesh.points);
+      }
+      else if (const CellShape* shape = volumeShape(mesh, c))
+      {
+        double corners[8][3];
+        copyCorners(mesh, c, *shape, mesh.points, corners[0]);
+        volume[c] = signedVolume(shape->shape, corners);
       }
     });
   ShapeVolumes sums;

@@ -134,6 +134,10 @@ void Morpher::setReference(Points)
 {
 }
 
+void Morpher::warnOf(const Points&, Monitor&) const
+{
+}
+
 void Morpher::requirePrepared() const
 {
   if (!this->prepared_)
@@ -186,6 +190,7 @@ EvaluateReport Morpher::evaluate(
   ProgressRange whole(monitor, 0, 1);
   if (freeDisplacement.rows() > 0)
   {
+    this->warnOf(displacement, monitor);
     report = this->displace(displacement, freeDisplacement, whole);
   }
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),

@@ -76,6 +76,9 @@ protected:
   /// displacements.
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
+  /// Warns of what is wrong with a motion as a whole, `prescribed` as above. evaluate() calls it.
+  /// Modes are none: only their sums are.
+  virtual void warnOf(const Points& prescribed, Monitor& monitor) const;
 
   HigherOrderNodes higherOrderNodes_;
 

@@ -26,14 +26,15 @@ public:
     this->slots_.assign(std::size_t(1) << LeastBits, None);
     this->bits_ = LeastBits;
   }
-  /// Adds to the entry of this column; sums have the order of the calls.
-  void add(int column, double value)
+  /// Adds to the entry of this column; sums have the order of the calls. Returns whether the entry
+  /// is new.
+  bool add(int column, double value)
   {
     int& slot = this->slot(column);
     if (slot != None)
     {
       this->entries_[slot].second += value;
-      return;
+      return false;
     }
     slot = static_cast<int>(this->entries_.size());
     this->entries_.emplace_back(column, value);
@@ -41,6 +42,7 @@ public:
     {
       this->grow();
     }
+    return true;
   }
   /// In the order of the columns' first calls.
   const std::vector<Entry>& entries() const { return this->entries_; }

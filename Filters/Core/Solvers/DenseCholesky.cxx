@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DenseCholesky.h"
 
+#include "Support/ParallelBatches.h"
+#include "Support/ProgressRange.h"
 #include "Support/Types.h"
 
 #include <Eigen/Cholesky>
@@ -12,7 +14,7 @@ namespace morph
 {
 bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
 {
-  constexpr Index Panel = 96, Strip = 192;
+  constexpr Index Panel = 96, Strip = 192, StripsBetweenChecks = 8;
   const Index n = matrix.rows();
   for (Index column = 0; column < n; column += Panel)
   {
@@ -26,9 +28,9 @@ bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
     matrix.block(column, column, width, width) = pivot.matrixLLT();
     // Strips of rows below: a long one and a short one by turns, so that threads share them evenly.
     const Index strips = (n - below + Strip - 1) / Strip;
-    const auto forStrips = [&](const auto& body)
+    const auto forStrips = [&](Monitor& part, const auto& body)
     {
-      monitor.parallelFor(strips, 1,
+      parallelBatches(part, strips, StripsBetweenChecks, 1,
         [&](Index first, Index last)
         {
           for (Index s = first; s < last; ++s)
@@ -38,13 +40,17 @@ bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
           }
         });
     };
-    forStrips(
+    const auto done = [n](Index columns)
+    { return 1 - std::pow(1 - static_cast<double>(columns) / static_cast<double>(n), 3); };
+    ProgressRange solving(monitor, done(column), done(column)),
+      updating(monitor, done(column), done(below));
+    forStrips(solving,
       [&](Index row, Index rows)
       {
         auto strip = matrix.block(row, column, rows, width);
         pivot.matrixU().solveInPlace<Eigen::OnTheRight>(strip);
       });
-    forStrips(
+    forStrips(updating,
       [&](Index row, Index rows)
       {
         const Index columns = row + rows - below;
@@ -52,7 +58,7 @@ bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
           matrix.block(row, column, rows, width) *
           matrix.block(below, column, columns, width).transpose();
       });
-    monitor.progress(1 - std::pow(1 - static_cast<double>(below) / static_cast<double>(n), 3));
+    updating.progress(1);
   }
   return true;
 }

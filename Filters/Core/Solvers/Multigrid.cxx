@@ -185,6 +185,10 @@ void Multigrid::prepare(
   *this = {};
   this->levels_.reserve(MostLevels); // `level` below stays valid
   this->round(matrix, monitor);
+  if (matrix.rows() == 0)
+  {
+    return; // no level: see apply()
+  }
   float largest = this->addLevel(this->matrix(0), monitor);
   if (largest == 0)
   {
@@ -272,7 +276,10 @@ Multigrid::Workspace::Workspace(const Multigrid& multigrid)
 
 void Multigrid::apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const
 {
-  this->cycle(0, rhs, x, workspace, monitor);
+  if (!this->levels_.empty())
+  {
+    this->cycle(0, rhs, x, workspace, monitor);
+  }
 }
 
 void Multigrid::smoothFromZero(

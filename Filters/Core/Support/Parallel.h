@@ -6,12 +6,12 @@
 
 namespace morph
 {
-/// Calls body(i) for i in [0, n), perhaps in several threads, for bodies of some nanoseconds.
+/// Calls body(i) for each i in [0, n), perhaps in several threads: Monitor::parallelFor() for a
+/// body that needs no range. What one call writes no other may read or write.
 template <typename Body>
-void parallel(Index n, Monitor& monitor, const Body& body)
+void parallel(Index n, Index grain, Monitor& monitor, const Body& body)
 {
-  constexpr Index Grain = 4096;
-  monitor.parallelFor(n, Grain,
+  monitor.parallelFor(n, grain,
     [&](Index first, Index last)
     {
       for (Index i = first; i < last; ++i)
@@ -19,5 +19,13 @@ void parallel(Index n, Monitor& monitor, const Body& body)
         body(i);
       }
     });
+}
+
+/// As above, for a body of some nanoseconds.
+template <typename Body>
+void parallel(Index n, Monitor& monitor, const Body& body)
+{
+  constexpr Index Grain = 4096; // waking a thread takes as long
+  parallel(n, Grain, monitor, body);
 }
 }

@@ -2,6 +2,7 @@
 #include "Private/Data/Output.h"
 
 #include "Private/Data/DataCheck.h"
+#include "Private/Data/Directions.h"
 #include "Support/Error.h"
 
 #include <vtkAlgorithm.h>
@@ -92,6 +93,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
   vtkNew<vtkPoints> points;
   points->SetData(written.Coordinates);
   output->SetPoints(points);
+  Directions::RemoveNormals(output);
   output->GetPointData()->AddArray(written.Displacement);
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
@@ -113,6 +115,7 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
 {
   (IsFloat(input, precision) ? writePoints<vtkFloatArray> : writePoints<vtkDoubleArray>)(input,
     rest, moved, output, monitor);
+  Directions::Warn(input, rest, moved, monitor);
 }
 
 void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool isFloat,

@@ -10,7 +10,7 @@ namespace morph::filters
 {
 class ShapeModes;
 
-/// The weights with which no cell is inverted.
+/// The weights with which no cell gets inverted; see InvertedBefore.h for those that were before.
 struct WeightRanges
 {
   /// For each shape the interval of its weight around 0, the others at their present values.
