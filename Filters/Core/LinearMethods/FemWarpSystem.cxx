@@ -59,7 +59,7 @@ struct TriangleTable
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
 /// sums do not depend on threads. Stars come last in all rows, so that the matrix is symmetric to
 /// the last bit, except where edges of cells are collapsed.
-SplitMatrix gatherRows(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
   FemWarpSystem& system, Monitor& monitor)
 {
@@ -76,7 +76,7 @@ SplitMatrix gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
   const Matrices ofStars =
     starMatrices(mesh, around, cellMatrix, stars, system.singularCentres, monitor);
   const std::vector<int>& starOf = stars.ofCell();
-  const Matrices ofCells = cellMatrices(mesh, starOf, cellMatrix, monitor);
+  Matrices ofCells = cellMatrices(mesh, starOf, cellMatrix, monitor);
   system.hasBadCells = cellMatrix.isAnyBad();
   monitor.check();
   monitor.progress(0.3);
@@ -123,7 +123,12 @@ SplitMatrix gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
       addCorner(row, nodes, same, n, ofStars.of(*star), own);
     }
   };
-  return assembleRows(free.size(), rows, columns, monitor, [&] { return makeRow; });
+  const auto allMade = [&]
+  {
+    ofCells = {};
+    around = {};
+  };
+  return assembleRows(rows, rows, columns, monitor, [&] { return makeRow; }, allMade);
 }
 }
 

@@ -62,7 +62,7 @@ void allocate(CsrMatrix& matrix, Index rows, Index columns, const std::vector<Bl
 }
 
 SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monitor,
-  const std::function<MakeRow()>& makeRows)
+  const std::function<MakeRow()>& makeRows, const std::function<void()>& allMade)
 {
   std::vector<Block> blocks((rows + Rows - 1) / Rows);
   const auto count = static_cast<Index>(blocks.size());
@@ -75,6 +75,7 @@ SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monit
         blocks[b] = makeBlock(b * Rows, std::min(rows, (b + 1) * Rows), inside, makeRow);
       }
     });
+  allMade();
   SplitMatrix result;
   allocate(result.inside, rows, inside, blocks, &Block::inside);
   allocate(result.outside, rows, columns - inside, blocks, &Block::outside);

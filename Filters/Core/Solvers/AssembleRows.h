@@ -91,9 +91,10 @@ struct SplitMatrix
 /// `inside` of the columns become one matrix, and the others another. A row is made once and by one
 /// thread, so the result does not depend on threads. Throws Error where an int cannot number the
 /// entries. Cost: rows wait in blocks, 12 bytes an entry, until the matrices have their size.
+/// `allMade`: called before that, to free what rows are made from.
 using MakeRow = std::function<void(Index i, SparseRow& row)>;
 SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monitor,
-  const std::function<MakeRow()>& makeRows);
+  const std::function<MakeRow()>& makeRows, const std::function<void()>& allMade = [] {});
 
 /// Throws Error if an int cannot number the entries.
 void requireEntries(Index entries);
