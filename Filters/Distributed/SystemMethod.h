@@ -54,8 +54,7 @@ protected:
 private:
   /// Solves each body to its own size, in which it is given to the solver, whose norms are over all
   /// rows. `x`: the first guess, then the solution.
-  SolveReport solveEach(
-    const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const;
+  SolveReport solveEach(const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const;
   EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   HypreSolver::Kind kind_;

@@ -45,14 +45,14 @@ private:
     timeConfigured<Method>(
       problem, [](Method&) {}, *makeMonitor(this->cores_), times, moved);
   }
-  void addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
-    double paper);
+  void addStreaming(
+    const Problem& problem, const std::string& name, const MethodTimes& times, double paper);
   void againstSibson(const Problem& problem, const morph::InterpolationSites& sites,
     const CgalBaseline& cgal, const morph::Points& moved, double cold);
 };
 
-void Run::addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
-  double paper)
+void Run::addStreaming(
+  const Problem& problem, const std::string& name, const MethodTimes& times, double paper)
 {
   const std::string tail = withThreads(this->cores_);
   this->add(problem, name + ": prepare" + tail, median(times.prepare), "s");

@@ -333,8 +333,7 @@ TEST(RowComponents, AreTheBlocksOfTheMatrix)
   const RowComponents components = rowComponents(A, monitor);
   EXPECT_EQ(components.count, 3);
   EXPECT_EQ(components.ofRow, (std::vector<int>{ 0, 1, 2, 0, 2 }));
-  const auto count = [&](const CsrMatrix& matrix)
-  { return rowComponents(matrix, monitor).count; };
+  const auto count = [&](const CsrMatrix& matrix) { return rowComponents(matrix, monitor).count; };
   EXPECT_EQ(count(TwoBlocks().A), 2);
   EXPECT_EQ(count(CsrMatrix(0, 0)), 0);
 }

@@ -131,9 +131,8 @@ TEST(FemWarp, AffineIsExactThroughTheEquationsToo)
     Monitor monitor;
     FemWarp method;
     method.prepare(mesh, partition, monitor);
-    const Points residual =
-      method.solver().matrix() * meshes::rows(mesh.points, partition.free) +
-      method.coupling() * meshes::rows(mesh.points, partition.prescribed);
+    const Points residual = method.solver().matrix() * meshes::rows(mesh.points, partition.free) +
+                            method.coupling() * meshes::rows(mesh.points, partition.prescribed);
     EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-13) << name;
   }
 }

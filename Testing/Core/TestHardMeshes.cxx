@@ -51,7 +51,7 @@ Outcome morphOuter(const Mesh& mesh, Eigen::RowVector3d (*map)(const Eigen::RowV
     method.coupling() * Points(target - meshes::rows(mesh.points, partition.prescribed));
   const Points left =
     rhs + method.solver().matrix() * Points(meshes::rows(result.moved, method.rows()) -
-                                                    meshes::rows(mesh.points, method.rows()));
+                                            meshes::rows(mesh.points, method.rows()));
   for (int c = 0; c < 3; ++c)
   {
     result.trueResidual = std::max(result.trueResidual, left.col(c).norm() / rhs.col(c).norm());

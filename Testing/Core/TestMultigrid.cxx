@@ -105,7 +105,7 @@ TEST(Multigrid, TripleProductsAreThoseOfDenseMatricesForAnyNumberOfThreads)
   meshes::ThreadedMonitor three(3);
   const CsrMatrix found = tripleProduct(R, A, P, 2, serial);
   EXPECT_EQ((found - tripleProduct(R, A, P, 2, three)).norm(), 0);
-  const Eigen::MatrixXd expected = 2 * Eigen::MatrixXd(R.cast<double>()) * Eigen::MatrixXd(A) *
-                                   Eigen::MatrixXd(P.cast<double>());
+  const Eigen::MatrixXd expected =
+    2 * Eigen::MatrixXd(R.cast<double>()) * Eigen::MatrixXd(A) * Eigen::MatrixXd(P.cast<double>());
   EXPECT_LT((Eigen::MatrixXd(found) - expected).cwiseAbs().maxCoeff(), 1e-11);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/CommonPoint.h"
 
-#include <CGAL/boost_mp.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
+#include <CGAL/boost_mp.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>

@@ -42,7 +42,8 @@ struct WendlandC2
   MORPH_SIMD_INLINE Real operator()(const Real& square) const
   {
     const Real q = squareRoot(square) * this->inverseRadius;
-    const Real left = 1. - q, inside = select(left > 0., left, Real{}), fourth = inside * inside * inside * inside;
+    const Real left = 1. - q, inside = select(left > 0., left, Real{}),
+               fourth = inside * inside * inside * inside;
     return fourth * (4. * q + 1.);
   }
 };

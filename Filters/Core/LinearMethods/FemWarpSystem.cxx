@@ -128,7 +128,8 @@ SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<In
     ofCells = {};
     around = {};
   };
-  return assembleRows(rows, rows, columns, monitor, [&] { return makeRow; }, allMade);
+  return assembleRows(
+    rows, rows, columns, monitor, [&] { return makeRow; }, allMade);
 }
 }
 

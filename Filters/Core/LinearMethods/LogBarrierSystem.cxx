@@ -54,8 +54,7 @@ LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& ro
   std::vector<Outcome> outcomes(rows.size());
   const auto makeRows = [&]() -> MakeRow
   {
-    return [&, weights = NodeWeights(mesh, around, columns)](
-             Index i, SparseRow& row) mutable
+    return [&, weights = NodeWeights(mesh, around, columns)](Index i, SparseRow& row) mutable
     {
       const NodeWeights::Kind kind = weights.compute(rows[i], relax);
       outcomes[i] = { kind, weights.iterations() };

@@ -65,8 +65,7 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
   now.x = x;
   this->settle(now, monitor);
   const double before = now.pull;
-  const double rounding =
-    10 * Tolerance * std::max(this->norm(this->b_), this->norm(now.force));
+  const double rounding = 10 * Tolerance * std::max(this->norm(this->b_), this->norm(now.force));
   for (int round = 0; round < rounds && now.pull > rounding; ++round)
   {
     monitor.check();

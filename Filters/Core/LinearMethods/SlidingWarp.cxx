@@ -72,7 +72,8 @@ std::vector<SlidingWarp::Round> SlidingWarp::slide(
   {
     x.row(this->slidingRow_[i]) = moved.row(this->sliding_[i]) - nodes.rest.row(i);
   }
-  std::vector<Round> result = NodeSliding(this->solver_, b, nodes, surfaces).run(rounds, x, monitor);
+  std::vector<Round> result =
+    NodeSliding(this->solver_, b, nodes, surfaces).run(rounds, x, monitor);
   for (Index i = 0; !result.empty() && i < count; ++i)
   {
     const Row displacement = x.row(this->slidingRow_[i]);

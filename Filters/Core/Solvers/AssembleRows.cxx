@@ -79,13 +79,12 @@ SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monit
   SplitMatrix result;
   allocate(result.inside, rows, inside, blocks, &Block::inside);
   allocate(result.outside, rows, columns - inside, blocks, &Block::outside);
-  const auto copy = [&](CsrMatrix& to, Index row, const Block& block, std::size_t from, int size,
-                      Index firstColumn)
+  const auto copy =
+    [&](CsrMatrix& to, Index row, const Block& block, std::size_t from, int size, Index firstColumn)
   {
     const int at = to.outerIndexPtr()[row];
     std::transform(block.column.begin() + from, block.column.begin() + from + size,
-      to.innerIndexPtr() + at,
-      [&](int column) { return column - static_cast<int>(firstColumn); });
+      to.innerIndexPtr() + at, [&](int column) { return column - static_cast<int>(firstColumn); });
     std::copy_n(block.value.begin() + from, size, to.valuePtr() + at);
   };
   monitor.parallelFor(count, 1,

@@ -93,7 +93,8 @@ struct SplitMatrix
 /// entries. Cost: rows wait in blocks, 12 bytes an entry, until the matrices have their size.
 /// `allMade`: called before that, to free what rows are made from.
 using MakeRow = std::function<void(Index i, SparseRow& row)>;
-SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monitor,
+SplitMatrix assembleRows(
+  Index rows, Index inside, Index columns, Monitor& monitor,
   const std::function<MakeRow()>& makeRows, const std::function<void()>& allMade = [] {});
 
 /// Throws Error if an int cannot number the entries.

@@ -16,11 +16,11 @@ namespace morph
 /// residual r = b - A x.
 struct SolverGoal
 {
-  Sums bNorm2;         ///< |b|^2
-  Sums goal2;          ///< for |r|^2
+  Sums bNorm2;          ///< |b|^2
+  Sums goal2;           ///< for |r|^2
   double tolerance = 0; ///< that was asked for
   int mostIterations = 0;
-  double atStart = 0;  ///< largestRatio() of the first residual; 0: progress is not told
+  double atStart = 0; ///< largestRatio() of the first residual; 0: progress is not told
 
   /// Returns the largest |r| in parts of its goal; NaN where a norm is NaN.
   double largestRatio(const Sums& norm2) const;
@@ -40,8 +40,7 @@ struct SolverGoal
 /// The goal for norms of b: in each column the tolerance, or 1e-14 of its component's three columns
 /// together, which ends columns of pure rounding. Throws Error where |b| or the first residual is
 /// too large to compute with.
-SolverGoal solverGoal(
-  const Sums& bNorm2, const Sums& norm2, double tolerance, int mostIterations);
+SolverGoal solverGoal(const Sums& bNorm2, const Sums& norm2, double tolerance, int mostIterations);
 
 /// One run of preconditioned conjugate gradients for A x = b (Hestenes and Stiefel, J. Res. NBS 49
 /// (1952) 409-436): from p = z = B r repeatedly

@@ -155,7 +155,8 @@ void GeneralSolver::Iteration::run(Sums& norm2, int& iterations)
     }
 
     this->scaleTo(norm2);
-    this->parts.components.forRows(this->rows(), this->monitor, [&](Index i, int component)
+    this->parts.components.forRows(this->rows(), this->monitor,
+      [&](Index i, int component)
       { this->work.residual32[i] = scaled(i, component).cast<float>(); });
     this->multiply(this->work.residual32, this->t);
     const Sums omega =
@@ -172,7 +173,7 @@ void GeneralSolver::Iteration::run(Sums& norm2, int& iterations)
       [&](Index i, int component)
       {
         p[i] = (scaled(i, component) + rowOf(ofOld, component).cwiseProduct(p[i].cast<double>()) -
-                 rowOf(ofV, component).cwiseProduct(v[i]))
+                rowOf(ofV, component).cwiseProduct(v[i]))
                  .cast<float>();
       });
     this->goal.tellProgress(norm2, this->monitor);
@@ -192,8 +193,7 @@ SolveReport GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double 
   };
   const auto residual = [&] { return parts.residual(b, x, work->residual, monitor); };
   const Sums bNorm2 = squares(b);
-  Sums norm2 =
-    keepBetterGuess(parts.components, b, bNorm2, residual(), x, work->residual, monitor);
+  Sums norm2 = keepBetterGuess(parts.components, b, bNorm2, residual(), x, work->residual, monitor);
   const SolverGoal goal = solverGoal(bNorm2, norm2, tolerance, maxIterations);
   Iteration iteration = { parts, goal, x, *work, monitor, MultiVector(x.size()),
     FloatMultiVector(x.size()), {}, {} };

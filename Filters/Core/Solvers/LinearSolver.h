@@ -15,9 +15,9 @@ namespace morph
 /// The rows of a sparse matrix A on one process, or on one of several.
 struct LinearEquations
 {
-  CsrMatrix matrix;   ///< #rows x #rows: the columns of this process's unknowns
-  Points coordinates; ///< #rows x 3: positions of the nodes, near which are near in the graph
-  CsrMatrix ghosts = {};                        ///< #rows x #ghosts: other processes' unknowns
+  CsrMatrix matrix;      ///< #rows x #rows: the columns of this process's unknowns
+  Points coordinates;    ///< #rows x 3: positions of the nodes, near which are near in the graph
+  CsrMatrix ghosts = {}; ///< #rows x #ghosts: other processes' unknowns
   std::vector<std::int64_t> ghostNumbers = {}; ///< #ghosts: their numbers among all unknowns
 };
 

@@ -282,8 +282,7 @@ void Multigrid::apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& mon
   }
 }
 
-void Multigrid::smoothFromZero(
-  const Level& level, const Row* rhs, Row* x, Monitor& monitor) const
+void Multigrid::smoothFromZero(const Level& level, const Row* rhs, Row* x, Monitor& monitor) const
 {
   parallel(level.rows, monitor, [&](Index i) { x[i] = level.weight[i] * rhs[i]; });
 }
@@ -296,8 +295,8 @@ void Multigrid::smooth(
   monitor.parallelFor(A.rows, Grain,
     [&](Index first, Index last)
     {
-      forRowProducts(A, from, first, last, [&](Index i, const Row& product)
-        { to[i] = from[i] + weight[i] * (rhs[i] - product); });
+      forRowProducts(A, from, first, last,
+        [&](Index i, const Row& product) { to[i] = from[i] + weight[i] * (rhs[i] - product); });
     });
 }
 

@@ -38,8 +38,8 @@ public:
   /// near nodes, see nearNeighbors(); `coordinates`: #rows x 3. Throws Error of kind Singular where
   /// a diagonal entry is about 1e38 times smaller than the largest entry. A matrix of no rows has no
   /// level, and apply() does nothing.
-  void prepare(const CsrMatrix& matrix, Symmetry symmetry, const ConstPoints& coordinates,
-    Monitor& monitor);
+  void prepare(
+    const CsrMatrix& matrix, Symmetry symmetry, const ConstPoints& coordinates, Monitor& monitor);
   /// Makes the transpose of `other`. `matrix`: the transpose of its matrix, as above.
   void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
 
@@ -79,9 +79,9 @@ private:
   struct Level
   {
     Index rows = 0;
-    CsrMatrixOf<float> A;         ///< empty in the finest level
-    CsrMatrixOf<float> P, R;      ///< prolongation to this level from the next; its transpose
-    std::vector<float> weight;    ///< of the smoother: w D^-1
+    CsrMatrixOf<float> A;      ///< empty in the finest level
+    CsrMatrixOf<float> P, R;   ///< prolongation to this level from the next; its transpose
+    std::vector<float> weight; ///< of the smoother: w D^-1
   };
 
   CsrRows<float> matrix(std::size_t level) const

@@ -80,8 +80,8 @@ void MultigridSolver::precondition(const Points& from, Points& to, Monitor& moni
 std::size_t MultigridSolver::memory() const
 {
   const Parts& my = *this->parts_;
-  return CsrRows<double>(my.A).memory() +
-         sizeof(int) * my.components.ofRow.size() + my.multigrid.memory() + my.workspaceBytes();
+  return CsrRows<double>(my.A).memory() + sizeof(int) * my.components.ofRow.size() +
+         my.multigrid.memory() + my.workspaceBytes();
 }
 
 std::unique_ptr<MultigridSolver::Workspace> MultigridSolver::Parts::takeWorkspace() const

@@ -23,8 +23,7 @@ void rowProducts(const CsrRows<double>& A, const Eigen::Vector4f* x, Index first
 /// Calls use(i, (A x)_i) for the rows in [first, last), in their order. `use` may write other
 /// vectors than x.
 template <typename Number, typename Row, typename Use>
-void forRowProducts(
-  const CsrRows<Number>& A, const Row* x, Index first, Index last, const Use& use)
+void forRowProducts(const CsrRows<Number>& A, const Row* x, Index first, Index last, const Use& use)
 {
   constexpr Index Batch = 64; // its products stay in the fastest cache
   Eigen::Matrix<Number, 4, 1> products[Batch];

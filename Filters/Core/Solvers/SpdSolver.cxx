@@ -47,8 +47,8 @@ struct SpdSolver::Iteration
       this->work.residual32.data(), this->work.step.data(), this->work.multigrid, this->monitor);
     const auto product = [&](Index i, int)
     {
-      return Row(this->work.residual32[i].cast<double>().cwiseProduct(
-        this->work.step[i].cast<double>()));
+      return Row(
+        this->work.residual32[i].cast<double>().cwiseProduct(this->work.step[i].cast<double>()));
     };
     return this->unit * this->components().sumsOfRows(this->rows(), this->monitor, product);
   }
@@ -99,8 +99,8 @@ SolveReport SpdSolver::solve(const RightHandSide& b, MultiVector& x, double tole
   Iteration iteration = { parts, b, x, *work, monitor };
   const Sums bNorm2 = parts.components.sumsOfRows(
     b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(b[i].cwiseAbs2()); });
-  Sums norm2 = keepBetterGuess(
-    parts.components, b, bNorm2, iteration.residual(), x, work->residual, monitor);
+  Sums norm2 =
+    keepBetterGuess(parts.components, b, bNorm2, iteration.residual(), x, work->residual, monitor);
   const SolverGoal goal = solverGoal(bNorm2, norm2, tolerance, maxIterations);
   SolveReport report;
   report.iterations = conjugateGradients(iteration, norm2, goal, monitor);

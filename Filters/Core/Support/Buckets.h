@@ -24,8 +24,7 @@ Adjacency sortIntoBuckets(Index producers, Index rows, Monitor& monitor, const V
   std::vector<std::atomic<Index>> next(rows + 1); // counts, and then the next free place of a row
   const auto take = [&](Index row) { return next[row].fetch_add(1, std::memory_order_relaxed); };
   monitor.parallelFor(producers, Grain,
-    [&](Index first, Index last)
-    { visit(first, last, [&](Index row, Index) { take(row); }); });
+    [&](Index first, Index last) { visit(first, last, [&](Index row, Index) { take(row); }); });
   Adjacency result;
   result.offsets.assign(rows + 1, 0);
   for (Index row = 0; row < rows; ++row)
@@ -36,9 +35,7 @@ Adjacency sortIntoBuckets(Index producers, Index rows, Monitor& monitor, const V
   result.values.resize(result.offsets.back());
   monitor.parallelFor(producers, Grain,
     [&](Index first, Index last)
-    {
-      visit(first, last, [&](Index row, Index number) { result.values[take(row)] = number; });
-    });
+    { visit(first, last, [&](Index row, Index number) { result.values[take(row)] = number; }); });
   parallel(rows, monitor,
     [&](Index row)
     {

@@ -89,25 +89,25 @@ using SimdFloat4 = SimdLanes<float>;
 using SimdMask4 = SimdLanes<bool>;
 
 // For doubles and for floats: friends of the template would be looked for by conversions, too.
-#define MORPH_SIMD_OPERATOR(Vector, Number, Result, operation)                                     \
-  inline SimdLanes<Result> operator operation(const Vector& a, const Vector& b)                    \
-  {                                                                                                \
-    return simdLanes<Result>([&](int i) { return a[i] operation b[i]; });                          \
+#define MORPH_SIMD_OPERATOR(Vector, Number, Result, operation)                  \
+  inline SimdLanes<Result> operator operation(const Vector& a, const Vector& b) \
+  {                                                                             \
+    return simdLanes<Result>([&](int i) { return a[i] operation b[i]; });       \
   }
-#define MORPH_SIMD_ARITHMETIC(Vector, Number, operation)                                           \
-  MORPH_SIMD_OPERATOR(Vector, Number, Number, operation)                                           \
-  inline Vector& operator operation##=(Vector& a, const Vector& b)                                 \
-  {                                                                                                \
-    return a = a operation b;                                                                      \
+#define MORPH_SIMD_ARITHMETIC(Vector, Number, operation)           \
+  MORPH_SIMD_OPERATOR(Vector, Number, Number, operation)           \
+  inline Vector& operator operation##=(Vector& a, const Vector& b) \
+  {                                                                \
+    return a = a operation b;                                      \
   }
-#define MORPH_SIMD_OPERATORS(Vector, Number)                                                       \
-  MORPH_SIMD_ARITHMETIC(Vector, Number, +)                                                         \
-  MORPH_SIMD_ARITHMETIC(Vector, Number, -)                                                         \
-  MORPH_SIMD_ARITHMETIC(Vector, Number, *)                                                         \
-  MORPH_SIMD_ARITHMETIC(Vector, Number, /)                                                         \
-  inline Vector operator-(const Vector& a)                                                         \
-  {                                                                                                \
-    return simdLanes<Number>([&](int i) { return -a[i]; });                                        \
+#define MORPH_SIMD_OPERATORS(Vector, Number)                \
+  MORPH_SIMD_ARITHMETIC(Vector, Number, +)                  \
+  MORPH_SIMD_ARITHMETIC(Vector, Number, -)                  \
+  MORPH_SIMD_ARITHMETIC(Vector, Number, *)                  \
+  MORPH_SIMD_ARITHMETIC(Vector, Number, /)                  \
+  inline Vector operator-(const Vector& a)                  \
+  {                                                         \
+    return simdLanes<Number>([&](int i) { return -a[i]; }); \
   }
 MORPH_SIMD_OPERATORS(SimdDouble4, double)
 MORPH_SIMD_OPERATORS(SimdFloat4, float)

@@ -101,8 +101,8 @@ public:
   void rename()
   {
     const fs::path file = this->path_;
-    if (!MoveFileExW(this->name_.c_str(), file.c_str(),
-          MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH))
+    if (!MoveFileExW(
+          this->name_.c_str(), file.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH))
     {
       failBySystem(this->path_, "the temporary file cannot be renamed");
     }
