@@ -165,6 +165,15 @@ vtkSmartPointer<vtkPolyData> hills(double height, double margin)
   return surface;
 }
 
+vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
+{
+  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+  filter->SetInputData(grid);
+  filter->SetTargetData(target);
+  filter->SetDisplacementToTarget();
+  return filter;
+}
+
 /// The brick's top goes to the target, and its four sides slide.
 vtkSmartPointer<vtkMorphMesh> onto(vtkUnstructuredGrid* grid, vtkPolyData* target)
 {
@@ -190,15 +199,6 @@ vtkSmartPointer<vtkPolyData> lid(double height, double margin)
   plane->SetResolution(5, 7);
   plane->Update();
   return plane->GetOutput();
-}
-
-vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
-{
-  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
-  filter->SetInputData(grid);
-  filter->SetTargetData(target);
-  filter->SetDisplacementToTarget();
-  return filter;
 }
 
 /// Where the brick's eight corners are now: those of an upright box of these half sizes?
