@@ -148,7 +148,7 @@ Finding checkDisplaced(const Case& made, vtkPointSet* output)
     const Row rest = made.grid.mesh.points.row(node);
     Row x;
     output->GetPoint(p, x.data());
-    if (!(role >= 0 && role <= 3))
+    if (!(role >= 0 && role <= 6))
     {
       return { "displaced boundary", "a Role of " + std::to_string(role) };
     }

@@ -108,7 +108,7 @@ bool mayImprove(const Case& made, double motion)
     made.filter.name == "InversionFreeMorph" || method == vtkMorphMesh::METHOD_INVERSION_FREE;
   const morph::Mesh& mesh = made.grid.mesh;
   return made.filter.name == "SmoothingMorph" || method == vtkMorphMesh::METHOD_SMOOTHING ||
-         value("PostSmooth") != 0 ||
+         value("PostSmooth") != 0 || value("Validity") == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ||
          (isInversionFree &&
            (motion > 0 || value("TargetShape") == 2 || !made.grid.isAsMesh ||
              made.choices.value("mesh.order") != 0 || !isValid(mesh, mesh.points, 0)));
@@ -212,11 +212,13 @@ vtkSmartPointer<vtkDataObject> inFrame(vtkDataObject* data, const Frame& frame)
   return copy;
 }
 
-/// Whether a result is to be the same to rounding: else counts and qualities are.
+/// Whether a result is to be the same to rounding: else counts and qualities are. Of centres that
+/// are equally far some are chosen by their places.
 bool isExact(const Case& made, vtkAlgorithm* filter)
 {
   auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
   return !morph || (made.filter.isLinear && !morph->GetPostSmooth() &&
+                     made.choices.value("property.NumberOfCenters") == 0 &&
                      (std::string(morph->GetMorphStatus()) == "Valid" ||
                        std::string(morph->GetMorphStatus()) == "Inverted"));
 }
@@ -364,7 +366,11 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
       shapes->SetWeight(static_cast<int>(i), tried[i]);
     }
     const Run again = execute(shapes, made.time);
-    if (again.errors.empty() && shapes->GetInvertedCells() + shapes->GetDegenerateCells() > 0)
+    // Of places that are too far the determinants are rounding.
+    const bool isFar =
+      pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
+      1e4 * made.grid.size;
+    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0)
     {
       std::string list;
       for (const double weight : tried)

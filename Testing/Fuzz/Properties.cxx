@@ -360,7 +360,8 @@ PropertiesSet setProperties(
   Choices& choices, const Filter& filter, double size, vtkAlgorithm* algorithm)
 {
   const bool hostile = choices.chance("hostile.properties", 0.09);
-  const bool isMorph = filter.isMorph;
+  // Of many properties fewer, so that most cases have a result.
+  const double part = hostile ? 0.3 : filter.properties.size() > 15 ? 0.12 : 0.25;
   PropertiesSet result;
   bool isRefused = false;
   vtkNew<vtkCallbackCommand> command;
@@ -372,7 +373,7 @@ PropertiesSet setProperties(
   {
     const auto draw = [&](Random& random)
     {
-      if (!random.happens(hostile ? 0.3 : isMorph ? 0.12 : 0.25))
+      if (!random.happens(part))
       {
         return property.plain;
       }
