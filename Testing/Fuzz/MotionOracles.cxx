@@ -261,10 +261,11 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
                  { "none", "unit", "origin", "quarter turn", "reflection" }, { 8, 1, 1, 1, 1 })
              : 0;
   const double tolerance = made.choices.value("property.Tolerance");
+  const bool isMatched = made.choices.value("property.MatchTolerance") <= 1e-3;
   auto* output = vtkPointSet::SafeDownCast(first.outputs.front());
   auto* input = vtkPointSet::SafeDownCast(made.inputs.front());
-  if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !output || !input || isFloat(output) ||
-      isFloat(input) || made.choices.value("boundary.float") != 0)
+  if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !isMatched || !output || !input ||
+      isFloat(output) || isFloat(input) || made.choices.value("boundary.float") != 0)
   {
     return {};
   }
@@ -344,14 +345,14 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
   {
     for (const double end : { shapes->GetLowestWeight(i), shapes->GetHighestWeight(i) })
     {
-      if (std::isfinite(end))
+      if (std::isfinite(end) && end != 0) // the range is open
       {
         tries.push_back(weights);
         tries.back()[i] = Inside * end;
       }
     }
   }
-  if (std::isfinite(shapes->GetLargestFactor()))
+  if (std::isfinite(shapes->GetLargestFactor()) && shapes->GetLargestFactor() != 0)
   {
     tries.push_back(weights);
     for (double& weight : tries.back())

@@ -329,15 +329,16 @@ bool isMildAffine(const Case& made, vtkMorphAlgorithm* filter)
   return made.boundary.isAffine && motion.norm() < 0.5;
 }
 
-/// A plain case has a result: of linear methods always, unless inverted cells are refused; of
-/// others where the motion is mild. Excepted are log-barrier weights outside a hull, and inverted
+/// A plain case has a result: of linear methods always, unless inverted cells are refused or a mask
+/// frees the boundary; of others where the motion is mild. Excepted are log-barrier weights outside a hull, and inverted
 /// cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
   const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
   const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
-  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary();
+  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary() &&
+                        made.choices.value("with.mask") == 0;
   const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);
   const bool hasResult = name != "LBWarpMorph" && (isAlways || isMild) && isPlainCase(made, filter);
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
