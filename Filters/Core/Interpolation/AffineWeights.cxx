@@ -14,8 +14,8 @@ namespace
 constexpr Index Grain = 64;
 constexpr Index FirstCount = 32;
 
-/// Sets `row` to the fit's weights at `x`. `limits`: directions count by their shares. Returns false
-/// if the sites lie in a plane.
+/// Sets `row` to the fit's weights at `x`. `limits`: directions count by their shares. Returns
+/// false if the sites lie in a plane.
 bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::RowVector3d& x,
   bool limits, AffineRow& row)
 {
