@@ -44,8 +44,8 @@ PROPERTIES = """
     TargetReach TransformAboutCenter Translation UseGeometryArrays Validity Vector WallArray
     ZoneRegionType ZoneSelectionType""".split()
 
-# Functions that multiply a matrix by the vectors of conjugate gradients.
-KERNEL = r"^morph::.*DoubleProduct<.*>::run<"
+# A line in the innermost loop of the product of matrix and vector: its file, and what it holds.
+KERNEL = "Filters/Core/Solvers/RowProducts.cxx:sum[0] +="
 
 
 def tracked(tree):
@@ -95,7 +95,7 @@ IN_GDB = """
 import gdb, re
 gdb.execute("set pagination off")
 gdb.execute("set breakpoint pending on")
-gdb.execute("rbreak {kernel}", to_string=True)
+gdb.execute("break {kernel}", to_string=True)
 gdb.execute("run", to_string=True)
 while gdb.selected_inferior().pid:
     stack, frame = [], gdb.newest_frame()
@@ -114,15 +114,21 @@ while gdb.selected_inferior().pid:
 
 def frames(tree, build, kernel):
     """The stack's functions in Filters, the innermost first, each once."""
+    file, text = kernel.split(":", 1)
+    lines = (tree / file).read_text(encoding="utf-8").splitlines()
+    number = next((i for i, line in enumerate(lines, 1) if text in line), None)
+    if number is None:
+        sys.exit(f"house.py: {file} has no line with '{text}': give another one by --kernel")
     subprocess.run(
         ["cmake", "-S", str(tree), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
          "-DMESHMORPHING_BUILD_PARAVIEW_PLUGIN=OFF", "-DMESHMORPHING_BUILD_TESTING=OFF",
-         "-DMESHMORPHING_WRAP_PYTHON=OFF"], check=True, stdout=subprocess.DEVNULL)
+         "-DMESHMORPHING_WRAP_PYTHON=OFF", "-DMESHMORPHING_UNITY_BUILD=ON"],
+        check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", str(build), "--target", "morph-mesh"], check=True,
                    stdout=sys.stderr)
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "stack.py"
-        script.write_text(IN_GDB.format(kernel=kernel), encoding="utf-8")
+        script.write_text(IN_GDB.format(kernel=f"{tree / file}:{number}"), encoding="utf-8")
         output = subprocess.run(
             ["gdb", "--batch", "--nx", "-x", str(script), "--args", str(build / "bin/morph-mesh"),
              "--threads", "1", "--method", "FEMWARP", "--move", "Surface 0", "--radius", "0.1",
@@ -132,7 +138,7 @@ def frames(tree, build, kernel):
     stack = [line.split("\t")[1:] for line in output.stdout.splitlines()
              if line.startswith("FRAME\t")]
     if not stack:
-        sys.exit(f"house.py: gdb saw no function {kernel} below RequestData:\n"
+        sys.exit(f"house.py: gdb did not stop at {file}:{number} below RequestData:\n"
                  f"{output.stdout[-2000:]}{output.stderr[-2000:]}")
     return list(dict.fromkeys(
         name for file, name in stack if os.path.realpath(file).startswith(filters)))
@@ -145,7 +151,7 @@ def main():
                         help="the checkout to count in (default: this one)")
     parser.add_argument("--frames", action="store_true", help="build, and count frames")
     parser.add_argument("--kernel", default=KERNEL,
-                        help="regular expression of gdb for the product (default: %(default)s)")
+                        help="where to stop: a file, and what its line holds (default: %(default)s)")
     parser.add_argument("--build", type=Path, help="folder of the Debug build (default: "
                         "build/frames beside this script's folder)")
     arguments = parser.parse_args()

@@ -31,5 +31,7 @@ paraview_plugin_build(
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}")
 # ParaView's wrappers of the classes, of which each includes little more than its class.
 foreach (wrappers IN ITEMS vtkMeshMorphingFiltersMorphingCS vtkMeshMorphingFiltersIOCS)
-  set_target_properties(${wrappers} PROPERTIES UNITY_BUILD "${MESHMORPHING_UNITY_BUILD}")
+  if (TARGET ${wrappers})
+    set_target_properties(${wrappers} PROPERTIES UNITY_BUILD "${MESHMORPHING_UNITY_BUILD}")
+  endif ()
 endforeach ()
