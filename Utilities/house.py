@@ -151,7 +151,8 @@ def main():
                         help="the checkout to count in (default: this one)")
     parser.add_argument("--frames", action="store_true", help="build, and count frames")
     parser.add_argument("--kernel", default=KERNEL,
-                        help="where to stop: a file, and what its line holds (default: %(default)s)")
+                        help="where to stop: a file, and what its line holds (by default "
+                        "%(default)s)")
     parser.add_argument("--build", type=Path, help="folder of the Debug build (default: "
                         "build/frames beside this script's folder)")
     arguments = parser.parse_args()
