@@ -331,8 +331,8 @@ bool isMildAffine(const Case& made, vtkMorphAlgorithm* filter)
 
 /// A plain case has a result: of linear methods always, unless inverted cells are refused or a mask
 /// frees the boundary; of others where the motion is mild. Excepted are log-barrier weights outside
-/// a hull, and inverted cells, where they are refused, that smoothing leaves or that quadratic cells
-/// had inside before.
+/// a hull, and inverted cells, where they are refused, that smoothing leaves or that quadratic
+/// cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
