@@ -95,7 +95,7 @@ void Run::weights(const Problem& problem)
 
     const ThreadStopwatch systemWatch;
     morph::LogBarrierSystem made = morph::logBarrierSystem(
-      problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
+      problem.mesh, free, problem.partition.prescribed, false, *monitor);
     const morph::MixedPrecisionMatrix joined(std::move(made.interior), *monitor);
     system.push_back(systemWatch.seconds());
 
