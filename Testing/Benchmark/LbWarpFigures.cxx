@@ -94,8 +94,8 @@ void Run::weights(const Problem& problem)
     rows.push_back(rowsWatch.seconds());
 
     const ThreadStopwatch systemWatch;
-    morph::LogBarrierSystem made = morph::logBarrierSystem(
-      problem.mesh, free, problem.partition.prescribed, false, *monitor);
+    morph::LogBarrierSystem made =
+      morph::logBarrierSystem(problem.mesh, free, problem.partition.prescribed, false, *monitor);
     const morph::MixedPrecisionMatrix joined(std::move(made.interior), *monitor);
     system.push_back(systemWatch.seconds());
 
