@@ -49,10 +49,10 @@ const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
                                "written and an old file stays;\n"
                                "2 the command line is wrong;\n"
-                               "3 the result is written, but has inverted or collapsed cells and "
-                               "--require-valid was given, or\n"
-                               "--validity SubStep or Repair came only part of the way: the "
-                               "output does not fit the boundary.\n";
+                               "3 the result is written, but the motion has inverted or "
+                               "collapsed cells and --require-valid was\n"
+                               "given, or --validity SubStep, Repair or RepairAll came only part "
+                               "of the way: the output does not\nfit the boundary.\n";
 
 double number(const std::string& option, const std::string& text)
 {

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -102,11 +104,24 @@ void checkXml(const Ends& ends)
     first != std::string::npos && first <= 3 && // a byte order mark may come first
       has(ends.head, "<VTKFile"));
   requireWhole(ends, has(ends.tail, "</VTKFile>"), "it ends before </VTKFile>");
+  constexpr double Compressed = 1e-3;    // no library packs cells more tightly
+  const std::string count = " NumberOf"; // points, cells and the like of the first piece
+  for (std::size_t at = ends.head.find(count); at != std::string::npos;
+       at = ends.head.find(count, at + 1))
+  {
+    const std::size_t number = ends.head.find('"', at);
+    requireRoom(ends, number == std::string::npos
+                        ? -1
+                        : Compressed * std::strtod(ends.head.c_str() + number + 1, nullptr));
+  }
 }
 
 void checkLegacy(const Ends& ends)
 {
-  require(ends, begins(lower(ends.head), "# vtk datafile version"));
+  const std::string title = "# vtk datafile version ";
+  require(ends, begins(lower(ends.head), title));
+  const double version = std::strtod(ends.head.c_str() + title.size(), nullptr);
+  requireWhole(ends, version >= 1 && version < 100, "it has no version");
   const std::size_t at = ends.head.find("\nPOINTS ");
   if (at == std::string::npos)
   {
@@ -140,15 +155,15 @@ void checkStl(const Ends& ends)
   requireRoom(ends, Header + Triangle * static_cast<double>(count));
 }
 
-/// The bytes of a value in a binary file; `type`: PLY's name of it.
+/// The bytes of a value in a binary file, 0 where there is no such type; `type`: PLY's name of it.
 double bytesOf(const std::string& type)
 {
-  static const std::vector<std::pair<std::string, double>> all = { { "char", 1 }, { "uchar", 1 },
-    { "int8", 1 }, { "uint8", 1 }, { "short", 2 }, { "ushort", 2 }, { "int16", 2 }, { "uint16", 2 },
+  static const std::map<std::string, double> all = { { "char", 1 }, { "uchar", 1 }, { "int8", 1 },
+    { "uint8", 1 }, { "short", 2 }, { "ushort", 2 }, { "int16", 2 }, { "uint16", 2 }, { "int", 4 },
+    { "uint", 4 }, { "int32", 4 }, { "uint32", 4 }, { "float", 4 }, { "float32", 4 },
     { "double", 8 }, { "float64", 8 } };
-  const auto found =
-    std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == type; });
-  return found == all.end() ? 4 : found->second;
+  const auto found = all.find(type);
+  return found == all.end() ? 0 : found->second;
 }
 
 void checkPly(const Ends& ends)
@@ -158,27 +173,35 @@ void checkPly(const Ends& ends)
   requireWhole(ends, end != std::string::npos, "its header has no end");
   std::istringstream lines(ends.head.substr(0, end));
   bool isText = false;
-  double least = static_cast<double>(end), count = 0;
-  for (std::string line; std::getline(lines, line);)
+  double least = static_cast<double>(end), count = -1; // of the element
+  std::string line;
+  std::getline(lines, line); // "ply"
+  while (std::getline(lines, line))
   {
     std::istringstream words(line);
     std::string word, type;
     words >> word >> type;
+    bool isKnown = word == "comment" || word == "obj_info";
     if (word == "format")
     {
       isText = type == "ascii";
+      isKnown = isText || begins(type, "binary_");
     }
     else if (word == "element")
     {
       words >> count;
       requireRoom(ends, words ? count : -1);
+      isKnown = true;
     }
     else if (word == "property")
     {
       std::string ofLength;
       words >> ofLength;
-      least += count * (isText ? 2 : bytesOf(type == "list" ? ofLength : type));
+      const double bytes = bytesOf(type == "list" ? ofLength : type);
+      least += count * (isText ? 2 : bytes);
+      isKnown = bytes > 0 && count >= 0;
     }
+    requireWhole(ends, isKnown, "its header has a line that PLY does not know");
   }
   requireRoom(ends, least);
 }

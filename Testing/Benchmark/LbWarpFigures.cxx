@@ -93,7 +93,7 @@ void Run::weights(const Problem& problem)
     rows.push_back(rowsWatch.seconds());
 
     const ThreadStopwatch systemWatch;
-    morph::logBarrierSystem(problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
+    morph::logBarrierSystem(problem.mesh, free, problem.partition.prescribed, false, *monitor);
     system.push_back(systemWatch.seconds());
 
     // The weights without the search for neighbors, ours and Eigen's, on the same numbers.

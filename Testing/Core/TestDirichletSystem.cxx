@@ -215,7 +215,7 @@ TEST_P(FirstGuess, ABodyThatMovesByLittleHasAsManyDigits)
   one->prepare(body, ofOne, monitor);
   for (const double small : { 1e-3, 1e-6, 1e-9 })
   {
-    // Displacements, as positions would lose digits.
+    // Displacements, as rounded positions give them.
     Points given(static_cast<Index>(ofBoth.prescribed.size()), 3);
     for (Index i = 0; i < given.rows(); ++i)
     {

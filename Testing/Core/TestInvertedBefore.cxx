@@ -88,7 +88,7 @@ TEST(InvertedBefore, WhatWasValidOrHasOneMoreInvertedCornerIsAdded)
   points.row(0) << 0.9, 0.9, 0.9; // the same corner, farther
   EXPECT_TRUE(pushed.added(points).empty());
   const Index top = pushed.mesh.cell(0)[6];
-  points.row(top) << 0.2, 0.2, 0.2; // the opposite one, too
+  points.row(top) << -0.2, -0.2, -0.2; // the opposite one, too, which both cells share
   EXPECT_EQ(pushed.added(points), (std::vector<Index>{ 0, 1 }));
 }
 

@@ -217,10 +217,10 @@ TEST(LargestFactor, OfFlatCellsIsFoundInFewSteps)
   problem.mesh.points.col(0) *= 1e-9; // as flat as that
   turnAndShift(problem);
   Monitor monitor;
-  EXPECT_EQ(largestFactor(problem.mesh, problem.motion, {}, monitor).factor, HUGE_VAL);
+  EXPECT_EQ(largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor, HUGE_VAL);
 
   problem.straight.col(1) = problem.mesh.points.col(2); // they shear too, and stay valid
-  const double factor = largestFactor(problem.mesh, problem.motion, {}, monitor).factor;
+  const double factor = largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor;
   EXPECT_GE(factor, 0); // on the safe side
   EXPECT_LT(factor, 1);
 }
@@ -231,8 +231,8 @@ TEST(LargestFactor, AsksWhetherToStop)
   problem.mesh = meshes::hexes(10, 10, 10);
   turnAndShift(problem);
   meshes::WatchingMonitor monitor;
-  largestFactor(problem.mesh, problem.motion, {}, monitor);
+  largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_GE(monitor.questions, 3);
   monitor.cancelAfter = monitor.questions + 2;
-  EXPECT_THROW(largestFactor(problem.mesh, problem.motion, {}, monitor), Error);
+  EXPECT_THROW(largestFactor(problem.mesh, problem.motion, {}, {}, monitor), Error);
 }

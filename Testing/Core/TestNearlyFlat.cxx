@@ -264,7 +264,8 @@ TEST(NearlyFlat, WeightsOfFarNodesAreBounded)
     const Cube cube(uneven);
     Monitor monitor;
     const Points sites = meshes::rows(cube.mesh.points, cube.partition.prescribed);
-    for (const double weight : affineWeights(sites, place, 10, monitor)[0].weights)
+    const std::vector<AffineRow> rows = affineWeights(sites, place, 10, monitor);
+    for (const double weight : rows[0].weights)
     {
       EXPECT_LE(std::abs(weight), 10) << uneven;
     }

@@ -139,7 +139,7 @@ std::string messageOf(const std::function<void()>& call)
 
 TEST(SurfaceMorph, SymmetriesUnitAndOriginGoThrough)
 {
-  // One face turns in its plane, and its sides follow. Their nodes have many edge nodes equally far.
+  // One face turns in its plane, and its sides follow. Many edge nodes are equally far from theirs.
   Mesh cube = meshes::hexes(6, 6, 6);
   cube.points.array() -= 3;
   const auto turn = [](const Row& x)

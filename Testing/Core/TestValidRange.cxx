@@ -200,8 +200,8 @@ TEST(ValidRange, AsksWhetherToStop)
   problem.first = Points::Random(problem.mesh.points.rows(), 3);
   problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
   meshes::WatchingMonitor monitor;
-  validRange(problem.mesh, problem.motion, {}, monitor);
+  validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_GE(monitor.questions, 2);
   monitor.cancelAfter = monitor.questions + 1;
-  EXPECT_THROW(validRange(problem.mesh, problem.motion, {}, monitor), Error);
+  EXPECT_THROW(validRange(problem.mesh, problem.motion, {}, {}, monitor), Error);
 }

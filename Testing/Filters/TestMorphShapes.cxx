@@ -237,7 +237,7 @@ TEST(MorphShapes, WeightsAreFiniteNumbers)
 
 TEST(MorphShapes, AbsurdWeightsAreOneError)
 {
-  auto grid = grids::hexes(3);
+  auto grid = grids::hexes(4);
   auto filter = shapesOf(grid, { grids::twist, bulged, turnedTop(.3) });
   const double absurd[] = { 1e150, -.2, .5 };
   for (int i = 0; i < 3; ++i)

@@ -304,8 +304,12 @@ TEST_F(MorphValidity, CellsThatWereInvertedBeforeRefuseNothing)
     grids::Listener listener(filter);
     filter->Update();
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-    ASSERT_EQ(listener.Warnings.size(), 1u);
+    ASSERT_FALSE(listener.Warnings.empty());
     EXPECT_NE(listener.Warnings[0].find("Repair All"), std::string::npos) << listener.Warnings[0];
+    for (std::size_t i = 1; i < listener.Warnings.size(); ++i) // where the method prepares
+    {
+      EXPECT_NE(listener.Warnings[i].find("The reference mesh has"), std::string::npos);
+    }
     EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
     EXPECT_GT(filter->GetInvertedBefore(), 0);
     EXPECT_EQ(filter->GetInvertedBefore(), filter->GetInvertedCells());

@@ -3,6 +3,7 @@
 // the size by one of 1e-9.
 #include "TestGrids.h"
 
+#include "vtkMorphAlgorithm.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
 

@@ -308,8 +308,9 @@ TEST(Zones, AWarningSaysHowFarAskedPlacesAreMissed)
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_FALSE(listener.Warnings.empty());
+  // Of the zone's nodes at the top, those at 5 go to 6 on average, as is asked of them.
   const std::string& warning = listener.Warnings.back();
-  EXPECT_NE(warning.find("21 nodes that move miss their places by up to 0.5"), std::string::npos)
+  EXPECT_NE(warning.find("14 nodes that move miss their places by up to 0.5"), std::string::npos)
     << warning;
 }
 

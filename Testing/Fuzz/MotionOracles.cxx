@@ -39,9 +39,14 @@ std::string text(double value)
   return stream.str();
 }
 
+bool isOfType(vtkPointSet* data, int type)
+{
+  return data->GetPoints() && data->GetPoints()->GetDataType() == type;
+}
+
 bool isFloat(vtkPointSet* data)
 {
-  return data->GetPoints() && data->GetPoints()->GetDataType() == VTK_FLOAT;
+  return isOfType(data, VTK_FLOAT);
 }
 
 /// What coordinates lose, in their unit.
@@ -108,7 +113,7 @@ bool mayImprove(const Case& made, double motion)
     made.filter.name == "InversionFreeMorph" || method == vtkMorphMesh::METHOD_INVERSION_FREE;
   const morph::Mesh& mesh = made.grid.mesh;
   return made.filter.name == "SmoothingMorph" || method == vtkMorphMesh::METHOD_SMOOTHING ||
-         value("PostSmooth") != 0 ||
+         value("PostSmooth") != 0 || value("Validity") == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ||
          (isInversionFree &&
            (motion > 0 || value("TargetShape") == 2 || !made.grid.isAsMesh ||
              made.choices.value("mesh.order") != 0 || !isValid(mesh, mesh.points, 0)));
@@ -212,13 +217,25 @@ vtkSmartPointer<vtkDataObject> inFrame(vtkDataObject* data, const Frame& frame)
   return copy;
 }
 
-/// Whether a result is to be the same to rounding: else counts and qualities are.
+/// Whether a result is to be the same to rounding: else counts and qualities are. Of centres that
+/// are equally far some are chosen by their places.
 bool isExact(const Case& made, vtkAlgorithm* filter)
 {
   auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
   return !morph || (made.filter.isLinear && !morph->GetPostSmooth() &&
+                     made.choices.value("property.NumberOfCenters") == 0 &&
                      (std::string(morph->GetMorphStatus()) == "Valid" ||
                        std::string(morph->GetMorphStatus()) == "Inverted"));
+}
+
+/// Whether rounding decides which of a target's places is nearest, or which simplex extrapolates to
+/// a node outside all.
+bool isUndecided(const Case& made, vtkAlgorithm* filter)
+{
+  const bool isBySimplices = made.filter.name.rfind("Simplex", 0) == 0;
+  const bool isHeld =
+    made.choices.value("property.HoldUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
+  return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) || (isBySimplices && !isHeld);
 }
 
 bool isPlain(const Case& made)
@@ -259,10 +276,12 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
                  { "none", "unit", "origin", "quarter turn", "reflection" }, { 8, 1, 1, 1, 1 })
              : 0;
   const double tolerance = made.choices.value("property.Tolerance");
+  const bool isMatched = made.choices.value("property.MatchTolerance") <= 1e-3;
   auto* output = vtkPointSet::SafeDownCast(first.outputs.front());
   auto* input = vtkPointSet::SafeDownCast(made.inputs.front());
-  if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !output || !input || isFloat(output) ||
-      isFloat(input) || made.choices.value("boundary.float") != 0)
+  if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !isMatched || !output || !input ||
+      !isOfType(output, VTK_DOUBLE) || !isOfType(input, VTK_DOUBLE) ||
+      made.choices.value("boundary.float") != 0 || isUndecided(made, filter))
   {
     return {};
   }
@@ -342,14 +361,14 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
   {
     for (const double end : { shapes->GetLowestWeight(i), shapes->GetHighestWeight(i) })
     {
-      if (std::isfinite(end))
+      if (std::isfinite(end) && end != 0) // the range is open
       {
         tries.push_back(weights);
         tries.back()[i] = Inside * end;
       }
     }
   }
-  if (std::isfinite(shapes->GetLargestFactor()))
+  if (std::isfinite(shapes->GetLargestFactor()) && shapes->GetLargestFactor() != 0)
   {
     tries.push_back(weights);
     for (double& weight : tries.back())
@@ -364,14 +383,18 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
       shapes->SetWeight(static_cast<int>(i), tried[i]);
     }
     const Run again = execute(shapes, made.time);
-    if (again.errors.empty() && shapes->GetInvertedCells() + shapes->GetDegenerateCells() > 0)
+    // Of places that are too far the determinants are rounding.
+    const bool isFar =
+      pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
+      1e4 * made.grid.size;
+    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0)
     {
       std::string list;
       for (const double weight : tried)
       {
         list += " " + text(weight);
       }
-      return { "valid range", "inverted cells at weights" + list };
+      return { "valid range", text(shapes->GetMinScaledJacobian()) + " at weights" + list };
     }
   }
   return {};

@@ -206,7 +206,9 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
 {
   const morph::Points points = pointsOf(output);
   const double scale = filter->GetScaleFactor();
-  const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
+  // Coordinates of a boundary of few digits that are the undeformed ones, rounded, are these.
+  const bool isOfFew = made.choices.value("boundary.float") != 0;
+  const bool isRounded = isFloat(output) || isOfFew;
   // Floats below 1e-38 are multiples of one number, however small they are.
   const double subnormal =
     isRounded ? (1 + std::abs(scale)) * std::numeric_limits<float>::denorm_min() : 0;
@@ -223,7 +225,7 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
       const double value =
         isFloat(output) ? static_cast<double>(static_cast<float>(wanted[j])) : wanted[j];
       const double rounding =
-        (scale == 1 && made.boundary.isExact) || scale == 0
+        (scale == 1 && made.boundary.isExact && !isOfFew) || scale == 0
           ? 0
           : (isRounded ? 1e-6 : 1e-14) *
                 (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j]))) +
@@ -327,18 +329,26 @@ bool isMildAffine(const Case& made, vtkMorphAlgorithm* filter)
   return made.boundary.isAffine && motion.norm() < 0.5;
 }
 
-/// A plain case has a result: of linear methods always, unless inverted cells are refused; of
-/// others where the motion is mild. Excepted are log-barrier weights outside a hull, and inverted
-/// cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
+/// A plain case has a result: of linear methods always, unless inverted cells are refused or a mask
+/// frees the boundary; of others where the motion is mild. Excepted are log-barrier weights outside
+/// a hull, and inverted cells, where they are refused, that smoothing leaves or that quadratic
+/// cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
   const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
   const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
-  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary();
+  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary() &&
+                        made.choices.value("with.mask") == 0;
   const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);
   const bool hasResult = name != "LBWarpMorph" && (isAlways || isMild) && isPlainCase(made, filter);
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
+}
+
+bool hasAdvice(vtkAlgorithm* filter)
+{
+  auto* mesh = vtkMorphMesh::SafeDownCast(filter);
+  return mesh && std::string(mesh->GetAdvice()) != "None";
 }
 
 /// The moved mesh of any filter that morphs one, and what it says of it.
@@ -358,6 +368,10 @@ Finding checkMesh(const Case& made, F* filter, const Run& run)
   if (output->GetNumberOfPoints() == 0)
   {
     return status == "None" ? Finding{} : Finding{ "status", status + " without an output" };
+  }
+  if (hasAdvice(filter))
+  {
+    return {}; // nothing moves, and the boundary alone comes out
   }
   if (const Finding found = checkFinite(output, "MorphDisplacement"))
   {

@@ -96,13 +96,19 @@ Table ofMorph(bool certify = false)
     whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
 }
 
-/// Of a method whose cells have a stiffness.
-template <typename F>
-Table ofStiffness()
+Table ofFEMWarp()
 {
+  using F = vtkFEMWarpMorph;
   return joined(ofMorph(), { real<F>("Tolerance", &F::SetTolerance, 1e-10, 1e-15, 0.999),
                              whole<F>("Stiffness", &F::SetStiffness, 0, 0, 2),
                              real<F>("StiffnessExponent", &F::SetStiffnessExponent, 1, 0, 2) });
+}
+
+Table ofLBWarp()
+{
+  using F = vtkLBWarpMorph;
+  return joined(ofMorph(), { real<F>("Tolerance", &F::SetTolerance, 1e-10, 1e-15, 0.999),
+                             whole<F>("OutsideHull", &F::SetOutsideHull, 0, 0, 1) });
 }
 
 Table ofInversionFree()
@@ -117,7 +123,7 @@ Table ofInversionFree()
 Table ofSmoothing()
 {
   using F = vtkSmoothingMorph;
-  return { whole<F>("TargetShape", &F::SetTargetShape, F::IDEAL, 0, 1),
+  return { whole<F>("TargetShape", &F::SetTargetShape, F::TARGET_SHAPE_IDEAL, 0, 1),
     whole<F>("Objective", &F::SetObjective, F::OBJECTIVE_ADAPTIVE, 0, 2),
     whole<F>("IterationLimit", &F::SetIterationLimit, 50, 1, 100),
     real<F>("StopMove", &F::SetStopMove, 1e-3, 1e-12, 1) };
@@ -166,6 +172,7 @@ Table ofDisplacement()
     flag<F>("AlignTarget", &F::SetAlignTarget, false),
     real<F>("TargetReach", &F::SetTargetReach, 0.2, 0, 10),
     real<F>("TargetAngle", &F::SetTargetAngle, 60, 0, 180),
+    whole<F>("ProjectAlong", &F::SetProjectAlong, F::PROJECT_CLOSEST, 0, F::PROJECT_VECTOR),
     flag<F>("SelectedHandles", &F::SetSelectedHandles, false),
     whole<F>("LatticeBasis", &F::SetLatticeBasis, 0, 0, 1),
     flag<F>("AutoLattice", &F::SetAutoLattice, true),
@@ -291,10 +298,8 @@ bool isTooLong(const Property& property, double value)
 const std::vector<Filter>& filters()
 {
   static const std::vector<Filter> all = {
-    { "FEMWarpMorph", 3, true, true, maker<vtkFEMWarpMorph>(), ofStiffness<vtkFEMWarpMorph>() },
-    { "LBWarpMorph", 3, true, true, maker<vtkLBWarpMorph>(),
-      joined(ofStiffness<vtkLBWarpMorph>(),
-        { whole<vtkLBWarpMorph>("OutsideHull", &vtkLBWarpMorph::SetOutsideHull, 0, 0, 1) }) },
+    { "FEMWarpMorph", 3, true, true, maker<vtkFEMWarpMorph>(), ofFEMWarp() },
+    { "LBWarpMorph", 3, true, true, maker<vtkLBWarpMorph>(), ofLBWarp() },
     { "WeightedResidualMorph", 3, true, true, maker<vtkWeightedResidualMorph>(),
       joined(ofMorph(), { whole<vtkWeightedResidualMorph>("NumberOfNeighbors",
                           &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100) }) },
@@ -355,7 +360,8 @@ PropertiesSet setProperties(
   Choices& choices, const Filter& filter, double size, vtkAlgorithm* algorithm)
 {
   const bool hostile = choices.chance("hostile.properties", 0.09);
-  const bool isMorph = filter.isMorph;
+  // Of many properties fewer, so that most cases have a result.
+  const double part = hostile ? 0.3 : filter.properties.size() > 15 ? 0.12 : 0.25;
   PropertiesSet result;
   bool isRefused = false;
   vtkNew<vtkCallbackCommand> command;
@@ -367,7 +373,7 @@ PropertiesSet setProperties(
   {
     const auto draw = [&](Random& random)
     {
-      if (!random.happens(hostile ? 0.3 : isMorph ? 0.12 : 0.25))
+      if (!random.happens(part))
       {
         return property.plain;
       }

@@ -269,7 +269,7 @@ void addRest(
 }
 
 /// What vtkProbeFilter and others mark as nothing: points whose values, and here places, say
-/// nothing. They name no node.
+/// nothing. With displacements they name no node; else the mask means nothing.
 void addMask(Random random, vtkPointSet* data, RandomBoundary& boundary)
 {
   vtkNew<vtkSignedCharArray> mask;
@@ -288,9 +288,12 @@ void addMask(Random random, vtkPointSet* data, RandomBoundary& boundary)
     }
   }
   data->GetPointData()->AddArray(mask);
-  boundary.targets = left;
-  boundary.isRight = boundary.isRight && areNamed;
-  boundary.isAffine = false;
+  if (!boundary.displacementArray.empty())
+  {
+    boundary.targets = left;
+    boundary.isRight = boundary.isRight && areNamed;
+    boundary.isAffine = false;
+  }
 }
 
 /// As an application would: Extract Morph Boundary, then a filter that moves points.

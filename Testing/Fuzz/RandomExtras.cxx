@@ -38,6 +38,29 @@ Row middleOf(const RandomGrid& grid)
                                        : Row(0, 0, 0);
 }
 
+/// The mesh's own boundary, with a few waves.
+vtkSmartPointer<vtkPolyData> wavyBoundary(Random& random, const RandomGrid& grid)
+{
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetNumberOfThreads(1);
+  extract->SetInputDataObject(grid.data);
+  extract->Update();
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPolys(extract->GetOutput()->GetPolys());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const double amount = 0.05 * random.unit() * grid.size;
+  for (vtkIdType p = 0; p < extract->GetOutput()->GetNumberOfPoints(); ++p)
+  {
+    Row x;
+    extract->GetOutput()->GetPoint(p, x.data());
+    x += amount * (6 * x / grid.size).array().cos().matrix();
+    points->InsertNextPoint(x.data());
+  }
+  result->SetPoints(points);
+  return result;
+}
+
 /// A wavy sheet, or a rough sphere, around the mesh.
 vtkSmartPointer<vtkPolyData> surface(Random& random, const RandomGrid& grid)
 {
@@ -91,9 +114,10 @@ bool randomTarget(
     return true;
   }
   Random random = choices.stream("target");
-  auto data = surface(random, grid);
+  auto data =
+    grid.isAsMesh && random.happens(0.6) ? wavyBoundary(random, grid) : surface(random, grid);
   target = data;
-  if (!choices.chance("hostile.target", 0.25))
+  if (!choices.chance("hostile.target", 0.12) || data->GetNumberOfPolys() == 0)
   {
     return true;
   }
@@ -268,8 +292,10 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
   const int surfaces = choices.whole("with.surfaces", 0, [](Random& r) { return r.below(5); });
   for (int i = 0; i < surfaces; ++i)
   {
-    const std::string name = (random.happens(0.8) ? "Surface " : "Curve ") +
-                             std::to_string(random.below(6) - (hostile ? 2 : 0));
+    const bool isSurface = random.happens(0.8);
+    const int last = random.below(6);
+    const std::string name = (isSurface ? "Surface " : "Curve ") +
+                             std::to_string(random.below(last + 1) - (hostile ? 2 : 0));
     addSurface(
       filter, i == 0 ? 0 : random.below(4), hostile && random.happens(0.3) ? "Surface x" : name);
   }

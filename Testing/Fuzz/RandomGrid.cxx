@@ -163,7 +163,7 @@ void spoilCells(Choices& choices, vtkUnstructuredGrid* grid)
     {
       types->InsertNextValue(static_cast<unsigned char>(grid->GetCellType(c)));
     }
-    grid->SetCells(types, cells);
+    grid->SetCells(types, cells, grid->GetFaceLocations(), grid->GetFaces());
   }
 }
 

@@ -166,7 +166,7 @@ void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter
     if (!problem.empty())
     {
       const std::uint64_t at = seed + reports.size();
-      reports.push_back({ at, filterFor(at, filter).name, false, true, problem, said });
+      reports.push_back({ at, filterFor(at, filter).name, false, true, problem, said, {} });
     }
     for (const Report& each : reports)
     {

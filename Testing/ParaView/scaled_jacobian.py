@@ -166,8 +166,8 @@ class ScaledJacobianTest(unittest.TestCase):
     def test_a_user_may_unlock_the_range(self):
         colors = GetColorTransferFunction("ScaledJacobian")
         points = list(colors.RGBPoints)
-        self.addCleanup(setattr, colors, "RGBPoints", points)
         self.addCleanup(setattr, colors, "AutomaticRescaleRangeMode", "Never")
+        self.addCleanup(setattr, colors, "RGBPoints", points)  # goes first, while it is unlocked
         colors.ApplyPreset("Viridis (matplotlib)", True)
         self.assertEqual((colors.RGBPoints[0], colors.RGBPoints[-4]), (-1, 1))
         colors.AutomaticRescaleRangeMode = "Clamp and update every timestep"

@@ -32,7 +32,7 @@ SAMPLES = os.environ["SAMPLE_FILES"]
 SECONDS = 10  # of computing: a run that takes longer hangs
 WALL_SECONDS = 300  # by the clock: others may use the machine
 OWN = ".bdf", ".inp", ".msh", ".su2"  # solvers' files that no library of others reads
-DEATHS = 0.02  # of the cases, at most
+DEATHS = 0.03  # of the cases, at most; 10 of 600 were measured with ParaView 5.11
 MEGABYTES = 4096  # of address space that a run may grow by: a small file must not need it
 
 

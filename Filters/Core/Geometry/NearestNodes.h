@@ -24,9 +24,9 @@ public:
   double distance(const Eigen::RowVector3d& x) const;
 
   /// Sets `found` to the `k` nodes nearest to `x`, ascending, and to all others as far as the k-th,
-  /// to a relative 1e-9 and the rounding of coordinates: neither numbering nor axes, unit and origin
-  /// decide a tie. `k` >= 1; if there are fewer
-  /// nodes, all are neighbors.
+  /// to a relative 1e-9 and the rounding of coordinates: neither numbering nor axes, unit and
+  /// origin decide a tie. `k` >= 1; if there are fewer nodes,
+  /// all are neighbors.
   void nearest(const Eigen::RowVector3d& x, Index k, std::vector<std::int32_t>& found) const;
 
   /// Sets `found` to the nodes at most `radius` from `x`, ascending.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/RadialKernel.h"
 
-#include "Support/ParallelBatches.h"
+#include "Support/Parallel.h"
 #include "Support/Simd.h"
 
 #include <algorithm>

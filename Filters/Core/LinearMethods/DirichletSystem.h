@@ -117,8 +117,8 @@ struct DirichletEquations
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
 
-  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is the
-  /// solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
+  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is
+  /// the solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
   /// matrix takes longer than all else.
   bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
     const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;

@@ -6,7 +6,7 @@
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
-#include "Support/ParallelBatches.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DenseCholesky.h"
 
-#include "Support/ParallelBatches.h"
+#include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
 #include "Support/Types.h"
 

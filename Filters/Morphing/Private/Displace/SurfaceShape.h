@@ -37,7 +37,7 @@ public:
   /// The nearest point of the shape. Planes and cylinders have no end.
   Row Closest(const Row& x) const;
   /// The point near `to` at the height above the shape that `from` has. So a node that slides keeps
-  /// the distance that it has at rest, and stays where it does not move.
+  /// its undeformed distance, and stays where it does not move.
   Row Slid(const Row& from, const Row& to) const;
   /// The unit normal of the shape at its point nearest to `x`, either way; zero where it has none.
   Row Normal(const Row& x) const;

@@ -86,7 +86,7 @@ public:
   const SurfaceShape& ShapeOf(const BoundaryModel& model, morph::Index surface);
   /// Where a node of these surfaces slides to from its place `to`: the nearest point of a single
   /// surface. Of several it is where they meet, by alternating projections. The node keeps its
-  /// height at rest above each.
+  /// undeformed height above each.
   Eigen::RowVector3d Slid(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
     morph::Index node, const Eigen::RowVector3d& to);
 

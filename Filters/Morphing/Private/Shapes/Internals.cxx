@@ -262,7 +262,7 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
 void vtkMorphShapes::vtkInternals::FindRanges(
   const std::vector<double>& weights, morph::Monitor& monitor)
 {
-  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, this->Moved, monitor);
+  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, monitor);
   this->Results.SetText("ValidRanges", this->Ranges.Text(this->Names(weights.size())));
   this->Results.SetNumber("LargestFactor", this->Ranges.LargestFactor);
 }

@@ -16,7 +16,7 @@ namespace
 /// `ranges`: of the shapes' weights.
 double largestFactor(const ShapeModes& modes, const std::vector<double>& weights,
   const std::vector<morph::ValidRange>& ranges, const morph::InvertedBefore& before,
-  const morph::Points& moved, morph::Monitor& monitor)
+  morph::Monitor& monitor)
 {
   const morph::Mesh& mesh = modes.Mesh();
   const std::vector<std::int8_t>& orientation = modes.Orientation();
@@ -32,12 +32,7 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
       }
     }
   }
-  if (turned.empty())
-  {
-    const morph::Points motion = moved - mesh.points;
-    return morph::validRange(mesh, { &mesh.points, &motion }, orientation, before, monitor).highest;
-  }
-  if (weighted.size() == 1)
+  if (weighted.size() == 1 && turned.size() == 1)
   {
     const double weight = weights[turned[0]];
     const morph::ValidRange& range = ranges[turned[0]]; // the others are at 0
@@ -45,6 +40,11 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
   }
   morph::Points straight;
   const morph::CombinedMotion motion = modes.Combined(weights, straight, monitor);
+  if (turned.empty())
+  {
+    return morph::validRange(mesh, { &mesh.points, &straight }, orientation, before, monitor)
+      .highest;
+  }
   return morph::largestFactor(mesh, motion, orientation, before, monitor).factor;
 }
 
@@ -73,8 +73,8 @@ std::string endText(double end)
 }
 }
 
-WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<double>& weights,
-  const morph::Points& moved, morph::Monitor& monitor)
+WeightRanges WeightRanges::Find(
+  const ShapeModes& modes, const std::vector<double>& weights, morph::Monitor& monitor)
 {
   const RankGroup& processes = modes.Group();
   WeightRanges result;
@@ -94,7 +94,7 @@ WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<doubl
         result.Shapes.push_back(morph::validRange(
           modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, part));
       }
-      result.LargestFactor = largestFactor(modes, weights, result.Shapes, before, moved, monitor);
+      result.LargestFactor = largestFactor(modes, weights, result.Shapes, before, monitor);
     });
   for (morph::ValidRange& range : result.Shapes)
   {

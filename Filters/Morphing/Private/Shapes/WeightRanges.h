@@ -20,10 +20,10 @@ struct WeightRanges
   /// inverted.
   double LargestFactor = 0;
 
-  /// `modes`: after Solve(). `weights`: #shapes. `moved`: #nodes x 3, the mesh at these weights.
-  /// Cost: one validRange() a shape, and one for the factor.
-  static WeightRanges Find(const ShapeModes& modes, const std::vector<double>& weights,
-    const morph::Points& moved, morph::Monitor& monitor);
+  /// `modes`: after Solve(). `weights`: #shapes. Cost: one validRange() a shape, and one for
+  /// the factor.
+  static WeightRanges Find(
+    const ShapeModes& modes, const std::vector<double>& weights, morph::Monitor& monitor);
 
   /// One line for people: "wide -0.5 to 1.25, long any". `names`: #shapes.
   std::string Text(const std::vector<std::string>& names) const;
