@@ -17,7 +17,7 @@ namespace
 constexpr Index BlockLength = 128;
 constexpr Index Samples = 64;
 // of the transposed product: fixed, so that results do not depend on threads
-constexpr Index Sums = 32;
+constexpr Index PartialSums = 32;
 
 /// Calls work(first, last) in parallel on ranges that cover [0, blocks). A block takes microseconds
 /// or milliseconds, so the blocks between two chances to cancel go by the clock; the ranges do not
@@ -206,9 +206,9 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   const Index blocks = this->blocks();
-  const Index length = (blocks + Sums - 1) / Sums;
-  std::vector<Points> part(Sums);
-  monitor.parallelFor(Sums, 1,
+  const Index length = (blocks + PartialSums - 1) / PartialSums;
+  std::vector<Points> part(PartialSums);
+  monitor.parallelFor(PartialSums, 1,
     [&](Index firstSum, Index lastSum)
     {
       Monitor serial;
@@ -230,7 +230,7 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
       }
     });
   monitor.check();
-  for (Index k = 1; k < Sums; ++k)
+  for (Index k = 1; k < PartialSums; ++k)
   {
     part[0] += part[k];
   }
