@@ -235,7 +235,13 @@ bool isExact(const Case& made, vtkAlgorithm* filter)
 bool isUndecided(const Case& made, vtkAlgorithm* filter)
 {
   const auto extrapolates = [](auto* morph) { return morph && morph->GetExtrapolatedNodes() > 0; };
+  auto* shapes = vtkMorphShapes::SafeDownCast(filter);
+  const bool isHeld =
+    made.choices.value("property.HoldUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
   return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) ||
+         (shapes && !isHeld &&
+           (shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_LINEAR ||
+             shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR)) ||
          extrapolates(vtkSimplexLinearMorph::SafeDownCast(filter)) ||
          extrapolates(vtkSimplexNaturalNeighborMorph::SafeDownCast(filter));
 }
