@@ -200,14 +200,4 @@ Points CompactCorrection::transposed(const Points& gradient, Monitor& monitor) c
   result.topRows(this->exact_).setZero();
   return result;
 }
-
-std::size_t CompactCorrection::memory() const
-{
-  std::size_t bytes = 0;
-  for (const auto& level : this->levels_)
-  {
-    bytes += level->atOwn.memory() + level->atLater.memory() + level->atTargets.memory();
-  }
-  return bytes;
-}
 }

@@ -40,8 +40,6 @@ public:
   void addTo(Points& values, Points residuals, Monitor& monitor) const;
   /// The adjoint of addTo(): returns #sites x 3, of the first `exact` 0. `gradient`: #targets x 3.
   Points transposed(const Points& gradient, Monitor& monitor) const;
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   struct Level;

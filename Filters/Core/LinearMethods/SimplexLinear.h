@@ -39,8 +39,6 @@ public:
   const Adjacency& means() const { return this->means_; }
   /// #free x #sites and means, four entries a row.
   const WeightMatrix& weights() const { return this->weights_; }
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
