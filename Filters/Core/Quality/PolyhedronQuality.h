@@ -62,7 +62,7 @@ public:
     }
   }
 
-  /// The scaled Jacobian of a polyhedron: the least determinant of the three lines of forEach(),
+  /// The scaled Jacobian of a polyhedron: the minimum determinant of the three lines of forEach(),
   /// scaled to length 1. It is 1 for a box. Takes the cell. NaN where a coordinate is not finite,
   /// or without faces. Sets `isCollapsed` where a line has no length; the value is then 0.
   double scaledJacobian(
