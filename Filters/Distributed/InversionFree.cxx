@@ -160,8 +160,8 @@ EvaluateReport InversionFree::displace(
     {
       const Points alternative = own.take(best) * this->scale_;
       Points improved = own.take(points) * this->scale_;
-      determined =
-        boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), improved);
+      determined = inversionsByBoundaryMotion(own.mesh(), own.partition(), own.orientation(),
+        own.take(rest) * this->scale_, improved, second);
       outcome = this->improvement().run(
         improved, { alternative, this->options_.target }, alternative, EnoughOfMinimum, second);
       points(own.nodes(), allColumns) = improved / this->scale_;

@@ -181,8 +181,8 @@ EvaluateReport InversionFree::displace(
     boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
     points.row(node) = boundary.row(i) * this->scale_;
   }
-  const std::vector<Index> determined =
-    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
+    this->orientation_, this->restPoints() * this->scale_, points, monitor);
 
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
@@ -246,8 +246,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
     failed.effort = outcome.effort;
     return reportImprovement(failed, {}, monitor);
   }
-  const std::vector<Index> determined =
-    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
+    this->orientation_, this->restPoints() * this->scale_, points, monitor);
 
   Points displacement = Points::Zero(moved.rows(), 3);
   for (Index node : partition.prescribed)
