@@ -10,7 +10,7 @@
 #include "Quality/MovableQuality.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
-#include "Untangling/MinQualityAscent.h"
+#include "Untangling/QualityRaising.h"
 #include "Untangling/Smoothing.h"
 
 #include <gtest/gtest.h>
@@ -145,8 +145,7 @@ TEST(Progress, OfRaisingTheMinimumIsTold)
   const MovableQuality quality(mesh, orientation, partition.free);
   Recorder monitor;
   Points points = mesh.points;
-  const AscentEffort effort = raiseMinimumQuality(quality, 1, points, monitor);
-  ASSERT_GE(effort.rounds, 1);
+  ASSERT_GE(raiseQuality(quality, 1, 12, points, monitor).steps, 3);
   ASSERT_GE(monitor.told.size(), 3u);
   EXPECT_TRUE(std::is_sorted(monitor.told.begin(), monitor.told.end()));
   EXPECT_GT(monitor.told.back(), monitor.told.front());

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Untangling/QualityRaising.h"
+
+#include "Energies/StiffenedDistortion.h"
+#include "Mesh/CellShape.h"
+#include "Mesh/KRing.h"
+#include "Mesh/SubMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+namespace morph
+{
+namespace
+{
+constexpr double NearBound = 2.5e-3; // a mesh within this part of the bound is left as it is
+// The barrier is at this part of the way to the worst sample. Where a step gains less than Slow,
+// the rest of the way shrinks by Closing.
+constexpr double FirstLevel = 0.85, LastLevel = 0.99, Slow = 2e-3, Closing = 0.7;
+constexpr int Doublings = 3;      // of a step: half of the way to a barrier is typical
+constexpr double Stalled = 5e-4;  // gain of a step
+constexpr int Patience = 4;       // such steps in a row
+constexpr int StepsOfRound = 12;  // on a part of the mesh
+constexpr double WorthRound = 3e-3; // gain of a round on the whole mesh
+// A ring of tetrahedra has several times as many cells. With few rings of hexahedra the nodes that
+// stay hold the minimum down.
+constexpr int Rings = 7, RingsOfTetrahedra = 2;
+constexpr double MostOfMesh = 0.7; // free nodes in a part: more is the whole mesh
+// Worst are cells above the minimum m by at most these shares of m and of 1 - m.
+constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
+constexpr double WorstShare = 0.01; // cells that rise when the minimum is at its bound
+constexpr int StepsOfOthers = 6, RingsOfOthers = 3;
+constexpr double Growth = 1.1;   // of the floor under samples at their bounds, a step
+constexpr double MostLoss = 2e-3; // of the minimum, for the other cells
+
+bool isMostlyTetrahedra(const Mesh& mesh, const Communicator& communicator)
+{
+  const Index tetrahedra = std::count_if(mesh.types.begin(), mesh.types.end(),
+    [](std::uint8_t type) { return cellShape(type)->shape == Shape::Tet; });
+  return 2 * communicator.sum(tetrahedra) > communicator.sum(mesh.numberOfCells());
+}
+
+std::vector<Index> numbersTo(std::size_t count)
+{
+  std::vector<Index> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+/// A part of a mesh with its objective.
+struct Part
+{
+  Part(const MovableQuality& measured, const KRing& ring, const std::vector<Index>& cells,
+    const Points& start, const Points& points)
+    : mesh(measured.mesh(), cells)
+    , processes(measured.communicator().part(this->mesh.nodes))
+    , points(points(this->mesh.nodes, allColumns))
+    , objective(this->mesh.mesh, this->mesh.take(measured.orientation()), numbersTo(cells.size()),
+        this->mesh.numbersOf(ring.nodes), start(this->mesh.nodes, allColumns), *this->processes)
+  {
+  }
+
+  SubMesh mesh;
+  std::unique_ptr<Communicator> processes;
+  Points points; ///< of its nodes
+  StiffenedDistortion objective;
+};
+
+class Raising
+{
+public:
+  Raising(const MovableQuality& measured, double goal, int steps, Points& points, Monitor& monitor)
+    : measured_(measured)
+    , mesh_(measured.mesh())
+    , communicator_(measured.communicator())
+    , goal_(std::min(goal, 1.))
+    , steps_(steps)
+    , points_(points)
+    , start_(points)
+    , monitor_(monitor)
+    , isOfTetrahedra_(isMostlyTetrahedra(this->mesh_, this->communicator_))
+    , quality_(measured.measure(points, monitor))
+  {
+  }
+
+  MinimizerEffort run()
+  {
+    if (!(this->quality_.minimum > 0) || this->communicator_.all(this->measured_.free().empty()))
+    {
+      return {};
+    }
+    this->around_ = nodeToCells(this->mesh_);
+    this->raiseMinimum();
+    if (hasReached(this->quality_.minimum, this->goal_) &&
+        !hasReached(this->quality_.minimum, 1))
+    {
+      this->raiseOthers();
+    }
+    return this->effort_;
+  }
+
+private:
+  int left() const { return this->steps_ - static_cast<int>(this->effort_.steps); }
+
+  /// Returns the cells up to `limit`.
+  std::vector<Index> cellsBelow(double limit) const
+  {
+    std::vector<Index> cells;
+    for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
+    {
+      if (this->quality_.scaledJacobian[c] <= limit) // NaN without a sample
+      {
+        cells.push_back(c);
+      }
+    }
+    return cells;
+  }
+
+  Part partAround(const std::vector<Index>& seeds, int rings, bool& isWhole, double& outside) const
+  {
+    KRing ring = kRingOfCells(
+      this->mesh_, this->around_, this->measured_.free(), seeds, rings, this->communicator_);
+    const auto count = [&](const std::vector<Index>& nodes)
+    { return this->communicator_.sum(static_cast<double>(nodes.size())); };
+    isWhole = count(ring.nodes) > MostOfMesh * count(this->measured_.free());
+    outside = std::numeric_limits<double>::infinity();
+    std::vector<char> isInside(this->mesh_.numberOfCells(), isWhole ? 1 : 0);
+    for (const Index c : ring.cells)
+    {
+      isInside[c] = 1;
+    }
+    if (isWhole)
+    {
+      ring.nodes = this->measured_.free();
+    }
+    std::vector<Index> cells;
+    for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
+    {
+      const double own = this->quality_.scaledJacobian[c];
+      if (isInside[c] != 0 && !std::isnan(own))
+      {
+        cells.push_back(c);
+      }
+      outside = isInside[c] == 0 && own < outside ? own : outside;
+    }
+    outside = this->communicator_.minimum(outside);
+    return { this->measured_, ring, cells, this->start_, this->points_ };
+  }
+
+  void take(const Part& part)
+  {
+    this->points_(part.mesh.nodes, allColumns) = part.points;
+    this->measured_.measureAgain(part.mesh.cells, this->points_, this->quality_, this->monitor_);
+  }
+
+  void raiseMinimum()
+  {
+    int rings = this->isOfTetrahedra_ ? RingsOfTetrahedra : Rings;
+    for (bool isWhole = false; this->left() > 0 && !hasReached(this->quality_.minimum, this->goal_);
+         rings *= 2)
+    {
+      const double before = this->quality_.minimum;
+      const double limit =
+        before + std::min(OfTheLeast * before, OfTheWay * (1 - before));
+      double outside = 0;
+      Part part = this->partAround(
+        this->cellsBelow(std::min(limit, this->goal_)), rings, isWhole, outside);
+      this->climb(part, std::min(this->goal_ * (1 - NearBound), outside),
+        isWhole ? this->left() : std::min(StepsOfRound, this->left()), false);
+      this->take(part);
+      if (isWhole && this->quality_.minimum < (1 + WorthRound) * before)
+      {
+        break;
+      }
+    }
+  }
+
+  /// Raises the worst cells but those at the bound of the minimum.
+  void raiseOthers()
+  {
+    std::vector<double> sorted;
+    for (const double s : this->quality_.scaledJacobian)
+    {
+      if (!std::isnan(s))
+      {
+        sorted.push_back(s);
+      }
+    }
+    const auto nth = sorted.begin() + static_cast<Index>(WorstShare * static_cast<double>(sorted.size()));
+    if (nth == sorted.end())
+    {
+      return;
+    }
+    std::nth_element(sorted.begin(), nth, sorted.end());
+    if (hasReached(this->quality_.minimum, *nth))
+    {
+      return;
+    }
+    const Points before = this->points_;
+    const MovableQuality::Result had = this->quality_;
+    bool isWhole = false;
+    double outside = 0;
+    Part part = this->partAround(this->cellsBelow(*nth),
+      this->isOfTetrahedra_ ? RingsOfTetrahedra : RingsOfOthers, isWhole, outside);
+    this->climb(part, 1, StepsOfOthers, true);
+    this->take(part);
+    this->steps_ = static_cast<int>(this->effort_.steps) + StepsOfRound;
+    this->raiseMinimum();
+    if (this->quality_.minimum < (1 - MostLoss) * had.minimum)
+    {
+      this->points_ = before;
+      this->quality_ = had;
+    }
+  }
+
+  /// The least sample. With a floor that follows it samples at their bounds do not count.
+  double leastOf(StiffenedDistortion& objective, const Points& points, double& floor)
+  {
+    const auto least = [&] { return 1 / std::sqrt(objective.evaluate(points, this->monitor_).largest); };
+    if (floor == 0)
+    {
+      return least();
+    }
+    objective.setFloor(Growth * floor);
+    floor = std::max(floor, std::min(Growth * floor, least()));
+    objective.setFloor(floor);
+    return least();
+  }
+
+  /// Takes `most` steps, or until the minimum is at `goal`. `aboveBounds`: of samples that are not
+  /// at their bounds.
+  void climb(Part& part, double goal, int most, bool aboveBounds)
+  {
+    StiffenedDistortion& objective = part.objective;
+    Points x = part.points;
+    double floor = 0;
+    double best = this->leastOf(objective, x, floor);
+    if (aboveBounds)
+    {
+      floor = best;
+      for (int i = 0; i < StepsOfRound; ++i)
+      {
+        best = this->leastOf(objective, x, floor);
+      }
+    }
+    double way = 1 - FirstLevel, last = best;
+    MinimizerLimits limits;
+    limits.steps = 1;
+    limits.doublings = Doublings;
+    BlockCsr3f matrix;
+    for (int step = 0, idle = 0; step < most && idle < Patience && best < goal; ++step)
+    {
+      objective.setLevel(std::max(objective.level(), (1 - way) * last * last));
+      const Index before = this->effort_.steps;
+      newton(objective, x, limits, matrix, this->effort_, this->monitor_);
+      this->effort_.steps = before + 1;
+      // How many steps there will be is not known.
+      this->monitor_.progress(1 - std::pow(0.97, static_cast<double>(this->effort_.steps)));
+      objective.restoreLimits(x);
+      const double least = this->leastOf(objective, x, floor), gain = least / last - 1;
+      last = least;
+      if (least > best)
+      {
+        best = least;
+        part.points = x;
+      }
+      way = gain < Slow ? std::max(1 - LastLevel, Closing * way) : way;
+      idle = gain < Stalled ? idle + 1 : 0;
+    }
+  }
+
+  const MovableQuality& measured_;
+  const Mesh& mesh_;
+  const Communicator& communicator_;
+  const double goal_;
+  int steps_;
+  Points& points_;
+  const Points start_;
+  Monitor& monitor_;
+  bool isOfTetrahedra_;
+  MovableQuality::Result quality_;
+  Adjacency around_; ///< cells round nodes
+  MinimizerEffort effort_;
+};
+}
+
+bool hasReached(double minimum, double goal)
+{
+  return minimum >= (1 - NearBound) * std::min(goal, 1.);
+}
+
+MinimizerEffort raiseQuality(
+  const MovableQuality& quality, double goal, int steps, Points& points, Monitor& monitor)
+{
+  return Raising(quality, goal, steps, points, monitor).run();
+}
+}
