@@ -27,8 +27,7 @@
  *
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
  * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. V. Garanzha, I. Kaporin, L.
- * Kudryavtseva, F. Protais, D. Sokolov, "In the Quest for Scale-optimal Mappings", ACM Trans. Graph.
- * 43(1) (2024), arXiv 2201.12112.
+ * Kudryavtseva, F. Protais, D. Sokolov, ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112.
  *
  * @sa vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
  */

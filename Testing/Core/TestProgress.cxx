@@ -4,7 +4,6 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Quality/MovableQuality.h"
@@ -55,13 +54,6 @@ std::vector<Method> methods()
 {
   std::vector<Method> list = {
     { "InversionFree", [] { return std::make_unique<InversionFree>(); } },
-    { "InversionFree from WeightedResidual",
-      []
-      {
-        auto method = std::make_unique<InversionFree>();
-        method->setMethod(std::make_unique<WeightedResidual>());
-        return method;
-      } },
     { "Smoothing", [] { return std::make_unique<Smoothing>(); } },
   };
   for (const meshes::LinearMethod& method : meshes::linearMethods())

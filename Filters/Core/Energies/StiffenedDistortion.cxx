@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,11 +33,35 @@ constexpr double Proximity = 30;
 constexpr WeightedTet TetCorners[4] = { { { 0, 1, 2, 3 }, 1 }, { { 1, 2, 0, 3 }, 1 },
   { { 2, 0, 1, 3 }, 1 }, { { 3, 0, 2, 1 }, 1 } };
 
+/// The corners of the tetrahedra at a pyramid's base corners, of which its scaled Jacobian is the
+/// minimum.
+constexpr int MostCorners = 16;
+constexpr std::array<WeightedTet, MostCorners> pyramidCorners()
+{
+  constexpr int Bases[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 }, { 3, 0, 2, 4 } };
+  std::array<WeightedTet, MostCorners> result{};
+  for (int k = 0; k < MostCorners; ++k)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      result[k].corner[i] = Bases[k / 4][TetCorners[k % 4].corner[i]];
+    }
+  }
+  return result;
+}
+constexpr std::array<WeightedTet, MostCorners> PyramidCorners = pyramidCorners();
+
 SimplicialDecomposition cornersOf(Shape shape)
 {
-  return shape == Shape::Tet ? SimplicialDecomposition{ 4, TetCorners }
-                             : SimplicialDecomposition{ cornerTetrahedra(shape),
-                                 simplicialDecomposition(shape).tets };
+  switch (shape)
+  {
+    case Shape::Tet:
+      return { 4, TetCorners };
+    case Shape::Pyramid:
+      return { MostCorners, PyramidCorners.data() };
+    default:
+      return { cornerTetrahedra(shape), simplicialDecomposition(shape).tets };
+  }
 }
 
 int numberOfSamples(Shape shape)
@@ -47,7 +72,10 @@ int numberOfSamples(Shape shape)
 /// Returns u^2, which makes f 1 in the ideal cell.
 double idealSquare(Shape shape)
 {
-  return shape == Shape::Tet || shape == Shape::Pyramid ? 0.5 : shape == Shape::Wedge ? 0.75 : 1;
+  return shape == Shape::Pyramid ? 0.25
+         : shape == Shape::Tet   ? 0.5
+         : shape == Shape::Wedge ? 0.75
+                                 : 1;
 }
 
 /// The mean edges of a hexahedron are these times its corners, over 4.
@@ -612,7 +640,7 @@ void StiffenedDistortion::findLimits(
     return (points.row(nodes[corner[edge + 1] * SimdWidth]) - points.row(nodes[corner[0] * SimdWidth]))
       .norm();
   };
-  double before[8][3], now[8][3], sumBefore = 0, sumNow = 0;
+  double before[MostCorners][3], now[MostCorners][3], sumBefore = 0, sumNow = 0;
   for (int k = 0; k < corners.count; ++k)
   {
     for (int edge = 0; edge < 3; ++edge)

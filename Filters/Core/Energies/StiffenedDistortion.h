@@ -13,10 +13,10 @@ namespace morph
 /// Quasi-isometric stiffening of the samples of the scaled Jacobian: corners, and centres of
 /// hexahedra. A sample s has the distortion f = 1 / s^2. With the cosines c of its three edges
 ///
-///   f = u^2 / D(c),  D = 1 + 2 c1 c2 c3 - c1^2 - c2^2 - c3^2,  u^2 = 1, 3/4 (wedge), 1/2
+///   f = u^2 / D(c),  D = 1 + 2 c1 c2 c3 - c1^2 - c2^2 - c3^2,  u^2 = 1, 3/4 (wedge), 1/2 (tet)
 ///   energy = sum h(f),  h = ((1 - t f)^-2 - 1) / (2 t)
 ///
-/// So h is a barrier: f stays below 1 / t, and raising t raises the minimum of s. D is the Gram
+/// A pyramid has the corners of the tetrahedra at its base corners, and u^2 = 1/4. h is a barrier: f stays below 1 / t, and raising t raises the minimum of s. D is the Gram
 /// determinant of unit edges, so log D is concave and h is convex in the cosines. Thus the
 /// Gauss-Newton matrix sum (dc/dx)^T (d2h/dc2) (dc/dx) is positive semi-definite. Source of the
 /// stiffening: Garanzha et al., ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112, with the exponent

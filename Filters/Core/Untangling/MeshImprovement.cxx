@@ -126,7 +126,9 @@ MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstru
   const Points start = points;
   for (const TargetConstruction aim : { target, TargetConstruction::IdealSkew })
   {
-    if (best.inverted > 0 && !this->options_.nearOnly)
+    // Of a valid undeformed mesh the shapes are worth aiming for.
+    const bool isWorthwhile = aim == target || !(this->options_.minimumAtRest > 0);
+    if (best.inverted > 0 && isWorthwhile && !this->options_.nearOnly)
     {
       ProgressRange whole(monitor, 0.3, 0.6);
       Points trial = start;

@@ -21,18 +21,19 @@ constexpr double NearBound = 2.5e-3; // a mesh within this part of the bound is 
 // the rest of the way shrinks by Closing.
 constexpr double FirstLevel = 0.85, LastLevel = 0.99, Slow = 2e-3, Closing = 0.7;
 constexpr int Doublings = 3;      // of a step: half of the way to a barrier is typical
-constexpr double Stalled = 5e-4;  // gain of a step
-constexpr int Patience = 4;       // such steps in a row
 constexpr int StepsOfRound = 12;  // on a part of the mesh
-constexpr double WorthRound = 3e-3; // gain of a round on the whole mesh
-// A ring of tetrahedra has several times as many cells. With few rings of hexahedra the nodes that
-// stay hold the minimum down.
-constexpr int Rings = 7, RingsOfTetrahedra = 2;
+// A search ends where this many steps, or a round, gain less than this.
+constexpr int Patience = 4;
+constexpr double WorthWhile = 3e-3;
+// With few rings of hexahedra the nodes that stay hold the minimum down. A ring of tetrahedra has
+// several times as many cells, so it counts as three, and a cell itself as one.
+constexpr int Rings = 7, RingsOfOthers = 3;
 constexpr double MostOfMesh = 0.7; // free nodes in a part: more is the whole mesh
 // Worst are cells above the minimum m by at most these shares of m and of 1 - m.
 constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 constexpr double WorstShare = 0.01; // cells that rise when the minimum is at its bound
-constexpr int StepsOfOthers = 6, RingsOfOthers = 3;
+constexpr int StepsOfOthers = 6;
+constexpr double WorthOthers = 1e-2; // gain of a step
 constexpr double Growth = 1.1;   // of the floor under samples at their bounds, a step
 constexpr double MostLoss = 2e-3; // of the minimum, for the other cells
 
@@ -59,7 +60,7 @@ struct Part
     , processes(measured.communicator().part(this->mesh.nodes))
     , points(points(this->mesh.nodes, allColumns))
     , objective(this->mesh.mesh, this->mesh.take(measured.orientation()), numbersTo(cells.size()),
-        this->mesh.numbersOf(ring.nodes), start(this->mesh.nodes, allColumns), *this->processes)
+        this->freeOf(ring), start(this->mesh.nodes, allColumns), *this->processes)
   {
   }
 
@@ -67,6 +68,15 @@ struct Part
   std::unique_ptr<Communicator> processes;
   Points points; ///< of its nodes
   StiffenedDistortion objective;
+
+private:
+  /// Nodes of hopeless cells alone are not in the part.
+  std::vector<Index> freeOf(const KRing& ring) const
+  {
+    std::vector<Index> free = this->mesh.numbersOf(ring.nodes);
+    free.erase(std::remove(free.begin(), free.end(), -1), free.end());
+    return free;
+  }
 };
 
 class Raising
@@ -103,6 +113,10 @@ public:
   }
 
 private:
+  int rings(int ofHexahedra) const
+  {
+    return this->isOfTetrahedra_ ? (ofHexahedra - 1) / 3 : ofHexahedra;
+  }
   int left() const { return this->steps_ - static_cast<int>(this->effort_.steps); }
 
   /// Returns the cells up to `limit`.
@@ -158,21 +172,30 @@ private:
 
   void raiseMinimum()
   {
-    int rings = this->isOfTetrahedra_ ? RingsOfTetrahedra : Rings;
-    for (bool isWhole = false; this->left() > 0 && !hasReached(this->quality_.minimum, this->goal_);
-         rings *= 2)
+    int rings = this->rings(Rings);
+    for (bool isWhole = false;
+         this->left() > 0 && !hasReached(this->quality_.minimum, this->goal_);)
     {
       const double before = this->quality_.minimum;
+      const Points pointsBefore = this->points_;
       const double limit =
         before + std::min(OfTheLeast * before, OfTheWay * (1 - before));
       double outside = 0;
       Part part = this->partAround(
         this->cellsBelow(std::min(limit, this->goal_)), rings, isWhole, outside);
-      this->climb(part, std::min(this->goal_ * (1 - NearBound), outside),
-        isWhole ? this->left() : std::min(StepsOfRound, this->left()), false);
+      const double most = std::min(this->goal_ * (1 - NearBound), outside);
+      this->climb(
+        part, most, isWhole ? this->left() : std::min(StepsOfRound, this->left()), false);
       this->take(part);
-      if (isWhole && this->quality_.minimum < (1 + WorthRound) * before)
+      // Where other cells are the worst now, these nodes were enough.
+      rings *= this->quality_.minimum < most ? 2 : 1;
+      if (this->quality_.minimum < (1 + WorthWhile) * before)
       {
+        if (this->quality_.minimum < before) // a pyramid that is too high counts as flat
+        {
+          this->points_ = pointsBefore;
+          this->quality_ = this->measured_.measure(this->points_, this->monitor_);
+        }
         break;
       }
     }
@@ -204,7 +227,8 @@ private:
     bool isWhole = false;
     double outside = 0;
     Part part = this->partAround(this->cellsBelow(*nth),
-      this->isOfTetrahedra_ ? RingsOfTetrahedra : RingsOfOthers, isWhole, outside);
+      this->rings(RingsOfOthers), isWhole, outside);
+    this->way_ = 1 - FirstLevel;
     this->climb(part, 1, StepsOfOthers, true);
     this->take(part);
     this->steps_ = static_cast<int>(this->effort_.steps) + StepsOfRound;
@@ -246,13 +270,23 @@ private:
         best = this->leastOf(objective, x, floor);
       }
     }
-    double way = 1 - FirstLevel, last = best;
+    double& way = this->way_;
+    double last = best;
     MinimizerLimits limits;
     limits.steps = 1;
     limits.doublings = Doublings;
     BlockCsr3f matrix;
-    for (int step = 0, idle = 0; step < most && idle < Patience && best < goal; ++step)
+    double mark = best; // of the last steps' start
+    for (int step = 0; step < most && best < goal; ++step)
     {
+      if (step > 0 && step % Patience == 0)
+      {
+        if (best < (1 + WorthWhile) * mark)
+        {
+          break;
+        }
+        mark = best;
+      }
       objective.setLevel(std::max(objective.level(), (1 - way) * last * last));
       const Index before = this->effort_.steps;
       newton(objective, x, limits, matrix, this->effort_, this->monitor_);
@@ -268,7 +302,10 @@ private:
         part.points = x;
       }
       way = gain < Slow ? std::max(1 - LastLevel, Closing * way) : way;
-      idle = gain < Stalled ? idle + 1 : 0;
+      if (aboveBounds && gain < WorthOthers)
+      {
+        break;
+      }
     }
   }
 
@@ -283,6 +320,7 @@ private:
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
   Adjacency around_; ///< cells round nodes
+  double way_ = 1 - FirstLevel; ///< from the barrier to the worst sample
   MinimizerEffort effort_;
 };
 }
