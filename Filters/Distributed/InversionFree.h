@@ -25,10 +25,7 @@ class InversionFree : public Method
 {
 public:
   /// Takes the options of the serial method.
-  explicit InversionFree(const morph::InversionFree& serial)
-  {
-    this->takeEvaluateOptions(serial);
-  }
+  explicit InversionFree(const morph::InversionFree& serial) { this->takeEvaluateOptions(serial); }
 
   int layers() const override { return 1; }
   void takeEvaluateOptions(const Morpher& serial) override;

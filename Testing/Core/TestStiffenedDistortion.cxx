@@ -163,8 +163,7 @@ TEST(StiffenedDistortion, ThreadsDoNotShow)
     objective.gradient(mesh.points, first, one);
     objective.gradient(mesh.points, second, three);
     EXPECT_EQ(first, second);
-    EXPECT_EQ(
-      objective.value(mesh.points, one).energy, objective.value(mesh.points, three).energy);
+    EXPECT_EQ(objective.value(mesh.points, one).energy, objective.value(mesh.points, three).energy);
   }
 }
 
@@ -192,8 +191,8 @@ TEST(StiffenedDistortion, SamplesAtTheirBoundCountAsTheFloor)
   // The node above the slanted top's corner is the only free one of some corners.
   meshes::ThreadedMonitor monitor;
   Mesh mesh = meshes::hexes(4, 4, 4);
-  meshes::transform(mesh,
-    [](const motions::Row& x) { return motions::Row(x[0] + 0.7 * x[1], x[1], x[2]); });
+  meshes::transform(
+    mesh, [](const motions::Row& x) { return motions::Row(x[0] + 0.7 * x[1], x[1], x[2]); });
   StiffenedDistortion objective = distortion(mesh);
   const double sine = 1 / std::sqrt(1 + 0.7 * 0.7);
   EXPECT_NEAR(objective.evaluate(mesh.points, monitor).largest, 1 / (sine * sine), 1e-12);

@@ -27,8 +27,7 @@ void openBlocks(const CellBatches& batches, const std::vector<Index>& free, cons
   // Calls add(column) for each corner of the row's cells from the row on.
   const auto forUpper = [&](Index i, const auto& add)
   {
-    for (const Index* use = batches.uses().begin(i); use != batches.uses().end(i);
-         ++use)
+    for (const Index* use = batches.uses().begin(i); use != batches.uses().end(i); ++use)
     {
       const Index batch = batches.batchOf(*use), first = batches.firstPlace(batch);
       const Index lane = (*use - first) % SimdWidth;

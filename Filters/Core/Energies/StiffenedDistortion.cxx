@@ -153,8 +153,8 @@ struct Sample
     {
       this->bySquare[k] = byProduct * this->q[(k + 1) % 3] * this->q[(k + 2) % 3];
     }
-    distortion(bounds, ideal, floor, det, product * this->byDeterminant * this->byDeterminant,
-      this->f);
+    distortion(
+      bounds, ideal, floor, det, product * this->byDeterminant * this->byDeterminant, this->f);
   }
 };
 
@@ -230,8 +230,7 @@ struct CosineModel
   MORPH_SIMD_INLINE CosineModel(const Sample& s, double t)
   {
     const Barrier barrier(s.f, t);
-    const SimdDouble4 byD =
-      s.q[0] * s.q[1] * s.q[2] * s.byDeterminant * s.byDeterminant; // 1 / D
+    const SimdDouble4 byD = s.q[0] * s.q[1] * s.q[2] * s.byDeterminant * s.byDeterminant; // 1 / D
     const SimdDouble4 slope = -s.f * byD, first = barrier.first * slope;
     const SimdDouble4 second = barrier.second * slope * slope - 2. * first * byD;
     SimdDouble4 p[3], a[3];
@@ -311,8 +310,7 @@ MORPH_SIMD_INLINE void addByCentre(const SimdMatrix (&block)[3][3], SimdMatrix* 
 }
 
 /// Adds the forces on edges from a tetrahedron's first corner.
-MORPH_SIMD_INLINE void addForces(
-  const SimdMatrix& force, const int* corner, SimdVector (&to)[8])
+MORPH_SIMD_INLINE void addForces(const SimdMatrix& force, const int* corner, SimdVector (&to)[8])
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -637,7 +635,8 @@ void StiffenedDistortion::findLimits(
   const auto length = [&](const Points& points, int k, int edge)
   {
     const int* corner = corners.tets[k].corner;
-    return (points.row(nodes[corner[edge + 1] * SimdWidth]) - points.row(nodes[corner[0] * SimdWidth]))
+    return (
+      points.row(nodes[corner[edge + 1] * SimdWidth]) - points.row(nodes[corner[0] * SimdWidth]))
       .norm();
   };
   double before[MostCorners][3], now[MostCorners][3], sumBefore = 0, sumNow = 0;
@@ -693,7 +692,7 @@ void StiffenedDistortion::restoreLimits(const Points& points)
             const std::int32_t* nodes = this->batches_.nodes(batch) + lane;
             const int* corner = corners.tets[k].corner;
             const double square = (points.row(nodes[corner[edge + 1] * SimdWidth]) -
-                                    points.row(nodes[corner[0] * SimdWidth]))
+                                   points.row(nodes[corner[0] * SimdWidth]))
                                     .squaredNorm();
             least = std::max(least, std::min(near, static_cast<float>(Room * Room * square)));
           }
@@ -721,13 +720,11 @@ Objective::Value StiffenedDistortion::value(const Points& points, Monitor& monit
 
 void StiffenedDistortion::gradient(const Points& points, Points& result, Monitor& monitor) const
 {
-  gatherFromBatches<BatchGradient>(
-    this->batches_, this->parts_, result, monitor, *this, points);
+  gatherFromBatches<BatchGradient>(this->batches_, this->parts_, result, monitor, *this, points);
   this->rows().add(result);
 }
 
-void StiffenedDistortion::hessian(
-  const Points& points, BlockCsr3f& result, Monitor& monitor) const
+void StiffenedDistortion::hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const
 {
   if (!result.isOpenFor(this->pattern_))
   {

@@ -77,8 +77,8 @@ private:
   struct BatchValue;
   struct BatchGradient;
   struct BatchHessian;
-  void findBounds(Index batch, int lane, const std::vector<std::int8_t>& orientation,
-    const Points& start);
+  void findBounds(
+    Index batch, int lane, const std::vector<std::int8_t>& orientation, const Points& start);
   void findLimits(Index batch, int lane, const Points& shapes, const Points& start);
 
   PatternId pattern_; ///< of the second derivatives

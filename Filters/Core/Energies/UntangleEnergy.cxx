@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/UntangleEnergy.h"
 
-#include "Energies/BatchHessian.h"
 #include "Energies/BatchReductions.h"
+#include "Energies/CellBatchKernel.h"
 #include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/LU>
@@ -89,40 +89,6 @@ struct BatchGradient
   }
 };
 
-struct BatchHessian
-{
-  static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches,
-    const Tetrahedra& tetrahedra, const Points& points, SimdMatrix* sum)
-  {
-    SimdVector x[8];
-    cornersOf(batches, batch, points, x);
-    const WeightedTet* part = simplicialDecomposition(batches.shape(batch)).tets;
-    const double factor = 8 / static_cast<double>(tetrahedra.count);
-    for (Index t = tetrahedra.first[batch]; t < tetrahedra.first[batch + 1]; ++t, ++part)
-    {
-      SimdMatrix normal, block[3][3];
-      SimdDouble4 gap;
-      const SimdDouble4 inverse = load(tetrahedra.volumes[t].inverse), zero = {};
-      missing(x, part->corner, inverse, tetrahedra.margin, normal, gap);
-      for (int a = 0; a < 3; ++a)
-      {
-        for (int b = a; b < 3; ++b)
-        {
-          for (int j = 0; j < 3; ++j)
-          {
-            for (int i = 0; i < 3; ++i)
-            {
-              block[a][b][j][i] = normal[a][i] * normal[b][j];
-            }
-          }
-        }
-      }
-      const SimdDouble4 weight = gap > 0. ? factor * inverse * inverse : zero;
-      addByCorners(block, part->corner, weight, batches.corners(batch), sum);
-    }
-  }
-};
-
 Tetrahedra tetrahedraOf(const CellBatches& batches, const TargetMatrices& targets, double margin)
 {
   Tetrahedra result;
@@ -174,14 +140,5 @@ void UntangleEnergy::gradient(const Points& points, Points& result, Monitor& mon
   gatherFromBatches<BatchGradient>(
     this->batches_, this->parts_, result, monitor, this->tetrahedra_, points);
   this->rows().add(result);
-}
-
-void UntangleEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const
-{
-  if (!result.isOpenFor(this->pattern_))
-  {
-    openBlocks(this->batches_, this->free_, this->pattern_, result, monitor);
-  }
-  sumBlocks<BatchHessian>(this->batches_, result, monitor, this->tetrahedra_, points);
 }
 }

@@ -16,7 +16,7 @@ namespace morph
 /// has to follow. Tetrahedra without a free node or with weight 0 are left out. Not thread-safe.
 /// Source: P. M. Knupp, "Hexahedral and tetrahedral mesh untangling", Engineering with Computers 17
 /// (2001) 261-268.
-class UntangleEnergy : public SecondOrderObjective
+class UntangleEnergy : public Objective
 {
 public:
   /// `free`: ids of the nodes that move, ascending. `margin`: b, relative to the targets' volumes.
@@ -27,8 +27,6 @@ public:
   const std::vector<Index>& free() const override { return this->free_; }
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
-  /// By Gauss and Newton: without the second derivatives of determinants.
-  void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const override;
 
   /// One tetrahedron in each cell of a batch: 1 / determinant of its target, with its sign; 0 if
   /// left out.
@@ -46,7 +44,6 @@ public:
   };
 
 private:
-  PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;
   CellBatches batches_;
   Tetrahedra tetrahedra_;

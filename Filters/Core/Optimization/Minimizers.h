@@ -22,7 +22,10 @@ struct MinimizerLimits
   /// norm of the gradient is below gradientDecrease times the first.
   double slowDecrease = 1e-4;
   double gradientDecrease = 1e-2;
-  /// How often it may double a full step, as long as that lowers the energy.
+  /// How many steps in a row have to say so in limitedMemoryBfgs(), which knows the curvature along
+  /// a few directions alone at first.
+  int settledSteps = 1;
+  /// How often newton() may double a full step, as long as that lowers the energy.
   int doublings = 0;
   /// for Newton's linear systems, beside their diagonal blocks; null: none
   const NodePreconditioner* preconditioner = nullptr;
@@ -34,4 +37,9 @@ struct MinimizerLimits
 /// final value. Throws Error of kind Cancelled, leaving `points` at the last step.
 Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   const MinimizerLimits& limits, BlockCsr3f& matrix, MinimizerEffort& effort, Monitor& monitor);
+
+/// Minimises by the limited-memory BFGS method with the last ten steps. It needs no matrix, but 0.5
+/// kB a free node; otherwise as newton(). Source: Liu, Nocedal, Math. Program. 45 (1989) 503-528.
+Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
+  const MinimizerLimits& limits, MinimizerEffort& effort, Monitor& monitor);
 }

@@ -31,6 +31,9 @@ public:
   virtual Value value(const Points& points, Monitor& monitor) const = 0;
   /// `result`: becomes #free x 3, d(energy)/d(position).
   virtual void gradient(const Points& points, Points& result, Monitor& monitor) const = 0;
+  /// Both at once, where that takes less than one after the other. `result` has no meaning where
+  /// the value is not finite.
+  virtual Value valueAndGradient(const Points& points, Points& result, Monitor& monitor) const;
 
   /// The processes that have parts of the mesh, and the copies of the gradient's rows.
   const Communicator& communicator() const { return *this->communicator_; }

@@ -10,8 +10,8 @@ namespace morph
 namespace
 {
 constexpr double Valid = 1e-10; // the regularisation of a valid mesh: only for rounding
-constexpr int StepsOfStage = 4;  // more are wasted, as the next regularisation changes the mesh
-constexpr int Patience = 10;     // stages without progress before untangling gives up
+constexpr int StepsOfStage = 4; // more are wasted, as the next regularisation changes the mesh
+constexpr int Patience = 10;    // stages without progress before untangling gives up
 // As many that have not lowered their energy by Moving either: the mesh has come to rest.
 constexpr int PatienceAtRest = 3;
 constexpr double Moving = 0.01;
@@ -136,8 +136,7 @@ bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages
     }
     const double decrease = 1 - state.energy / start;
     // No step is taken from an infinite energy with any regularisation.
-    if (!std::isfinite(start) || !std::isfinite(state.energy) ||
-        stagnation.gaveUp(state, decrease))
+    if (!std::isfinite(start) || !std::isfinite(state.energy) || stagnation.gaveUp(state, decrease))
     {
       return false;
     }

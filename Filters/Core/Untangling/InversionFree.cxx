@@ -100,9 +100,8 @@ MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) c
     this->geometry_, hopeless, options };
 }
 
-TargetConstruction InversionFree::findStart(
-  const Points& boundary, const MovableQuality& quality, Points& points, EvaluateReport& report,
-  Monitor& monitor) const
+TargetConstruction InversionFree::findStart(const Points& boundary, const MovableQuality& quality,
+  Points& points, EvaluateReport& report, Monitor& monitor) const
 {
   const Points atRest = points;
   MovableQuality::Result best;
@@ -171,8 +170,7 @@ EvaluateReport InversionFree::displace(
   const TargetConstruction target =
     this->findStart(boundary, improvement.quality(), points, guesses, monitor);
   const Points guide = points;
-  const MeshImprovement::Outcome outcome =
-    improvement.run(guide, target, false, points, monitor);
+  const MeshImprovement::Outcome outcome = improvement.run(guide, target, false, points, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];
@@ -205,8 +203,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   const Points guide =
     this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
-  const MeshImprovement::Outcome outcome = this->improvement(determined).run(
-    guide, TargetConstruction::Stretched, true, points, monitor);
+  const MeshImprovement::Outcome outcome =
+    this->improvement(determined).run(guide, TargetConstruction::Stretched, true, points, monitor);
   if (this->nearOnly_ && !outcome.untangled)
   {
     MeshImprovement::Outcome failed;

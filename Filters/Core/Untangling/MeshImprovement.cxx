@@ -78,16 +78,14 @@ std::vector<Index> MeshImprovement::untangleWhole(
 {
   MeshEnergy energy(this->mesh_, this->partition_.free, this->communicator_);
   FoldoverContinuation stages(energy, this->options_.preconditioner);
-  const Untangling::Result result =
-    Untangling(this->mesh_, this->orientation_, this->partition_, this->boundary_, this->geometry_,
-      this->communicator_)
-      .run(
-        [&]
-        {
-          return untanglingTargets(
-            this->mesh_, this->orientation_, aim, monitor, this->communicator_);
-        },
-        energy, stages, points, monitor);
+  const Untangling::Result result = Untangling(this->mesh_, this->orientation_, this->partition_,
+    this->boundary_, this->geometry_, this->communicator_)
+                                      .run(
+                                        [&] {
+                                          return untanglingTargets(this->mesh_, this->orientation_,
+                                            aim, monitor, this->communicator_);
+                                        },
+                                        energy, stages, points, monitor);
   add(stages.effort(), effort);
   return result.onFolds;
 }
@@ -145,17 +143,15 @@ MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstru
   {
     return outcome;
   }
-  const std::vector<Index> free = isRepair
-                                    ? kRingOfCells(this->mesh_, nodeToCells(this->mesh_),
-                                        this->partition_.free, inverted, RaisedRings,
-                                        this->communicator_)
-                                        .nodes
-                                    : this->partition_.free;
+  const std::vector<Index> free =
+    isRepair ? kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->partition_.free, inverted,
+                 RaisedRings, this->communicator_)
+                 .nodes
+             : this->partition_.free;
   // What stays inverted does not keep the others down.
   std::vector<Index> hopeless = notPositive(best.scaledJacobian);
   hopeless.insert(hopeless.end(), this->hopeless_.begin(), this->hopeless_.end());
-  const MovableQuality others(
-    this->mesh_, this->orientation_, free, this->communicator_, hopeless);
+  const MovableQuality others(this->mesh_, this->orientation_, free, this->communicator_, hopeless);
   ProgressRange raise(monitor, 0.6, 0.95);
   add(raiseQuality(others, this->goal(quality, points), this->options_.steps, points, raise),
     outcome.effort);

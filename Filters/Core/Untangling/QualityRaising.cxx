@@ -20,8 +20,8 @@ constexpr double NearBound = 2.5e-3; // a mesh within this part of the bound is 
 // The barrier is at this part of the way to the worst sample. Where a step gains less than Slow,
 // the rest of the way shrinks by Closing.
 constexpr double FirstLevel = 0.85, LastLevel = 0.99, Slow = 2e-3, Closing = 0.7;
-constexpr int Doublings = 3;      // of a step: half of the way to a barrier is typical
-constexpr int StepsOfRound = 12;  // on a part of the mesh
+constexpr int Doublings = 3;     // of a step: half of the way to a barrier is typical
+constexpr int StepsOfRound = 12; // on a part of the mesh
 // A search ends where this many steps, or a round, gain less than this.
 constexpr int Patience = 4;
 constexpr double WorthWhile = 3e-3;
@@ -34,8 +34,8 @@ constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
 constexpr double WorstShare = 0.01; // cells that rise when the minimum is at its bound
 constexpr int StepsOfOthers = 6;
 constexpr double WorthOthers = 1e-2; // gain of a step
-constexpr double Growth = 1.1;   // of the floor under samples at their bounds, a step
-constexpr double MostLoss = 2e-3; // of the minimum, for the other cells
+constexpr double Growth = 1.1;       // of the floor under samples at their bounds, a step
+constexpr double MostLoss = 2e-3;    // of the minimum, for the other cells
 
 bool isMostlyTetrahedra(const Mesh& mesh, const Communicator& communicator)
 {
@@ -104,8 +104,7 @@ public:
     }
     this->around_ = nodeToCells(this->mesh_);
     this->raiseMinimum();
-    if (hasReached(this->quality_.minimum, this->goal_) &&
-        !hasReached(this->quality_.minimum, 1))
+    if (hasReached(this->quality_.minimum, this->goal_) && !hasReached(this->quality_.minimum, 1))
     {
       this->raiseOthers();
     }
@@ -178,14 +177,12 @@ private:
     {
       const double before = this->quality_.minimum;
       const Points pointsBefore = this->points_;
-      const double limit =
-        before + std::min(OfTheLeast * before, OfTheWay * (1 - before));
+      const double limit = before + std::min(OfTheLeast * before, OfTheWay * (1 - before));
       double outside = 0;
-      Part part = this->partAround(
-        this->cellsBelow(std::min(limit, this->goal_)), rings, isWhole, outside);
+      Part part =
+        this->partAround(this->cellsBelow(std::min(limit, this->goal_)), rings, isWhole, outside);
       const double most = std::min(this->goal_ * (1 - NearBound), outside);
-      this->climb(
-        part, most, isWhole ? this->left() : std::min(StepsOfRound, this->left()), false);
+      this->climb(part, most, isWhole ? this->left() : std::min(StepsOfRound, this->left()), false);
       this->take(part);
       // Where other cells are the worst now, these nodes were enough.
       rings *= this->quality_.minimum < most ? 2 : 1;
@@ -212,7 +209,8 @@ private:
         sorted.push_back(s);
       }
     }
-    const auto nth = sorted.begin() + static_cast<Index>(WorstShare * static_cast<double>(sorted.size()));
+    const auto nth =
+      sorted.begin() + static_cast<Index>(WorstShare * static_cast<double>(sorted.size()));
     if (nth == sorted.end())
     {
       return;
@@ -226,8 +224,8 @@ private:
     const MovableQuality::Result had = this->quality_;
     bool isWhole = false;
     double outside = 0;
-    Part part = this->partAround(this->cellsBelow(*nth),
-      this->rings(RingsOfOthers), isWhole, outside);
+    Part part =
+      this->partAround(this->cellsBelow(*nth), this->rings(RingsOfOthers), isWhole, outside);
     this->way_ = 1 - FirstLevel;
     this->climb(part, 1, StepsOfOthers, true);
     this->take(part);
@@ -243,7 +241,8 @@ private:
   /// The least sample. With a floor that follows it samples at their bounds do not count.
   double leastOf(StiffenedDistortion& objective, const Points& points, double& floor)
   {
-    const auto least = [&] { return 1 / std::sqrt(objective.evaluate(points, this->monitor_).largest); };
+    const auto least = [&]
+    { return 1 / std::sqrt(objective.evaluate(points, this->monitor_).largest); };
     if (floor == 0)
     {
       return least();
@@ -319,7 +318,7 @@ private:
   Monitor& monitor_;
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
-  Adjacency around_; ///< cells round nodes
+  Adjacency around_;            ///< cells round nodes
   double way_ = 1 - FirstLevel; ///< from the barrier to the worst sample
   MinimizerEffort effort_;
 };

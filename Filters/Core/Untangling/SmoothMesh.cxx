@@ -22,8 +22,8 @@ namespace morph
 namespace
 {
 constexpr double Margin = 0.05;     // of untangling
-constexpr Index StepsToValid = 5;   // of untangling, between checks whether the mesh is valid
-constexpr int UntangleSteps = 2;    // for one step of the limit
+constexpr Index StepsToValid = 100; // of untangling, between checks whether the mesh is valid
+constexpr int UntangleSteps = 20;   // for one Newton step
 constexpr double Bad = 0.2;         // scaled Jacobian
 constexpr int Rings = 3;            // around bad cells
 constexpr double MostOfMesh = 0.25; // maximum share of free nodes in a patch
@@ -176,13 +176,12 @@ private:
     MinimizerLimits limits;
     limits.slowDecrease = 0;
     MinimizerEffort effort;
-    BlockCsr3f matrix;
     const Index most = Index(UntangleSteps) * this->options_.iterationLimit;
     while (effort.steps < most)
     {
       const Index goal = std::min(most, effort.steps + StepsToValid);
       limits.steps = static_cast<int>(goal - effort.steps);
-      newton(tangle, points, limits, matrix, effort, this->monitor_);
+      limitedMemoryBfgs(tangle, points, limits, effort, this->monitor_);
       if (effort.steps < goal || this->isValid(energy, points))
       {
         break; // no more progress, or none needed

@@ -25,7 +25,7 @@ struct SmoothingOptions
   SmoothingTarget target = SmoothingTarget::Ideal;
   SmoothingObjective objective = SmoothingObjective::Adaptive;
   /// Maximum number of Newton steps, each of which moves every node once; at least 1. Untangling
-  /// takes at most two for each.
+  /// takes at most twenty L-BFGS steps for each.
   int iterationLimit = 50;
   /// Stops once no node moves farther in a step than this part of its mean edge length; above 0.
   double stopMove = 1e-3;
@@ -50,7 +50,7 @@ struct SmoothingReport
 /// nodes and other higher-order nodes follow.
 ///
 /// 1. If tetrahedra of the cells (one a corner) are inverted: untangling (UntangleEnergy.h) with a
-///    margin of 0.05 by Newton's method, which checks every five steps whether the mesh is valid. If some
+///    margin of 0.05 by L-BFGS, which checks every hundred steps whether the mesh is valid. If some
 ///    stay inverted, this is the result: not every mesh can be untangled in this way.
 /// 2. If few cells have a scaled Jacobian below 0.2: the shape measure below on the nodes of three
 ///    rings of cells around them. Single bad cells would shorten the steps of the whole mesh.
